@@ -1,0 +1,29 @@
+# How every target of the house is built: one function for rooms, one for programs' common flags.
+
+find_program(IMUNOISE_CCACHE ccache)
+if(IMUNOISE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${IMUNOISE_CCACHE})
+endif()
+
+add_library(imunoise_flags INTERFACE)
+target_include_directories(imunoise_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(imunoise_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Woverloaded-virtual -ffp-contract=off)
+if(IMUNOISE_WERROR)
+  target_compile_options(imunoise_flags INTERFACE -Werror)
+endif()
+if(IMUNOISE_SANITIZE)
+  target_compile_options(imunoise_flags INTERFACE
+    -fsanitize=${IMUNOISE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(imunoise_flags INTERFACE -fsanitize=${IMUNOISE_SANITIZE})
+endif()
+
+# imunoise_room(NAME SOURCES ... USES ...): a static library imunoise_NAME, alias imunoise::NAME.
+# USES lists what its headers or sources include: the link graph is the layering.
+function(imunoise_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES" ${ARGN})
+  add_library(imunoise_${name} STATIC ${ROOM_SOURCES})
+  add_library(imunoise::${name} ALIAS imunoise_${name})
+  target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
+endfunction()

@@ -1,0 +1,135 @@
+#include "core/support/units.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <numbers>
+
+namespace imunoise {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;  // rad
+constexpr double kHour = 3600.0;                      // s
+constexpr double kGravity = 9.80665;                  // m/s^2, standard
+
+struct NamedUnit {
+  std::string_view symbol;
+  Quantity quantity;
+  double to_si;
+};
+
+// The first symbol of each quantity is its SI unit. Spellings are compared after normalise().
+constexpr std::array kUnits = {
+    NamedUnit{"rad/s", Quantity::kAngularRate, 1.0},
+    NamedUnit{"mrad/s", Quantity::kAngularRate, 1e-3},
+    NamedUnit{"deg/s", Quantity::kAngularRate, kDegree},
+    NamedUnit{"dps", Quantity::kAngularRate, kDegree},
+    NamedUnit{"mdeg/s", Quantity::kAngularRate, kDegree * 1e-3},
+    NamedUnit{"mdps", Quantity::kAngularRate, kDegree * 1e-3},
+    NamedUnit{"deg/h", Quantity::kAngularRate, kDegree / kHour},
+    NamedUnit{"m/s^2", Quantity::kAcceleration, 1.0},
+    NamedUnit{"mm/s^2", Quantity::kAcceleration, 1e-3},
+    NamedUnit{"g", Quantity::kAcceleration, kGravity},
+    NamedUnit{"mg", Quantity::kAcceleration, kGravity * 1e-3},
+    NamedUnit{"ug", Quantity::kAcceleration, kGravity * 1e-6},
+    NamedUnit{"T", Quantity::kMagneticFluxDensity, 1.0},
+    NamedUnit{"uT", Quantity::kMagneticFluxDensity, 1e-6},
+    NamedUnit{"nT", Quantity::kMagneticFluxDensity, 1e-9},
+    NamedUnit{"gauss", Quantity::kMagneticFluxDensity, 1e-4},
+    NamedUnit{"mgauss", Quantity::kMagneticFluxDensity, 1e-7},
+    NamedUnit{"K", Quantity::kTemperature, 1.0},
+    NamedUnit{"degC", Quantity::kTemperature, 1.0},
+    NamedUnit{"V", Quantity::kVoltage, 1.0},
+    NamedUnit{"mV", Quantity::kVoltage, 1e-3},
+    NamedUnit{"1", Quantity::kUnknown, 1.0},
+};
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+// One spelling for the many ways people write the same unit: "°/s", "m/s²", "m s-2", "deg/sec".
+std::string normalise(std::string_view text) {
+  std::string out(text);
+  for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
+           {" ", ""},       {"°C", "degC"},    {"°", "deg"},    {"µ", "u"},          {"μ", "u"},
+           {"²", "^2"},     {"**", "^"},       {"s-2", "/s^2"}, {"s^-2", "/s^2"},    {"//", "/"},
+           {"degrees", "deg"}, {"/sec", "/s"}, {"/hour", "/h"}, {"/hr", "/h"},       {"·", ""},
+           {"m/s/s", "m/s^2"}, {"m/s2", "m/s^2"}, {"s-1", "/s"}, {"celsius", "degC"}}) {
+    replace_all(out, from, to);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Unit> parse_unit(std::string_view text) {
+  const std::string wanted = normalise(text);
+  for (const NamedUnit& unit : kUnits) {
+    if (unit.symbol == wanted) {
+      return Unit{std::string(unit.symbol), unit.quantity, unit.to_si};
+    }
+  }
+  std::string known;
+  for (const NamedUnit& unit : kUnits) {
+    known += known.empty() ? "" : ", ";
+    known += unit.symbol;
+  }
+  return fail("unknown unit '" + std::string(text) + "' (known: " + known + ")");
+}
+
+std::string_view si_symbol(Quantity quantity) {
+  const auto* const found =
+      std::find_if(kUnits.begin(), kUnits.end(),
+                   [&](const NamedUnit& unit) { return unit.quantity == quantity; });
+  return found->symbol;
+}
+
+CoefficientUnits coefficient_units(Coefficient coefficient, Quantity quantity) {
+  const bool gyro = quantity == Quantity::kAngularRate;
+  const bool accelerometer = quantity == Quantity::kAcceleration;
+  const std::string si =
+      gyro ? "rad/s" : std::string(quantity == Quantity::kUnknown ? "unit" : si_symbol(quantity));
+  const double micro_g = kGravity * 1e-6;
+  const auto pick = [&](std::string_view symbol, std::string_view title, std::string si_unit,
+                        std::string gyro_unit, double gyro_factor, std::string acc_unit,
+                        double acc_factor) {
+    CoefficientUnits out{symbol, title, std::move(si_unit), "", 1.0};
+    if (gyro) {
+      out.datasheet = std::move(gyro_unit);
+      out.to_datasheet = gyro_factor;
+    } else if (accelerometer) {
+      out.datasheet = std::move(acc_unit);
+      out.to_datasheet = acc_factor;
+    }
+    return out;
+  };
+  switch (coefficient) {
+    case Coefficient::kQuantisation:
+      return pick("Q", "quantisation noise", gyro ? "rad" : accelerometer ? "m/s" : si + "·s",
+                  "arcsec", kHour / kDegree, "µm/s", 1e6);
+    case Coefficient::kRandomWalk:
+      return pick("N",
+                  gyro            ? "angle random walk"
+                  : accelerometer ? "velocity random walk"
+                                  : "white noise density",
+                  si + "/√Hz", "°/√h", 60.0 / kDegree, "µg/√Hz", 1.0 / micro_g);
+    case Coefficient::kBiasInstability:
+      return pick("B", "bias instability", si, "°/h", kHour / kDegree, "µg", 1.0 / micro_g);
+    case Coefficient::kRateRandomWalk:
+      return pick("K", gyro ? "rate random walk" : "bias random walk",
+                  gyro ? "rad/s²/√Hz" : accelerometer ? "m/s³/√Hz" : si + "/s/√Hz", "(°/h)/√h",
+                  kHour * 60.0 / kDegree, "µg/√h", 60.0 / micro_g);
+    case Coefficient::kRamp:
+      return pick("R", gyro ? "rate ramp" : "bias ramp",
+                  gyro ? "rad/s²" : accelerometer ? "m/s³" : si + "/s", "(°/h)/h",
+                  kHour * kHour / kDegree, "µg/h", kHour / micro_g);
+    case Coefficient::kAmplitude:
+      return pick("σ", "standard deviation", si, "°/h", kHour / kDegree, "µg", 1.0 / micro_g);
+  }
+  return {};
+}
+
+}  // namespace imunoise

@@ -1,0 +1,65 @@
+#pragma once
+
+// The one home of unit conversion. Inside the library everything is SI; people read datasheet units.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/support/result.h"
+
+namespace imunoise {
+
+/// Sampling rate in hertz. A class of its own because 819.2 Hz has no integer period in nanoseconds.
+struct Hertz {
+  double value = 1.0;
+  friend bool operator==(Hertz, Hertz) = default;
+};
+
+/// The physical quantity a channel measures.
+enum class Quantity {
+  kUnknown,  ///< No unit is stated; numbers are taken as they are.
+  kAngularRate,
+  kAcceleration,
+  kMagneticFluxDensity,
+  kTemperature,
+  kVoltage,
+};
+
+/// A unit of measurement: value in SI = value · to_si.
+struct Unit {
+  std::string symbol;  ///< As people write it, e.g. "deg/s".
+  Quantity quantity = Quantity::kUnknown;
+  double to_si = 1.0;
+};
+
+/// The unit that `text` names ("deg/s", "°/h", "mg", "m/s^2", ...). Error: unknown unit, with the known ones listed.
+Result<Unit> parse_unit(std::string_view text);
+
+/// Symbol of the SI unit of a quantity, e.g. "rad/s"; "1" when the quantity is unknown.
+std::string_view si_symbol(Quantity quantity);
+
+/// The five coefficients of IEEE Std 952 / 1554 and the standard deviation of a correlated noise.
+enum class Coefficient {
+  kQuantisation,     ///< Q, unit·s
+  kRandomWalk,       ///< N, unit/√Hz (angle or velocity random walk)
+  kBiasInstability,  ///< B, unit
+  kRateRandomWalk,   ///< K, unit/s/√Hz
+  kRamp,             ///< R, unit/s
+  kAmplitude,        ///< A standard deviation, unit
+};
+
+/// How people write a coefficient: symbol, SI unit, and the unit of datasheets with its factor.
+struct CoefficientUnits {
+  std::string_view symbol;     ///< "N", "K", ...
+  std::string_view title;      ///< "angle random walk", ...
+  std::string si;              ///< "rad/s/√Hz"
+  std::string datasheet;       ///< "°/√h"; empty when no customary unit exists
+  double to_datasheet = 1.0;   ///< value in datasheet unit = SI value · to_datasheet
+};
+
+/// Units of a coefficient of a channel that measures `quantity`.
+CoefficientUnits coefficient_units(Coefficient coefficient, Quantity quantity);
+
+}  // namespace imunoise

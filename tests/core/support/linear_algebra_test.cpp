@@ -1,0 +1,69 @@
+#include "core/support/linear_algebra.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace imunoise {
+namespace {
+
+Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal;
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(engine); });
+}
+
+// The optimum of a convex problem is told by its Karush-Kuhn-Tucker conditions, whatever the solver did.
+void expect_optimal(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment, const char* what) {
+  const Eigen::VectorXd beta = nonnegative_least_squares(gram, moment);
+  const Eigen::VectorXd slope = moment - gram * beta;
+  const double scale = moment.cwiseAbs().maxCoeff();
+  for (Eigen::Index j = 0; j < beta.size(); ++j) {
+    EXPECT_GE(beta(j), 0.0) << what;
+    EXPECT_LE(slope(j), 1e-9 * scale) << what << ": column " << j << " would still help";
+    EXPECT_NEAR(slope(j) * beta(j), 0.0, 1e-9 * scale * (1.0 + beta(j))) << what;
+  }
+}
+
+TEST(NonnegativeLeastSquares, MeetsTheOptimalityConditions) {
+  for (unsigned seed = 1; seed <= 500; ++seed) {
+    const int columns = 1 + static_cast<int>(seed % 9);
+    Eigen::MatrixXd a = random_matrix(20, columns, seed).cwiseAbs();
+    a.colwise().normalize();
+    const Eigen::VectorXd b = random_matrix(20, 1, seed + 1000);
+    expect_optimal(a.transpose() * a, a.transpose() * b, ("seed " + std::to_string(seed)).c_str());
+  }
+}
+
+TEST(NonnegativeLeastSquares, ToleratesRepeatedColumns) {
+  Eigen::MatrixXd a = random_matrix(20, 4, 7).cwiseAbs();
+  a.col(3) = a.col(1);
+  a.colwise().normalize();
+  const Eigen::VectorXd b = a * Eigen::Vector4d(1, 2, 0, 3);
+  const Eigen::VectorXd beta = nonnegative_least_squares(a.transpose() * a, a.transpose() * b);
+  EXPECT_NEAR((a * beta - b).norm(), 0.0, 1e-12);
+}
+
+TEST(Whiten, TurnsTheCovarianceIntoTheIdentity) {
+  const Eigen::MatrixXd root = random_matrix(6, 6, 3);
+  Eigen::MatrixXd covariance = root * root.transpose();
+  const Eigen::VectorXd scale = Eigen::VectorXd::LinSpaced(6, -8, 4).array().exp();
+  covariance = (scale.asDiagonal() * covariance * scale.asDiagonal()).eval();
+  const Whitening w = whiten(covariance);
+  ASSERT_EQ(w.matrix.rows(), 6);
+  const Eigen::MatrixXd identity = w.matrix * covariance * w.matrix.transpose();
+  EXPECT_NEAR((identity - Eigen::MatrixXd::Identity(6, 6)).cwiseAbs().maxCoeff(), 0.0, 1e-9);
+}
+
+TEST(PseudoInverse, TellsWhatCannotBeToldApart) {
+  Eigen::MatrixXd a = random_matrix(10, 3, 5);
+  a.col(2) = 2.0 * a.col(1);
+  const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
+  EXPECT_EQ(inverse.rank, 2);
+  EXPECT_NEAR(inverse.null_share(0), 0.0, 1e-12);
+  EXPECT_NEAR(inverse.null_share(1), 0.5, 1e-9);
+  EXPECT_NEAR(inverse.null_share(2), 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace imunoise

@@ -1,0 +1,42 @@
+#include "core/support/units.h"
+
+#include <gtest/gtest.h>
+
+namespace imunoise {
+namespace {
+
+TEST(Units, ParsesTheSpellingsPeopleUse) {
+  for (const char* text : {"deg/s", "°/s", "dps", "degrees/sec", "deg s-1"}) {
+    const Result<Unit> unit = parse_unit(text);
+    ASSERT_TRUE(unit) << text << ": " << unit.error().message;
+    EXPECT_EQ(unit->quantity, Quantity::kAngularRate) << text;
+    EXPECT_DOUBLE_EQ(unit->to_si, 0.017453292519943295) << text;
+  }
+  for (const char* text : {"m/s^2", "m/s²", "m/s2", "m/s/s", "m s-2"}) {
+    const Result<Unit> unit = parse_unit(text);
+    ASSERT_TRUE(unit) << text;
+    EXPECT_EQ(unit->quantity, Quantity::kAcceleration) << text;
+    EXPECT_EQ(unit->to_si, 1.0) << text;
+  }
+}
+
+TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {
+  const Result<Unit> unit = parse_unit("furlong");
+  ASSERT_FALSE(unit);
+  EXPECT_NE(unit.error().message.find("furlong"), std::string::npos);
+  EXPECT_NE(unit.error().message.find("rad/s"), std::string::npos);
+}
+
+// SCIENCE: the conversions that people get wrong, from first principles.
+TEST(Units, DatasheetUnitsOfTheCoefficients) {
+  const auto si_per_unit = [](Coefficient c, Quantity q) { return 1.0 / coefficient_units(c, q).to_datasheet; };
+  EXPECT_NEAR(si_per_unit(Coefficient::kRandomWalk, Quantity::kAngularRate), 2.9089e-4, 1e-8);
+  EXPECT_NEAR(si_per_unit(Coefficient::kBiasInstability, Quantity::kAngularRate), 4.8481e-6, 1e-10);
+  EXPECT_NEAR(si_per_unit(Coefficient::kRateRandomWalk, Quantity::kAngularRate), 8.0802e-8, 1e-12);
+  EXPECT_NEAR(si_per_unit(Coefficient::kRandomWalk, Quantity::kAcceleration), 9.80665e-6, 1e-15);
+  EXPECT_EQ(coefficient_units(Coefficient::kRandomWalk, Quantity::kAngularRate).datasheet, "°/√h");
+  EXPECT_EQ(coefficient_units(Coefficient::kRandomWalk, Quantity::kUnknown).si, "unit/√Hz");
+}
+
+}  // namespace
+}  // namespace imunoise
