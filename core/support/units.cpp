@@ -128,6 +128,12 @@ CoefficientUnits coefficient_units(Coefficient coefficient, Quantity quantity) {
                   kHour * kHour / kDegree, "µg/h", kHour / micro_g);
     case Coefficient::kAmplitude:
       return pick("σ", "standard deviation", si, "°/h", kHour / kDegree, "µg", 1.0 / micro_g);
+    case Coefficient::kCorrelationTime:
+      return {"T", "correlation time", "s", "", 1.0};
+    case Coefficient::kFrequency:
+      return {"f", "frequency", "Hz", "", 1.0};
+    case Coefficient::kDampingRatio:
+      return {"ζ", "damping ratio", "1", "", 1.0};
   }
   return {};
 }

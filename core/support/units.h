@@ -40,7 +40,8 @@ Result<Unit> parse_unit(std::string_view text);
 /// Symbol of the SI unit of a quantity, e.g. "rad/s"; "1" when the quantity is unknown.
 std::string_view si_symbol(Quantity quantity);
 
-/// The five coefficients of IEEE Std 952 / 1554 and the standard deviation of a correlated noise.
+/// What people know a noise by: the coefficients of IEEE Std 952 / 1554, and the amplitude, time and
+/// frequency of correlated noises.
 enum class Coefficient {
   kQuantisation,     ///< Q, unit·s
   kRandomWalk,       ///< N, unit/√Hz (angle or velocity random walk)
@@ -48,6 +49,9 @@ enum class Coefficient {
   kRateRandomWalk,   ///< K, unit/s/√Hz
   kRamp,             ///< R, unit/s
   kAmplitude,        ///< A standard deviation, unit
+  kCorrelationTime,  ///< s
+  kFrequency,        ///< Hz
+  kDampingRatio,     ///< dimensionless
 };
 
 /// How people write a coefficient: symbol, SI unit, and the unit of datasheets with its factor.

@@ -1,0 +1,110 @@
+#include "core/estimate/estimators.h"
+
+#include <numeric>
+
+#include "core/support/linear_algebra.h"
+#include "core/wavelet/moment_covariance.h"
+
+namespace imunoise {
+namespace {
+
+constexpr int kMostReweightings = 3;
+
+std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates) {
+  std::vector<Eigen::MatrixXd> out;
+  for (const WaveletVariance& wv : replicates) {
+    const Eigen::ArrayXd width = wv.upper - wv.lower;
+    out.emplace_back((width > 0.0).select(1.0 / width, 0.0).matrix().asDiagonal());
+  }
+  return out;
+}
+
+std::vector<Eigen::MatrixXd> full_roots(const Model& model, std::span<const WaveletVariance> replicates) {
+  const PerReplicate covariances = moment_covariances(model, replicates);
+  const PerReplicate roots = PerReplicate::of(replicates, [&](const WaveletVariance& wv) {
+    const auto at = static_cast<std::size_t>(&wv - replicates.data());
+    return whiten(covariances[at]).matrix;
+  });
+  std::vector<Eigen::MatrixXd> out;
+  for (std::size_t k = 0; k < replicates.size(); ++k) out.push_back(roots[k]);
+  return out;
+}
+
+// Every replicate sees every term: all parameters are tied.
+Problem tied_problem(const Model& model, std::span<const WaveletVariance> replicates,
+                     const std::vector<Eigen::MatrixXd>& roots) {
+  std::vector<std::size_t> all(model.terms.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Problem out{model, {}};
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    out.blocks.push_back({replicates[k].scales, replicates[k].variance.matrix(), roots[k], all});
+  }
+  return out;
+}
+
+// A model that explains nothing at some scale gives no weights.
+bool gives_weights(const Model& model, std::span<const WaveletVariance> replicates) {
+  const SumCovariance sum = sum_covariance(model);
+  const bool random = sum.linear != 0.0 || sum.cubic != 0.0 || !sum.near.empty() ||
+                      !sum.exponentials.empty() || sum.flicker > 0.0;
+  return random && (variance(model, replicates[0].scales.half_widths()) > 0.0).all();
+}
+
+}  // namespace
+
+PerReplicate moment_covariances(const Model& model, std::span<const WaveletVariance> replicates) {
+  const SumCovariance process = sum_covariance(model);
+  return PerReplicate::of(replicates, [&](const WaveletVariance& wv) -> Eigen::MatrixXd {
+    return moment_covariance(process, wv.scales, wv.samples) / wv.efficiency;
+  });
+}
+
+Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates, Weighting weighting,
+                const Progress& progress) {
+  Estimate out;
+  out.weighting = weighting;
+  out.weight_roots = diagonal_roots(replicates);
+  Minimum found = minimise(tied_problem(model, replicates, out.weight_roots), progress);
+  for (int round = 0; weighting == Weighting::kFull && round < kMostReweightings; ++round) {
+    if (progress.stopped() || !gives_weights(found.model, replicates)) break;
+    const Eigen::ArrayXd before = variance(found.model, replicates[0].scales.half_widths());
+    out.weight_roots = full_roots(found.model, replicates);
+    const Problem problem = tied_problem(model, replicates, out.weight_roots);
+    // New weights may favour another minimum: scan once more with the first of them, then follow it.
+    found = round == 0 ? minimise(problem, progress) : minimise(problem, progress, &found.model);
+    const Eigen::ArrayXd after = variance(found.model, replicates[0].scales.half_widths());
+    if (((after - before).abs() <= 1e-7 * after).all()) break;
+  }
+  out.model = std::move(found.model);
+  out.objective = found.objective;
+  out.termination = found.termination;
+  return out;
+}
+
+AverageEstimate agmwm(const Model& model, std::span<const WaveletVariance> replicates,
+                      Weighting weighting, const Progress& progress) {
+  AverageEstimate out;
+  Estimate& average = out.average;
+  average.model = model;
+  average.weighting = weighting;
+  std::vector<std::vector<double>> sums;
+  for (const Term& term : model.terms) sums.emplace_back(term.given.size(), 0.0);
+  const auto count = static_cast<double>(replicates.size());
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const auto at = static_cast<double>(k);
+    Estimate one = mugmwm(model, replicates.subspan(k, 1), weighting, progress.part(at / count, (at + 1) / count));
+    average.objective += one.objective;
+    if (one.termination != Termination::kConverged) average.termination = one.termination;
+    average.weight_roots.push_back(one.weight_roots[0]);
+    for (std::size_t t = 0; t < sums.size(); ++t) {
+      const std::vector<double> v = values(one.model.terms[t].process);
+      for (std::size_t p = 0; p < v.size(); ++p) sums[t][p] += v[p] / count;
+    }
+    out.separate.push_back(std::move(one));
+  }
+  for (std::size_t t = 0; t < sums.size(); ++t) set_values(average.model.terms[t].process, sums[t]);
+  average.model = sorted(std::move(average.model));
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "core/estimate/problem.h"
+
+namespace imunoise {
+
+/// The objective as a function of the free shape parameters only, in unbounded coordinates; powers are
+/// solved inside (variable projection). Coordinates: logit between the bounds of the parameter, or
+/// its logarithm.
+class Profile {
+ public:
+  explicit Profile(const Problem& problem);
+
+  /// A free shape parameter: which parameter of which term, with its bounds.
+  struct Coordinate {
+    std::size_t term;
+    std::size_t parameter;
+    ParameterInfo info;
+    double to_search(double value) const;
+    double to_value(double search) const;
+    double slope(double value) const;  ///< d value / d search
+  };
+  const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+
+  /// The model at a point, with its powers solved for.
+  struct Point {
+    Model model;
+    double objective;
+  };
+  /// Objective at the point, and its gradient where wanted (same length as x).
+  Point at(const std::vector<double>& x, std::vector<double>* gradient = nullptr) const;
+
+  /// The search coordinates of a model's shapes.
+  std::vector<double> coordinates_of(const Model& model) const;
+
+  /// Whitened column of one term's unit-power variance over all blocks: Σ r_b rows.
+  Eigen::VectorXd column(std::size_t term, const Process& process) const;
+  /// Whitened measured moments, less what terms of given power explain.
+  Eigen::VectorXd target(const Model& model) const;
+  /// Terms whose power is free.
+  const std::vector<std::size_t>& free_powers() const { return free_powers_; }
+
+  const Problem& problem() const { return problem_; }
+
+ private:
+  Eigen::VectorXd whitened(std::size_t term, const std::vector<Eigen::ArrayXd>& per_grid) const;
+
+  const Problem& problem_;
+  std::vector<Coordinate> coordinates_;
+  std::vector<std::size_t> free_powers_;
+  Eigen::VectorXd measured_;                 // whitened
+  Eigen::Index rows_ = 0;
+  std::vector<Eigen::ArrayXd> grids_;        // distinct half-widths
+  std::vector<std::size_t> grid_of_block_;
+};
+
+/// Non-negative powers that minimise |target - columns·powers|²; columns are scaled inside.
+Eigen::VectorXd solve_powers(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target);
+
+}  // namespace imunoise

@@ -1,0 +1,72 @@
+#include "core/model/model.h"
+
+#include <algorithm>
+
+namespace imunoise {
+
+std::size_t parameter_count(const Model& model) {
+  std::size_t out = 0;
+  for (const Term& term : model.terms) out += term.given.size();
+  return out;
+}
+
+bool complete(const Model& model) {
+  return std::all_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
+    return std::find(term.given.begin(), term.given.end(), false) == term.given.end();
+  });
+}
+
+Eigen::ArrayXd variance(const Model& model, HalfWidths m) {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(m.size());
+  for (const Term& term : model.terms) out += variance(term.process, m);
+  return out;
+}
+
+Eigen::MatrixXd jacobian(const Model& model, HalfWidths m) {
+  Eigen::MatrixXd out(m.size(), static_cast<Eigen::Index>(parameter_count(model)));
+  Eigen::Index column = 0;
+  for (const Term& term : model.terms) {
+    const Eigen::ArrayXXd part = jacobian(term.process, m);
+    out.middleCols(column, part.cols()) = part.matrix();
+    column += part.cols();
+  }
+  return out;
+}
+
+SumCovariance sum_covariance(const Model& model) {
+  SumCovariance out;
+  for (const Term& term : model.terms) {
+    if (values(term.process).front() > 0.0) out += sum_covariance(term.process);
+  }
+  return out;
+}
+
+Model sorted(Model model) {
+  const auto shape_of = [](const Term& term) {
+    std::vector<double> v = values(term.process);
+    v.erase(v.begin());
+    return v;
+  };
+  for (std::size_t i = 0; i < model.terms.size(); ++i) {
+    for (std::size_t k = i + 1; k < model.terms.size(); ++k) {
+      Term& a = model.terms[i];
+      Term& b = model.terms[k];
+      if (a.process.index() == b.process.index() && a.given == b.given && shape_of(a) < shape_of(b)) {
+        std::swap(a, b);
+      }
+    }
+  }
+  return model;
+}
+
+std::vector<double> simulate(const Model& model, std::size_t n, std::uint64_t seed,
+                             std::uint32_t replicate) {
+  std::vector<double> out(n, 0.0);
+  for (std::uint32_t i = 0; i < model.terms.size(); ++i) {
+    RandomStream rng(seed, {replicate, i});
+    add_samples(model.terms[i].process, rng, out);
+  }
+  return out;
+}
+
+}  // namespace imunoise

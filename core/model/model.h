@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/process/process.h"
+#include "core/support/result.h"
+
+namespace imunoise {
+
+/// One term of a model: a process, and which of its parameters the user gave (they stay as they are).
+struct Term {
+  Process process;
+  std::vector<bool> given;  ///< one entry a parameter
+
+  explicit Term(Process p) : process(std::move(p)), given(parameters(process).size(), false) {}
+  friend bool operator==(const Term&, const Term&) = default;
+};
+
+/// A noise model: independent processes that add up.
+struct Model {
+  std::vector<Term> terms;
+  friend bool operator==(const Model&, const Model&) = default;
+};
+
+/// Reads a model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`, `MA(2) + RW`.
+///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value } ')' ]
+/// Parameters are per sample, in SI units; GM's tc is in seconds (hence the rate). Names ignore case.
+/// Error: what is wrong, with the text and a caret under the character.
+Result<Model> parse_model(std::string_view text, Hertz rate);
+
+/// The model in the grammar, with the values that were given: parse_model(print(m)) == m.
+std::string print(const Model& model);
+/// The same with every value, as after a fit: what `imunoise simulate` takes.
+std::string print_with_values(const Model& model);
+
+/// Number of parameters of all terms.
+std::size_t parameter_count(const Model& model);
+/// True when every parameter was given: such a model can be simulated.
+bool complete(const Model& model);
+
+/// Wavelet variance of the sum, in unit².
+Eigen::ArrayXd variance(const Model& model, HalfWidths m);
+/// dν / d(every parameter in order of the terms): scales × parameters.
+Eigen::MatrixXd jacobian(const Model& model, HalfWidths m);
+/// Covariance of the prefix sums of the whole model.
+SumCovariance sum_covariance(const Model& model);
+
+/// Brings a fitted model into its unique form: equal processes are ordered by their shape, so that
+/// of several AR1 the one with the longest correlation time comes first.
+Model sorted(Model model);
+
+/// One realisation of n samples. Each term has a stream of its own under (seed, replicate).
+std::vector<double> simulate(const Model& model, std::size_t n, std::uint64_t seed,
+                             std::uint32_t replicate);
+
+}  // namespace imunoise

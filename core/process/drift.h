@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/process/contract.h"
+
+namespace imunoise {
+
+/// Drift: a deterministic ramp of slope ω per sample; ν(m) = ω²m²/4. Its sign cannot be seen.
+struct Drift {
+  double omega2 = 1.0;
+
+  static constexpr ProcessInfo kInfo{
+      "DR", "drift", "A bias that moves steadily: slow temperature or ageing seen as a straight line."};
+  friend bool operator==(const Drift&, const Drift&) = default;
+
+  std::vector<ParameterInfo> parameters() const { return {{"omega2", "square of the slope per sample"}}; }
+  std::vector<double> values() const { return {omega2}; }
+  void set_values(std::span<const double> v) { omega2 = v[0]; }
+  Eigen::ArrayXd shape(HalfWidths m) const { return 0.25 * m.square(); }
+  Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
+  double spectrum(double) const { return 0.0; }  // deterministic
+  SumCovariance sum_covariance() const { return {.slope_squared = omega2}; }
+  std::vector<DerivedQuantity> derived(Hertz rate) const {
+    return {{Coefficient::kRamp, std::sqrt(omega2) * rate.value}};
+  }
+  std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
+  void add_samples(RandomStream&, std::span<double> out) const {
+    const double omega = std::sqrt(omega2);
+    for (std::size_t t = 0; t < out.size(); ++t) out[t] += omega * static_cast<double>(t);
+  }
+};
+
+}  // namespace imunoise

@@ -1,0 +1,74 @@
+#include "core/process/finite_memory.h"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace imunoise {
+namespace {
+
+// The wavelet variance of an autocovariance that ends after a few lags.
+Eigen::ArrayXd variance_of(const std::vector<double>& gamma, HalfWidths m) {
+  return m.unaryExpr([&](double width) {
+    double sum = 2.0 * width * gamma[0];
+    for (std::size_t lag = 1; lag < gamma.size(); ++lag) {
+      const auto h = static_cast<double>(lag);
+      if (h >= 2.0 * width) break;
+      sum += 2.0 * gamma[lag] * (h < width ? 2.0 * width - 3.0 * h : h - 2.0 * width);
+    }
+    return sum / (4.0 * width * width);
+  });
+}
+
+}  // namespace
+
+FiniteMemory::FiniteMemory(std::vector<double> taps) : taps_(std::move(taps)), gamma_(taps_.size()) {
+  for (std::size_t h = 0; h < taps_.size(); ++h) {
+    for (std::size_t i = 0; i + h < taps_.size(); ++i) gamma_[h] += taps_[i] * taps_[i + h];
+  }
+}
+
+Eigen::ArrayXd FiniteMemory::variance(HalfWidths m) const { return variance_of(gamma_, m); }
+
+Eigen::ArrayXd FiniteMemory::slope(HalfWidths m, std::size_t k) const {
+  std::vector<double> gamma_slope(taps_.size());
+  for (std::size_t h = 0; h < taps_.size(); ++h) {
+    if (k + h < taps_.size()) gamma_slope[h] += taps_[k + h];
+    if (k >= h) gamma_slope[h] += taps_[k - h];
+  }
+  return variance_of(gamma_slope, m);
+}
+
+double FiniteMemory::spectrum(double f) const {
+  std::complex<double> response = 0.0;
+  for (std::size_t i = 0; i < taps_.size(); ++i) {
+    response += taps_[i] * std::polar(1.0, -2.0 * std::numbers::pi * f * static_cast<double>(i));
+  }
+  return std::norm(response);
+}
+
+SumCovariance FiniteMemory::sum_covariance() const {
+  double total = gamma_[0];
+  for (std::size_t h = 1; h < gamma_.size(); ++h) total += 2.0 * gamma_[h];
+  SumCovariance out{.linear = -0.5 * total};
+  for (std::size_t s = 0; s + 1 < gamma_.size(); ++s) {
+    // Γ(s) = -½ Σ_h γ(h)|s - h|; what is left of it beyond the linear part: -Σ_{h>s} γ(h)(h - s).
+    double rest = 0.0;
+    for (std::size_t h = s + 1; h < gamma_.size(); ++h) {
+      rest -= gamma_[h] * static_cast<double>(h - s);
+    }
+    out.near.push_back(rest);
+  }
+  return out;
+}
+
+void FiniteMemory::add_samples(double sigma, RandomStream& rng, std::span<double> out) const {
+  const std::size_t memory = taps_.size() - 1;
+  std::vector<double> input(out.size() + memory);
+  for (double& e : input) e = sigma * rng.normal();
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    for (std::size_t i = 0; i < taps_.size(); ++i) out[t] += taps_[i] * input[t + memory - i];
+  }
+}
+
+}  // namespace imunoise

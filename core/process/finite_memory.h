@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/process/contract.h"
+
+namespace imunoise {
+
+/// White noise through a filter with finitely many taps w: x_t = Σ_i w_i e_{t-i}, var e = 1. Shared by
+/// MA(q) and the averaging filters. Shapes as in the contract.
+class FiniteMemory {
+ public:
+  explicit FiniteMemory(std::vector<double> taps);
+
+  /// γ(h) of the output, h = 0 .. taps - 1.
+  const std::vector<double>& autocovariance() const { return gamma_; }
+
+  /// ν(m) = [2mγ(0) + 2Σ_h c(h)γ(h)]/4m², c(h) = 2m - 3h for h < m, h - 2m for m ≤ h < 2m.
+  Eigen::ArrayXd variance(HalfWidths m) const;
+  /// dν / d tap k.
+  Eigen::ArrayXd slope(HalfWidths m, std::size_t k) const;
+  double spectrum(double f) const;
+  SumCovariance sum_covariance() const;
+  /// Adds sigma times one realisation.
+  void add_samples(double sigma, RandomStream& rng, std::span<double> out) const;
+
+ private:
+  std::vector<double> taps_;
+  std::vector<double> gamma_;
+};
+
+}  // namespace imunoise

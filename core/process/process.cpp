@@ -1,0 +1,93 @@
+#include "core/process/process.h"
+
+#include <optional>
+
+namespace imunoise {
+namespace {
+
+template <class P>
+concept Structured = requires(const P p) {
+  { p.structure() } -> std::same_as<int>;
+  { P::with_structure(1) } -> std::same_as<P>;
+};
+
+template <class... P>
+std::vector<Process> one_of_each(const std::variant<P...>*) {
+  return {Process(P{})...};
+}
+
+}  // namespace
+
+const ProcessInfo& info(const Process& process) {
+  return std::visit([](const auto& p) -> const ProcessInfo& { return p.kInfo; }, process);
+}
+std::vector<ParameterInfo> parameters(const Process& process) {
+  return std::visit([](const auto& p) { return p.parameters(); }, process);
+}
+std::vector<double> values(const Process& process) {
+  return std::visit([](const auto& p) { return p.values(); }, process);
+}
+void set_values(Process& process, std::span<const double> values) {
+  std::visit([&](auto& p) { p.set_values(values); }, process);
+}
+Eigen::ArrayXd shape(const Process& process, HalfWidths m) {
+  return std::visit([&](const auto& p) { return p.shape(m); }, process);
+}
+Eigen::ArrayXXd shape_jacobian(const Process& process, HalfWidths m) {
+  return std::visit([&](const auto& p) { return p.shape_jacobian(m); }, process);
+}
+double spectrum(const Process& process, double f) {
+  return std::visit([&](const auto& p) { return p.spectrum(f); }, process);
+}
+SumCovariance sum_covariance(const Process& process) {
+  return std::visit([](const auto& p) { return p.sum_covariance(); }, process);
+}
+std::vector<DerivedQuantity> derived(const Process& process, Hertz rate) {
+  return std::visit([&](const auto& p) { return p.derived(rate); }, process);
+}
+std::vector<std::vector<double>> scan(const Process& process, const Scales& scales) {
+  return std::visit([&](const auto& p) { return p.scan(scales); }, process);
+}
+void add_samples(const Process& process, RandomStream& rng, std::span<double> out) {
+  std::visit([&](const auto& p) { p.add_samples(rng, out); }, process);
+}
+
+int structure(const Process& process) {
+  return std::visit(
+      [](const auto& p) {
+        if constexpr (Structured<std::decay_t<decltype(p)>>) return p.structure();
+        return 0;
+      },
+      process);
+}
+
+Eigen::ArrayXd variance(const Process& process, HalfWidths m) {
+  return values(process).front() * shape(process, m);
+}
+
+Eigen::ArrayXXd jacobian(const Process& process, HalfWidths m) {
+  const Eigen::ArrayXXd by_shape = shape_jacobian(process, m);
+  Eigen::ArrayXXd out(m.size(), 1 + by_shape.cols());
+  out.col(0) = shape(process, m);
+  out.rightCols(by_shape.cols()) = values(process).front() * by_shape;
+  return out;
+}
+
+const std::vector<Process>& known_processes() {
+  static const std::vector<Process> kKnown = one_of_each(static_cast<const Process*>(nullptr));
+  return kKnown;
+}
+
+std::optional<Process> with_structure(const Process& process, int number) {
+  return std::visit(
+      [&](const auto& p) -> std::optional<Process> {
+        using P = std::decay_t<decltype(p)>;
+        if constexpr (Structured<P>) {
+          if (number >= 1 && number <= P::kMostTaps) return P::with_structure(number);
+        }
+        return std::nullopt;
+      },
+      process);
+}
+
+}  // namespace imunoise

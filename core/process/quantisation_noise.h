@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/process/contract.h"
+
+namespace imunoise {
+
+/// Quantisation noise x_t = e_t - e_{t-1}, var e = Q². ν(m) = 6Q²/(2m)².
+struct QuantisationNoise {
+  double q2 = 1.0;
+
+  static constexpr ProcessInfo kInfo{
+      "QN", "quantisation noise",
+      "Rounding of an accumulated angle or velocity: the error of one interval is given back in the next."};
+  friend bool operator==(const QuantisationNoise&, const QuantisationNoise&) = default;
+
+  std::vector<ParameterInfo> parameters() const {
+    return {{"q2", "variance of the rounding error"}};
+  }
+  std::vector<double> values() const { return {q2}; }
+  void set_values(std::span<const double> v) { q2 = v[0]; }
+  Eigen::ArrayXd shape(HalfWidths m) const { return 1.5 / m.square(); }
+  Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
+  double spectrum(double f) const {
+    const double s = 2.0 * std::sin(std::numbers::pi * f);
+    return q2 * s * s;
+  }
+  SumCovariance sum_covariance() const { return {.near = {q2}}; }
+  std::vector<DerivedQuantity> derived(Hertz rate) const {
+    return {{Coefficient::kQuantisation, std::sqrt(q2) / rate.value}};
+  }
+  std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
+  void add_samples(RandomStream& rng, std::span<double> out) const {
+    const double sigma = std::sqrt(q2);
+    double before = sigma * rng.normal();
+    for (double& x : out) {
+      const double now = sigma * rng.normal();
+      x += now - before;
+      before = now;
+    }
+  }
+};
+
+}  // namespace imunoise

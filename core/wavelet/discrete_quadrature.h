@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace imunoise {
+
+/// Nodes and weights with Σ_{s=0}^{N-1} f(s) = Σ_i weight_i f(node_i), exact for polynomials up to
+/// degree 2·kOrder - 1: Gauss quadrature for the discrete uniform measure (Gram polynomials).
+struct DiscreteRule {
+  static constexpr int kOrder = 12;
+  std::array<double, kOrder> nodes;
+  std::array<double, kOrder> weights;
+};
+
+/// The rule for N points, N ≥ 3·kOrder.
+DiscreteRule discrete_rule(std::int64_t points);
+
+}  // namespace imunoise

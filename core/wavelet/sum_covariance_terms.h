@@ -1,0 +1,54 @@
+#pragma once
+
+// Stable pieces of Γ(s) for exponential and flicker covariances, shared by the wavelet variance of a
+// process and by the covariance of moments.
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/support/distributions.h"
+
+namespace imunoise {
+
+/// exp(x) - 1 without cancellation.
+inline double stable_expm1(double x) { return std::expm1(x); }
+inline std::complex<double> stable_expm1(std::complex<double> x) {
+  const double half = std::sin(0.5 * x.imag());
+  return {std::expm1(x.real()) * std::cos(x.imag()) - 2.0 * half * half,
+          std::exp(x.real()) * std::sin(x.imag())};
+}
+
+/// e^-x - 1 + x - x²/2 + x³/6 = x⁴/24 - ..., without cancellation for small |x|, Re x ≥ 0.
+template <class Scalar>
+Scalar exponential_remainder(Scalar x) {
+  if (std::abs(x) > 1.0) return std::exp(-x) - 1.0 + x * (1.0 - x * (0.5 - x / 6.0));
+  Scalar term = x * x * x * x / 24.0;
+  Scalar sum = term;
+  for (int k = 5; k < 22 && std::abs(term) > 1e-18 * std::abs(sum); ++k) {
+    term *= -x / static_cast<double>(k);
+    sum += term;
+  }
+  return sum;
+}
+
+/// sinh(x) - x = x³/6 + ..., without cancellation for small |x|.
+template <class Scalar>
+Scalar sinh_minus_argument(Scalar x) {
+  if (std::abs(x) > 1.0) return std::sinh(x) - x;
+  Scalar term = x * x * x / 6.0;
+  Scalar sum = term;
+  for (int k = 5; k < 22 && std::abs(term) > 1e-18 * std::abs(sum); k += 2) {
+    term *= x * x / static_cast<double>(k * (k - 1));
+    sum += term;
+  }
+  return sum;
+}
+
+/// Φ(s) of flicker noise of unit B² (Kasdin's half-integrated white noise), up to an even polynomial:
+/// (s² - 1/4) ψ(s + 1/2) / 2π, s ≥ 0.
+inline double flicker_sum_covariance(double s) {
+  return (s * s - 0.25) * digamma(s + 0.5) / (2.0 * std::numbers::pi);
+}
+
+}  // namespace imunoise

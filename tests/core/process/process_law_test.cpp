@@ -1,0 +1,140 @@
+// The laws every noise process obeys, over the whole list and several parameter values each.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/process/process.h"
+#include "core/wavelet/moment_covariance.h"
+#include "core/wavelet/wavelet_variance.h"
+
+namespace imunoise {
+namespace {
+
+std::vector<Process> examples() {
+  return {WhiteNoise{2.0},
+          QuantisationNoise{0.3},
+          RandomWalk{0.01},
+          Drift{1e-4},
+          Ar1{1.0, 0.2},
+          Ar1{1.0, 0.9},
+          Ar1{0.5, 0.999},
+          Ar1{1.0, -0.7},
+          Ar1{1.0, -0.99},
+          GaussMarkov{2.0, 0.5, Hertz{100}},
+          GaussMarkov{2.0, 0.01, Hertz{100}},
+          Resonance{1.0, 0.9, 1.2},
+          Resonance{1.0, 0.99, 0.05},
+          Resonance{1.0, 0.5, 3.0},
+          MovingAverage{1.0, {0.5}},
+          MovingAverage{2.0, {0.7, -0.2, 0.1}},
+          MovingAverageFilter{1.0, 5},
+          BartlettFilter{1.0, 4},
+          Flicker{0.8}};
+}
+
+std::string print(const Process& process) {
+  std::string out(info(process).name);
+  for (const double v : values(process)) out += " " + std::to_string(v);
+  return out;
+}
+
+const Eigen::ArrayXd kWidths = (Eigen::ArrayXd(9) << 1, 2, 3, 4, 7, 16, 33, 100, 257).finished();
+
+bool deterministic(const Process& process) { return std::holds_alternative<Drift>(process); }
+
+TEST(ProcessLaws, TheListIsComplete) {
+  for (const Process& known : known_processes()) {
+    const auto all = examples();
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Process& p) { return p.index() == known.index(); }))
+        << info(known).name << " has no example: every law below skips it";
+  }
+}
+
+TEST(ProcessLaws, JacobianIsTheDerivative) {
+  for (const Process& process : examples()) {
+    const Eigen::ArrayXXd slope = jacobian(process, kWidths);
+    const std::vector<double> at = values(process);
+    ASSERT_EQ(slope.cols(), static_cast<Eigen::Index>(at.size()));
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      // Richardson: fourth-order central differences.
+      const double step = 1e-4 * std::min(1.0, std::abs(at[k]) + 1e-3) * (1.0 - 0.9 * (std::abs(at[k]) > 0.98));
+      const auto moved = [&](double by) {
+        std::vector<double> v = at;
+        v[k] += by;
+        Process other = process;
+        set_values(other, v);
+        return variance(other, kWidths);
+      };
+      const Eigen::ArrayXd numeric =
+          (8.0 * (moved(step) - moved(-step)) - (moved(2 * step) - moved(-2 * step))) / (12.0 * step);
+      for (Eigen::Index i = 0; i < kWidths.size(); ++i) {
+        const double scale = std::abs(numeric(i)) + 1e-6 * variance(process, kWidths)(i) / std::abs(at[k] + 1e-3);
+        EXPECT_NEAR(slope(i, static_cast<Eigen::Index>(k)), numeric(i), 2e-6 * scale)
+            << print(process) << ", parameter " << k << ", m = " << kWidths(i);
+      }
+    }
+  }
+}
+
+// ν(m) = ∫ |H|² S df, |H(f)|² = sin⁴(πfm) / (m² sin²(πf)).
+TEST(ProcessLaws, VarianceIsTheSpectrumSeenThroughTheWavelet) {
+  for (const Process& process : examples()) {
+    if (deterministic(process)) continue;
+    for (const double m : {1.0, 3.0, 16.0}) {
+      const int steps = 400'000;
+      double sum = 0.0;
+      for (int i = 0; i < steps; ++i) {  // midpoint rule: spectral accuracy on a full period
+        const double f = 0.5 * (i + 0.5) / steps;
+        const double s = std::sin(std::numbers::pi * f);
+        const double top = std::pow(std::sin(std::numbers::pi * f * m), 4);
+        sum += top / (m * m * s * s) * spectrum(process, f);
+      }
+      const double integral = sum / steps;  // 2 · (0.5 / steps)
+      const double expected = variance(process, Eigen::ArrayXd::Constant(1, m))(0);
+      EXPECT_NEAR(integral / expected, 1.0, 1e-6) << print(process) << ", m = " << m;
+    }
+  }
+}
+
+// ν(m) = [6Γ(0) - 8Γ(m) + 2Γ(2m)]/4m² ties the two descriptions a process gives of itself; here through
+// the covariance of moments of the shortest signal, where V = 2ν² exactly (one coefficient).
+TEST(ProcessLaws, SumCovarianceAgreesWithTheVariance) {
+  for (const Process& process : examples()) {
+    for (const std::int64_t m : {1, 2, 5, 16, 100}) {
+      const Eigen::MatrixXd v =
+          moment_covariance(sum_covariance(process), Scales({m}), static_cast<std::size_t>(2 * m));
+      const double nu = variance(process, Eigen::ArrayXd::Constant(1, static_cast<double>(m)))(0);
+      const double expected = deterministic(process) ? 0.0 : 2.0 * nu * nu;
+      EXPECT_NEAR(v(0, 0), expected, 1e-9 * (nu * nu)) << print(process) << ", m = " << m;
+    }
+  }
+}
+
+// Simulated from the stationary start, the measured variance scatters about ν with exactly the
+// covariance V: the mean over 64 runs lies within 5 standard errors at every scale.
+TEST(ProcessLaws, SimulationFollowsTheVariance) {
+  constexpr int kRuns = 64;
+  constexpr std::size_t kSamples = 4096;
+  const Scales scales({1, 2, 5, 16, 60});
+  for (const Process& process : examples()) {
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(scales.size()));
+    for (std::uint32_t run = 0; run < kRuns; ++run) {
+      RandomStream rng(20261121, {run});
+      std::vector<double> x(kSamples, 0.0);
+      add_samples(process, rng, x);
+      sum += wavelet_variance(Signal{std::span<const double>(x), Hertz{1}}, scales).variance;
+    }
+    const Eigen::ArrayXd expected = variance(process, scales.half_widths());
+    const Eigen::MatrixXd v = moment_covariance(sum_covariance(process), scales, kSamples);
+    for (Eigen::Index i = 0; i < expected.size(); ++i) {
+      const double standard_error = std::sqrt(v(i, i) / kRuns);
+      EXPECT_NEAR(sum(i) / kRuns, expected(i), 5.0 * standard_error + 1e-9 * expected(i))
+          << print(process) << ", m = " << scales[static_cast<std::size_t>(i)] << ", seed 20261121";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace imunoise
