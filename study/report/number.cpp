@@ -53,6 +53,17 @@ Rounding rounding_of(double value, double lower, double upper) {
   return out;
 }
 
+std::string mantissa(double value, const Rounding& rounding, Digits style) {
+  return fixed(value / std::pow(10.0, rounding.exponent), rounding.decimals, style);
+}
+
+std::string spelled(double value, const Rounding& rounding, Digits style) {
+  const std::string digits = mantissa(value, rounding, style);
+  if (rounding.exponent == 0) return digits;
+  if (digits.find_first_not_of("0.") == std::string::npos) return "0";
+  return digits + power_of_ten(rounding.exponent, style);
+}
+
 // Ends so far from the value that they cannot share its power of ten.
 bool far_apart(double value, double lower, double upper) {
   const double largest = std::max(std::abs(lower), std::abs(upper));
@@ -84,35 +95,33 @@ std::string number(double value, int significant, Digits style) {
          power_of_ten(magnitude, style);
 }
 
+std::string rounded(double value, double lower, double upper, Digits style) {
+  if (!std::isfinite(value) || !has_interval(lower, upper)) return number(value, 4, style);
+  if (far_apart(value, lower, upper)) return number(value, 2, style);
+  return spelled(value, rounding_of(value, lower, upper), style);
+}
+
 std::string interval(double value, double lower, double upper, Digits style) {
-  if (!has_interval(lower, upper)) return {};
+  if (!std::isfinite(value) || !has_interval(lower, upper)) return {};
   if (far_apart(value, lower, upper)) {
     return number(lower, 2, style) + " … " + number(upper, 2, style);
   }
   const Rounding rounding = rounding_of(value, lower, upper);
-  const double scale = std::pow(10.0, rounding.exponent);
-  const std::string power = rounding.exponent != 0 ? power_of_ten(rounding.exponent, style) : "";
-  const auto end = [&](double x) {
-    const std::string digits = fixed(x / scale, rounding.decimals, style);
-    return digits.find_first_not_of("0.") == std::string::npos ? "0" : digits + power;
-  };
-  return end(lower) + " … " + end(upper);
+  return spelled(lower, rounding, style) + " … " + spelled(upper, rounding, style);
 }
 
 std::string with_interval(double value, double lower, double upper, Digits style) {
   if (!std::isfinite(value) || !has_interval(lower, upper)) return number(value, 4, style);
-  if (far_apart(value, lower, upper)) {
-    return number(value, 2, style) + " (" + interval(value, lower, upper, style) + ")";
-  }
-  const Rounding rounding = rounding_of(value, lower, upper);
-  const double scale = std::pow(10.0, rounding.exponent);
-  const auto digits = [&](double x) { return fixed(x / scale, rounding.decimals, style); };
-  if (rounding.exponent != 0 && style == Digits::kTypeset) {
+  const bool apart = far_apart(value, lower, upper);
+  const Rounding rounding = apart ? Rounding{} : rounding_of(value, lower, upper);
+  if (!apart && rounding.exponent != 0 && style == Digits::kTypeset) {
+    // One power of ten for all three.
+    const auto digits = [&](double x) { return mantissa(x, rounding, style); };
     return fmt::format("{} ({} … {}) {}", digits(value), digits(lower), digits(upper),
                        power_of_ten(rounding.exponent, style));
   }
-  const std::string power = rounding.exponent != 0 ? power_of_ten(rounding.exponent, style) : "";
-  return fmt::format("{}{} ({})", digits(value), power, interval(value, lower, upper, style));
+  return fmt::format("{} ({})", rounded(value, lower, upper, style),
+                     interval(value, lower, upper, style));
 }
 
 std::string duration(double seconds) {

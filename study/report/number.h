@@ -20,6 +20,9 @@ std::string number(double value, int significant, Digits style);
 /// significant digits, when there is no interval (lower ≥ upper, or not finite).
 std::string with_interval(double value, double lower, double upper, Digits style);
 
+/// The value alone, rounded alike: "0.1175".
+std::string rounded(double value, double lower, double upper, Digits style);
+
 /// The interval alone, rounded alike: "0.1171 … 0.1180"; "" when there is none.
 std::string interval(double value, double lower, double upper, Digits style);
 
