@@ -48,7 +48,8 @@ LogAxis time_axis(const BudgetView& view, double width) {
   }
   const Margins margin = margins(width);
   if (seen.empty()) return {1.0, 10.0, margin.left, width - margin.right};
-  return {seen.low() / 1.5, seen.high() * 1.5, margin.left, width - margin.right};
+  // Room on the right for the names at the ends of the curves.
+  return {seen.low() / 1.5, seen.high() * 2.5, margin.left, width - margin.right};
 }
 
 BudgetLayout budget_layout(const BudgetView& view, double width, double top) {

@@ -15,8 +15,12 @@ namespace {
 
 constexpr Digits kStyle = Digits::kTypeset;
 
-std::string cell(std::string_view css_class, std::string_view escaped) {
-  return fmt::format("<td class=\"{}\">{}</td>", css_class, escaped);
+std::string markup_cell(std::string_view css_class, std::string_view markup) {
+  return fmt::format("<td class=\"{}\">{}</td>", css_class, markup);
+}
+
+std::string cell(std::string_view css_class, std::string_view text) {
+  return markup_cell(css_class, escape_markup(text));
 }
 
 std::string head(const std::vector<std::string>& titles) {
@@ -27,7 +31,7 @@ std::string head(const std::vector<std::string>& titles) {
   return out + "</tr></thead>\n";
 }
 
-std::string unit_text(const std::string& unit) { return unit == "1" ? "" : escape_markup(unit); }
+std::string unit_text(const std::string& unit) { return unit == "1" ? "" : unit; }
 
 std::string interval_title(const v1::FitReport& report) {
   return report.confidence() > 0.0 ? percent(report.confidence()) + " interval" : "interval";
@@ -39,13 +43,14 @@ std::string parameter_cells(const v1::Parameter& p) {
       p.observability() == v1::upper_bound_only || p.observability() == v1::indistinguishable
           ? "open"
           : "quiet";
-  std::string out = cell("", fmt::format("{}<span class=\"explain\">{}</span>",
-                                         escape_markup(p.name()), escape_markup(p.meaning())));
+  std::string out = markup_cell("", fmt::format("{}<span class=\"explain\">{}</span>",
+                                                escape_markup(p.name()),
+                                                escape_markup(p.meaning())));
   out += cell("number", rounded(p.value(), p.lower(), p.upper(), kStyle));
   out += cell("number", bound ? "below " + number(p.upper(), 2, kStyle)
                               : interval(p.value(), p.lower(), p.upper(), kStyle));
   out += cell("", unit_text(p.unit()));
-  return out + cell(mood, escape_markup(observability_words(p)));
+  return out + cell(mood, observability_words(p));
 }
 
 }  // namespace
@@ -75,13 +80,13 @@ std::string coefficient_table(const v1::FitReport& report) {
   std::string rows;
   for (const v1::Term& term : report.terms()) {
     for (const v1::Coefficient& c : term.coefficients()) {
-      rows += "<tr>" + cell("", "<strong>" + escape_markup(c.symbol()) + "</strong>") +
-              cell("", escape_markup(c.title()));
+      rows += "<tr>" + markup_cell("", "<strong>" + escape_markup(c.symbol()) + "</strong>") +
+              cell("", c.title());
       const std::string sheet = with_interval(c.datasheet_value(), c.datasheet_lower(),
                                               c.datasheet_upper(), kStyle);
       rows += c.datasheet_unit().empty()
                   ? cell("quiet", "none is customary")
-                  : cell("number", sheet + " " + escape_markup(c.datasheet_unit()));
+                  : cell("number", sheet + " " + c.datasheet_unit());
       rows += cell("number", with_interval(c.value(), c.lower(), c.upper(), kStyle) + " " +
                                  unit_text(c.unit()));
       rows += "</tr>\n";

@@ -7,8 +7,8 @@ namespace imunoise::report {
 namespace {
 
 constexpr double kStep = 4.0;             // px between points of a resampled curve
-constexpr double kClearance = 5.0;        // px between a curve and its name
-constexpr double kCrossed = 60.0;         // cost of a point of another curve under the name
+constexpr double kClearance = 5.0;       // px between a curve and its name
+constexpr double kCrossed = 60.0;        // cost of a point of another curve under the name
 constexpr double kFromRightEnd = 0.1;    // cost a px away from the right end
 
 // Points at most kStep apart along a polyline, those inside the frame only.
@@ -23,6 +23,9 @@ std::vector<Point> resample(const std::vector<Point>& curve, const Box& frame) {
                     curve[i].y + t * (curve[i + 1].y - curve[i].y)};
       if (frame.contains({p.x, p.y, p.x, p.y})) out.push_back(p);
     }
+  }
+  if (curve.size() > 1 && frame.contains({curve.back().x, curve.back().y, curve.back().x, curve.back().y})) {
+    out.push_back(curve.back());
   }
   return out;
 }
@@ -47,9 +50,11 @@ std::vector<CurveLabel> place_labels(const std::vector<std::vector<Point>>& curv
     double best_cost = INFINITY;
     CurveLabel best;
     for (const Point& on_curve : lines[c]) {
-      for (const double baseline : {on_curve.y - kClearance, on_curve.y + kClearance + 0.8 * size}) {
+      for (const double baseline : {on_curve.y + 0.35 * size, on_curve.y - kClearance,
+                                    on_curve.y + kClearance + 0.8 * size}) {
         for (const Anchor anchor : {Anchor::kStart, Anchor::kEnd}) {
-          const Box box = text_box({on_curve.x, baseline}, names[c], size, anchor);
+          const double gap = anchor == Anchor::kStart ? kClearance : -kClearance;
+          const Box box = text_box({on_curve.x + gap, baseline}, names[c], size, anchor);
           const auto collides = [&](const CurveLabel& other) { return box.overlaps(other.box); };
           if (!frame.contains(box) || std::any_of(placed.begin(), placed.end(), collides)) continue;
           double cost = kFromRightEnd * (frame.right - on_curve.x) + kCrossed * covered(box, obstacles);

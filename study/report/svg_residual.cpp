@@ -40,7 +40,7 @@ void draw_sigma_axis(SvgWriter& svg, const BudgetLayout& layout) {
     const double y = layout.sigma(sigma);
     svg.line(sigma == 0.0 ? "axis" : "grid", {frame.left, y}, {frame.right, y});
     // Ticks come in pairs of both signs, outwards: where one has no room its mirror image has none.
-    if (sigma > 0.0 && previous - y < kTickSize + 1.0 && sigma > kSigmaLimit) continue;
+    if (sigma > 0.0 && previous - y < kTickSize + 2.0 && sigma > kSigmaLimit) continue;
     if (sigma < 0.0 && -sigma > kSigmaLimit && layout.sigma(-sigma) != previous) continue;
     if (sigma >= 0.0) previous = y;
     const std::string label = sigma > 0.0   ? "+" + tick_label(sigma)
@@ -48,7 +48,7 @@ void draw_sigma_axis(SvgWriter& svg, const BudgetLayout& layout) {
                                             : "0";
     svg.text("tick", {frame.left - 8.0, y + 4.0}, label, kTickSize, Anchor::kEnd);
   }
-  svg.text("axis-title", {4.0, frame.top - 10.0}, "residual, σ", kTextSize, Anchor::kStart);
+  svg.text("axis-title", {4.0, frame.top - 13.0}, "residual, σ", kTextSize, Anchor::kStart);
 }
 
 }  // namespace

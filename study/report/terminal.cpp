@@ -55,7 +55,7 @@ std::string marks(const v1::FitReport& report, const TerminalStyle& style) {
   const std::string text =
       "ν in " + squared(report.unit()) + " over averaging time; " +
       (style.unicode ? "● measured, ◆ beyond 2 σ, ⠤ model" : "o measured, x beyond 2 sd, . model") +
-      "; digits: residual in standard deviations";
+      "; digits: residual in standard deviations, # above 9";
   return paragraph(text, Ink::kQuiet, style);
 }
 

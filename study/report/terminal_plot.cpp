@@ -85,11 +85,11 @@ std::string left(const std::string& label, const char* axis) {
 }
 
 // Times under the decades of the axis.
-std::string time_labels(const Plot& plot, int columns, const TerminalStyle& style) {
+std::string time_labels(const Plot& plot, int columns) {
   std::string out(kMargin, ' ');
   for (const Tick& tick : plot.time.decade_ticks(kLabel)) {
     if (!tick.major) continue;
-    const std::string label = terminal_text(duration(tick.value), style);
+    const std::string label = tick_label(tick.value) + " s";
     const auto at = static_cast<std::size_t>(kMargin + plot.time(tick.value));
     const std::size_t used = display_width(out);
     if (at < used || at + display_width(label) > static_cast<std::size_t>(kMargin + columns)) continue;
@@ -126,7 +126,7 @@ std::string residual_row(const BudgetView& view, const Plot& plot, int columns, 
 std::string terminal_plot(const BudgetView& view, bool residuals, const TerminalStyle& style) {
   const int columns = style.width - kMargin - 1;
   const std::optional<Plot> plot = plot_of(view, columns);
-  if (!plot) return "  (nothing to draw: no positive variance)\n";
+  if (!plot) return wrapped("(nothing to draw: no positive variance)", 2, style);
   const char* const axis = style.unicode ? "│" : "|";
   const std::vector<std::string> labels = row_labels(*plot, style);
   const std::vector<std::string> rows = draw(view, *plot, columns, style).lines();
@@ -134,7 +134,7 @@ std::string terminal_plot(const BudgetView& view, bool residuals, const Terminal
   for (std::size_t r = 0; r < rows.size(); ++r) out += left(labels[r], axis) + rows[r] + "\n";
   std::string line = left("", style.unicode ? "└" : "+");
   for (int c = 0; c < columns; ++c) line += style.unicode ? "─" : "-";
-  out += line + "\n" + time_labels(*plot, columns, style) + "\n";
+  out += line + "\n" + time_labels(*plot, columns) + "\n";
   if (residuals) {
     const std::string sigma = style.unicode ? "σ" : "sd";
     out += left("+" + sigma, axis) + residual_row(view, *plot, columns, true, style) + "\n";
