@@ -50,7 +50,8 @@ std::vector<Tick> LogAxis::fine_ticks(double label) const {
   std::vector<Tick> out = decade_ticks(label);
   if (decade_length * std::log10(2.0) < label) return out;
   for (Tick& tick : out) {
-    const double digit = std::round(tick.value / power(static_cast<int>(std::floor(std::log10(tick.value * 1.0001)))));
+    const double digit = std::round(
+        tick.value / power(static_cast<int>(std::floor(std::log10(tick.value * 1.0001)))));
     tick.major = digit == 1.0 || digit == 2.0 || digit == 5.0;
   }
   return out;

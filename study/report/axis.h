@@ -6,8 +6,8 @@
 
 namespace imunoise::report {
 
-/// A range of positive values that grows with what it is shown; zeros, negatives and non-finite values
-/// have no place on a logarithmic axis and are passed over.
+/// A range of positive values that grows with what it is shown; zeros, negatives and non-finite
+/// values have no place on a logarithmic axis and are passed over.
 class LogRange {
  public:
   void include(double value);
@@ -42,7 +42,8 @@ class LogAxis {
   /// Decades, and 2..9 times them while there is room; major where labels of `label` width fit.
   std::vector<Tick> decade_ticks(double label) const;
 
-  /// Where an axis spans few decades: 1, 2 and 5 times each decade are major if they fit, else decades.
+  /// Where an axis spans few decades: 1, 2 and 5 times each decade are major if they fit, else
+  /// decades.
   std::vector<Tick> fine_ticks(double label) const;
 
  private:

@@ -16,9 +16,8 @@ double at(const Doubles& values, int i) { return i < values.size() ? values[i] :
 bool is_time(double seconds) { return std::isfinite(seconds) && seconds > 0.0; }
 
 void sort_by_time(std::vector<ScaleView>& scales) {
-  std::stable_sort(scales.begin(), scales.end(), [](const ScaleView& a, const ScaleView& b) {
-    return a.seconds < b.seconds;
-  });
+  std::stable_sort(scales.begin(), scales.end(),
+                   [](const ScaleView& a, const ScaleView& b) { return a.seconds < b.seconds; });
 }
 
 std::vector<std::string> term_names(const v1::FitReport& report) {

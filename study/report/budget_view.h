@@ -25,7 +25,7 @@ struct ScaleView {
   double model = kMissing;     ///< In unit².
   double residual = kMissing;  ///< In standard deviations.
   bool tested = false;
-  std::vector<double> terms;   ///< One a term, in unit².
+  std::vector<double> terms;  ///< One a term, in unit².
 
   /// A residual larger than chance on a scale that takes part in the test.
   bool outside() const;
@@ -40,7 +40,7 @@ struct ReplicateView {
 };
 
 struct BudgetView {
-  std::vector<ScaleView> scales;  ///< In order of averaging time.
+  std::vector<ScaleView> scales;   ///< In order of averaging time.
   std::vector<std::string> terms;  ///< Names; terms of one name are numbered: "AR1 (1)", "AR1 (2)".
   std::vector<ReplicateView> replicates;
 };
@@ -55,7 +55,8 @@ struct AllanUnit {
   double variance(double deviation) const;  ///< Back.
 };
 
-/// Datasheet unit of a channel's Allan deviation (°/h, µg); the unit itself where none is customary.
+/// Datasheet unit of a channel's Allan deviation (°/h, µg); the unit itself where none is
+/// customary.
 AllanUnit allan_unit(const std::string& unit);
 
 /// "(rad/s)²", "T²"; "unit²" when the unit is unknown.

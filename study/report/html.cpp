@@ -17,10 +17,14 @@ constexpr double kPhone = 388.0;  // px, of figures on a phone
 
 std::string css_class(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kFits: return "fits";
-    case Verdict::kDoubtful: return "doubtful";
-    case Verdict::kFails: return "fails";
-    case Verdict::kUntested: break;
+    case Verdict::kFits:
+      return "fits";
+    case Verdict::kDoubtful:
+      return "doubtful";
+    case Verdict::kFails:
+      return "fails";
+    case Verdict::kUntested:
+      break;
   }
   return "untested";
 }
@@ -28,16 +32,16 @@ std::string css_class(Verdict verdict) {
 // A sign beside the colour: colours alone do not reach everybody.
 const char* sign(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kFits: return "✓";
-    case Verdict::kDoubtful: return "?";
-    case Verdict::kFails: return "✗";
-    case Verdict::kUntested: break;
+    case Verdict::kFits:
+      return "✓";
+    case Verdict::kDoubtful:
+      return "?";
+    case Verdict::kFails:
+      return "✗";
+    case Verdict::kUntested:
+      break;
   }
   return "–";
-}
-
-std::string channel_name(const v1::FitReport& report) {
-  return report.channel().empty() ? "unnamed channel" : report.channel();
 }
 
 // The same figure for desk and phone; the style sheet shows one of them.
@@ -56,21 +60,11 @@ std::string two_widths(Figure figure, const v1::FitReport& report, const std::st
 
 std::string heading(const v1::FitReport& report) {
   const Verdict v = verdict(report);
-  std::string facts = report.model();
-  const auto fact = [&facts](const std::string& text) {
-    if (!text.empty()) facts += " · " + text;
-  };
-  fact(report.quantity());
-  if (report.rate_hz() > 0.0) fact(fmt::format("{:g} Hz", report.rate_hz()));
-  if (report.replicates_size() > 0) {
-    fact(fmt::format("{} replicate{}", report.replicates_size(),
-                     report.replicates_size() == 1 ? "" : "s"));
-  }
   std::string out = fmt::format(
       "<div class=\"heading\"><h2>{}</h2><span class=\"badge {}\">{} {}</span></div>\n"
       "<p class=\"facts\">{}</p>\n",
-      escape_markup(channel_name(report)), css_class(v), sign(v), verdict_words(v),
-      escape_markup(facts));
+      escape_markup(channel_name(report.channel())), css_class(v), sign(v), verdict_words(v),
+      escape_markup(facts(report)));
   if (!report.summary().empty()) {
     out += fmt::format("<p class=\"summary\">{}</p>\n", escape_markup(report.summary()));
   }
@@ -84,7 +78,9 @@ std::string misfit_list(const v1::FitReport& report, const BudgetView& view) {
   for (const Misfit& misfit : misfits(view)) {
     out += "<li>" + escape_markup(misfit_words(view, misfit)) + "</li>\n";
   }
-  return out.empty() ? out : "<ul class=\"misfits\" aria-label=\"where the model fails\">\n" + out + "</ul>\n";
+  return out.empty()
+             ? out
+             : "<ul class=\"misfits\" aria-label=\"where the model fails\">\n" + out + "</ul>\n";
 }
 
 std::string legend(const v1::FitReport& report, const BudgetView& view) {
@@ -92,7 +88,8 @@ std::string legend(const v1::FitReport& report, const BudgetView& view) {
   std::string out = "<div class=\"legend\" role=\"group\" aria-label=\"show or hide terms\">";
   for (std::size_t t = 0; t < view.terms.size(); ++t) {
     out += fmt::format(
-        "<button type=\"button\" aria-pressed=\"true\" data-term=\"{}\"><span class=\"swatch term-{}\">"
+        "<button type=\"button\" aria-pressed=\"true\" data-term=\"{}\"><span class=\"swatch "
+        "term-{}\">"
         "</span>{} {}</button>",
         t, t % kTermStyles, escape_markup(view.terms[t]),
         escape_markup(report.terms(static_cast<int>(t)).title()));
@@ -100,13 +97,15 @@ std::string legend(const v1::FitReport& report, const BudgetView& view) {
   return out + "</div>\n";
 }
 
-std::string budget_figure(const v1::FitReport& report, const BudgetView& view, const std::string& id) {
+std::string budget_figure(const v1::FitReport& report, const BudgetView& view,
+                          const std::string& id) {
   return "<figure class=\"budget\">\n" + legend(report, view) +
          "<div class=\"plot\" tabindex=\"0\" role=\"group\" "
          "aria-label=\"noise budget; arrow keys read the scales one by one\">\n" +
          two_widths(budget_svg, report, id + "b") +
-         "</div>\n<dl class=\"readout\" aria-live=\"polite\"><span class=\"hint\">Point at the figure, or "
-         "use the arrow keys, to read a scale.</span></dl>\n<figcaption>" +
+         "</div>\n<div class=\"readout\" role=\"status\"><span class=\"hint\">Point at the figure, "
+         "or "
+         "use the arrow keys, to read a scale.</span></div>\n<figcaption>" +
          escape_markup(budget_caption(report)) + "</figcaption>\n</figure>\n";
 }
 
@@ -114,7 +113,8 @@ std::string replicates(const v1::FitReport& report, const std::string& id) {
   if (report.replicates_size() < 2) return {};
   return "<h3>Replicates</h3>\n<figure class=\"replicates\">\n" +
          two_widths(replicates_svg, report, id + "r") +
-         "<figcaption>Residual of each replicate in standard deviations under the model: orange above "
+         "<figcaption>Residual of each replicate in standard deviations under the model: orange "
+         "above "
          "it, blue below; a sign marks those beyond ±2 σ.</figcaption>\n</figure>\n";
 }
 
@@ -136,7 +136,7 @@ std::string section(const v1::FitReport& report, int index) {
   const std::string id = fmt::format("channel-{}", index);
   const BudgetView view = budget_view(report);
   return fmt::format("<section id=\"{}\" aria-label=\"{}\">\n", id,
-                     escape_markup(channel_name(report))) +
+                     escape_markup(channel_name(report.channel()))) +
          heading(report) + misfit_list(report, view) + budget_figure(report, view, id) +
          scale_table(report, view) + coefficient_table(report) + parameter_table(report) +
          replicates(report, id) + notes(report) + "<h3>How it was fitted</h3>\n" +
@@ -148,9 +148,10 @@ std::string navigation(const v1::FitReports& reports) {
   std::string out = "<nav aria-label=\"channels\">";
   for (int i = 0; i < reports.channels_size(); ++i) {
     const Verdict v = verdict(reports.channels(i));
-    out += fmt::format("<a href=\"#channel-{}\"><span class=\"mark {}\" title=\"{}\">{}</span>{}</a>", i,
-                       css_class(v), verdict_words(v), sign(v),
-                       escape_markup(channel_name(reports.channels(i))));
+    out +=
+        fmt::format("<a href=\"#channel-{}\"><span class=\"mark {}\" title=\"{}\">{}</span>{}</a>",
+                    i, css_class(v), verdict_words(v), sign(v),
+                    escape_markup(channel_name(reports.channels(i).channel())));
   }
   return out + "</nav>\n";
 }
@@ -160,11 +161,12 @@ std::string navigation(const v1::FitReports& reports) {
 std::string html_page(const v1::FitReports& reports) {
   std::string title = "Noise budget";
   for (const v1::FitReport& report : reports.channels()) {
-    title += (title == "Noise budget" ? " of " : ", ") + channel_name(report);
+    title += (title == "Noise budget" ? " of " : ", ") + channel_name(report.channel());
   }
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<title>{}</title>\n"
       "<style>\n{}{}{}</style>\n</head>\n<body>\n<h1 class=\"brand\">imunoise: noise budget</h1>\n",
       escape_markup(title), kPaletteCss, kPlotCss, kPageCss);
   out += navigation(reports) + "<main>\n";

@@ -43,9 +43,9 @@ std::string parameter_cells(const v1::Parameter& p) {
       p.observability() == v1::upper_bound_only || p.observability() == v1::indistinguishable
           ? "open"
           : "quiet";
-  std::string out = markup_cell("", fmt::format("{}<span class=\"explain\">{}</span>",
-                                                escape_markup(p.name()),
-                                                escape_markup(p.meaning())));
+  std::string out =
+      markup_cell("", fmt::format("{}<span class=\"explain\">{}</span>", escape_markup(p.name()),
+                                  escape_markup(p.meaning())));
   out += cell("number", rounded(p.value(), p.lower(), p.upper(), kStyle));
   out += cell("number", bound ? "below " + number(p.upper(), 2, kStyle)
                               : interval(p.value(), p.lower(), p.upper(), kStyle));
@@ -61,7 +61,8 @@ std::string parameter_table(const v1::FitReport& report) {
   for (std::size_t t = 0; t < names.size(); ++t) {
     const v1::Term& term = report.terms(static_cast<int>(t));
     const std::string title = fmt::format(
-        "<td class=\"term\" rowspan=\"{}\"><span class=\"swatch term-{}\"></span><strong>{}</strong> {}"
+        "<td class=\"term\" rowspan=\"{}\"><span class=\"swatch "
+        "term-{}\"></span><strong>{}</strong> {}"
         "<span class=\"explain\">{}</span></td>",
         std::max(1, term.parameters_size()), t % kTermStyles, escape_markup(names[t]),
         escape_markup(term.title()), escape_markup(term.meaning()));
@@ -72,7 +73,8 @@ std::string parameter_table(const v1::FitReport& report) {
   }
   if (rows.empty()) return {};
   return "<h3>Parameters, per sample</h3>\n<div class=\"scroll\"><table>" +
-         head({"term", "parameter", "value", interval_title(report), "unit", "do the data show it?"}) +
+         head({"term", "parameter", "value", interval_title(report), "unit",
+               "do the data show it?"}) +
          "<tbody>" + rows + "</tbody></table></div>\n";
 }
 
@@ -82,11 +84,10 @@ std::string coefficient_table(const v1::FitReport& report) {
     for (const v1::Coefficient& c : term.coefficients()) {
       rows += "<tr>" + markup_cell("", "<strong>" + escape_markup(c.symbol()) + "</strong>") +
               cell("", c.title());
-      const std::string sheet = with_interval(c.datasheet_value(), c.datasheet_lower(),
-                                              c.datasheet_upper(), kStyle);
-      rows += c.datasheet_unit().empty()
-                  ? cell("quiet", "none is customary")
-                  : cell("number", sheet + " " + c.datasheet_unit());
+      const std::string sheet =
+          with_interval(c.datasheet_value(), c.datasheet_lower(), c.datasheet_upper(), kStyle);
+      rows += c.datasheet_unit().empty() ? cell("quiet", "none is customary")
+                                         : cell("number", sheet + " " + c.datasheet_unit());
       rows += cell("number", with_interval(c.value(), c.lower(), c.upper(), kStyle) + " " +
                                  unit_text(c.unit()));
       rows += "</tr>\n";
@@ -105,11 +106,12 @@ std::string scale_table(const v1::FitReport& report, const BudgetView& view) {
   for (const std::string& term : view.terms) titles.push_back(term + " share");
   std::string rows;
   for (const ScaleView& scale : view.scales) {
-    rows += "<tr>" + cell("number", duration(scale.seconds)) +
-            cell("number", with_interval(scale.measured, scale.lower, scale.upper, kStyle)) +
-            cell("number", number(scale.model, 4, kStyle)) +
-            cell(scale.outside() ? "number outside" : "number",
-                 signed_sigma(scale.residual, kStyle) + " σ" + (scale.tested ? "" : " (not tested)"));
+    rows +=
+        "<tr>" + cell("number", duration(scale.seconds)) +
+        cell("number", with_interval(scale.measured, scale.lower, scale.upper, kStyle)) +
+        cell("number", number(scale.model, 4, kStyle)) +
+        cell(scale.outside() ? "number outside" : "number",
+             signed_sigma(scale.residual, kStyle) + " σ" + (scale.tested ? "" : " (not tested)"));
     for (std::size_t t = 0; t < view.terms.size(); ++t) {
       rows += cell("number", percent(scale.share(t)));
     }
@@ -132,9 +134,9 @@ std::string provenance(const v1::FitReport& report) {
   fact("weights", report.weights());
   fact("objective", number(report.objective(), 4, kStyle));
   if (verdict(report) != Verdict::kUntested) {
-    fact("J statistic", fmt::format("{} with {} degrees of freedom",
-                                    number(report.j_statistic(), 4, kStyle),
-                                    report.degrees_of_freedom()));
+    fact("J statistic",
+         fmt::format("{} with {} degrees of freedom", number(report.j_statistic(), 4, kStyle),
+                     report.degrees_of_freedom()));
     fact("p-value", number(report.p_value(), 2, kStyle));
   }
   fact("search ended", report.termination());

@@ -6,10 +6,10 @@
 namespace imunoise::report {
 namespace {
 
-constexpr double kStep = 4.0;             // px between points of a resampled curve
-constexpr double kClearance = 5.0;       // px between a curve and its name
-constexpr double kCrossed = 60.0;        // cost of a point of another curve under the name
-constexpr double kFromRightEnd = 0.1;    // cost a px away from the right end
+constexpr double kStep = 4.0;          // px between points of a resampled curve
+constexpr double kClearance = 5.0;     // px between a curve and its name
+constexpr double kCrossed = 60.0;      // cost of a point of another curve under the name
+constexpr double kFromRightEnd = 0.1;  // cost a px away from the right end
 
 // Points at most kStep apart along a polyline, those inside the frame only.
 std::vector<Point> resample(const std::vector<Point>& curve, const Box& frame) {
@@ -24,7 +24,8 @@ std::vector<Point> resample(const std::vector<Point>& curve, const Box& frame) {
       if (frame.contains({p.x, p.y, p.x, p.y})) out.push_back(p);
     }
   }
-  if (curve.size() > 1 && frame.contains({curve.back().x, curve.back().y, curve.back().x, curve.back().y})) {
+  if (curve.size() > 1 &&
+      frame.contains({curve.back().x, curve.back().y, curve.back().x, curve.back().y})) {
     out.push_back(curve.back());
   }
   return out;
@@ -57,7 +58,8 @@ std::vector<CurveLabel> place_labels(const std::vector<std::vector<Point>>& curv
           const Box box = text_box({on_curve.x + gap, baseline}, names[c], size, anchor);
           const auto collides = [&](const CurveLabel& other) { return box.overlaps(other.box); };
           if (!frame.contains(box) || std::any_of(placed.begin(), placed.end(), collides)) continue;
-          double cost = kFromRightEnd * (frame.right - on_curve.x) + kCrossed * covered(box, obstacles);
+          double cost =
+              kFromRightEnd * (frame.right - on_curve.x) + kCrossed * covered(box, obstacles);
           for (const auto& line : lines) cost += kCrossed * covered(box, line);
           if (cost < best_cost) {
             best_cost = cost;

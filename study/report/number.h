@@ -12,12 +12,13 @@ enum class Digits {
   kTypeset,  ///< "−1.2×10⁻⁹": true minus sign and superscripts.
 };
 
-/// `value` with so many significant digits; scientific below 1e-3 and from 1e5. "n/a" if not finite.
+/// `value` with so many significant digits; scientific below 1e-3 and from 1e5. "n/a" if not
+/// finite.
 std::string number(double value, int significant, Digits style);
 
-/// Value and interval rounded to the interval's precision (two digits of its half-width when they are
-/// 10 to 35, else one): "0.1175 (0.1171 … 0.1180)", "3.21 (3.15 … 3.27) ×10⁻⁹". The value alone, with four
-/// significant digits, when there is no interval (lower ≥ upper, or not finite).
+/// Value and interval rounded to the interval's precision (two digits of its half-width when they
+/// are 10 to 35, else one): "0.1175 (0.1171 … 0.1180)", "3.21 (3.15 … 3.27) ×10⁻⁹". The value
+/// alone, with four significant digits, when there is no interval (lower ≥ upper, or not finite).
 std::string with_interval(double value, double lower, double upper, Digits style);
 
 /// The value alone, rounded alike: "0.1175".

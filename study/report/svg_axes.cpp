@@ -8,10 +8,10 @@
 namespace imunoise::report {
 namespace {
 
-constexpr double kTickLength = 5.0;       // px
-constexpr double kBaselineShift = 4.0;    // px from the middle of a line of text to its baseline
-constexpr double kLabelHeight = 20.0;     // px a label needs on a vertical axis
-constexpr double kLabelWidth = 42.0;      // px a label needs on a horizontal axis
+constexpr double kTickLength = 5.0;     // px
+constexpr double kBaselineShift = 4.0;  // px from the middle of a line of text to its baseline
+constexpr double kLabelHeight = 20.0;   // px a label needs on a vertical axis
+constexpr double kLabelWidth = 42.0;    // px a label needs on a horizontal axis
 
 int exponent_of(double decade) { return static_cast<int>(std::lround(std::log10(decade))); }
 
@@ -56,7 +56,8 @@ void draw_variance_axes(SvgWriter& svg, const BudgetLayout& layout, const std::s
   const bool narrow = layout.width < kNarrow;
   const double y = frame.top - 14.0;
   // Units may come from a file: each title keeps to its half.
-  const auto half = static_cast<std::size_t>((0.5 * layout.width - 8.0) / text_width("x", kTextSize));
+  const auto half =
+      static_cast<std::size_t>((0.5 * layout.width - 8.0) / text_width("x", kTextSize));
   const auto title = [&](Point at, const std::string& text, Anchor anchor) {
     svg.text("axis-title", at, shorten(clean_text(text), half), kTextSize, anchor);
   };

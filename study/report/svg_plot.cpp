@@ -51,10 +51,12 @@ void draw_band(SvgWriter& svg, const BudgetView& view, const BudgetLayout& layou
   std::vector<Point> upper;
   std::vector<Point> lower;
   for (const ScaleView& scale : view.scales) {
-    if (!drawable(scale.upper) || !drawable(scale.measured) || !std::isfinite(scale.lower)) continue;
+    if (!drawable(scale.upper) || !drawable(scale.measured) || !std::isfinite(scale.lower))
+      continue;
     const double x = layout.time(scale.seconds);
     const double floor = layout.budget.bottom;
-    const double low = drawable(scale.lower) ? std::min(floor, layout.variance(scale.lower)) : floor;
+    const double low =
+        drawable(scale.lower) ? std::min(floor, layout.variance(scale.lower)) : floor;
     upper.push_back({x, layout.variance(scale.upper)});
     lower.push_back({x, low});
   }
@@ -119,6 +121,10 @@ void draw_budget(SvgWriter& svg, const BudgetView& view, const BudgetLayout& lay
                  const std::string& unit) {
   draw_time_grid(svg, layout.time, layout.budget);
   draw_variance_axes(svg, layout, unit);
+  if (view.scales.empty()) {
+    svg.text("note", {0.5 * (layout.budget.left + layout.budget.right), layout.budget.top + 60.0},
+             "no scales to draw", kTextSize, Anchor::kMiddle);
+  }
   draw_band(svg, view, layout);
   draw_replicates(svg, view, layout);
   const auto measured = curve(view.scales, layout, [](const ScaleView& s) { return s.measured; });
@@ -127,14 +133,17 @@ void draw_budget(SvgWriter& svg, const BudgetView& view, const BudgetLayout& lay
   svg.path("model", model);
   for (const ScaleView& scale : view.scales) {
     if (!drawable(scale.measured)) continue;
-    svg.circle(scale.outside() ? "measured outside" : scale.tested ? "measured" : "measured untested",
+    svg.circle(scale.outside() ? "measured outside"
+               : scale.tested  ? "measured"
+                               : "measured untested",
                {layout.time(scale.seconds), layout.variance(scale.measured)}, kPointRadius);
   }
   if (!absent.empty()) {
     const std::size_t columns = static_cast<std::size_t>(
         (layout.budget.right - layout.budget.left) / text_width("x", kNoteSize));
     svg.text("note", {layout.budget.left, layout.budget.bottom + 17.0},
-             shorten(clean_text("too small to draw: " + absent), columns), kNoteSize, Anchor::kStart);
+             shorten(clean_text("too small to draw: " + absent), columns), kNoteSize,
+             Anchor::kStart);
   }
 }
 
@@ -144,17 +153,10 @@ void draw_columns(SvgWriter& svg, const BudgetView& view, const BudgetLayout& la
                   layout.residual.bottom};
   svg.line("guide", {frame.left, frame.top}, {frame.left, frame.bottom});
   for (std::size_t k = 0; k < view.scales.size(); ++k) {
-    svg.rect("column", column_of(view, layout.time, k, frame),
-             fmt::format("data-scale=\"{}\" data-x=\"{:.2f}\"", k,
-                         layout.time(view.scales[k].seconds)));
+    svg.rect(
+        "column", column_of(view, layout.time, k, frame),
+        fmt::format("data-scale=\"{}\" data-x=\"{:.2f}\"", k, layout.time(view.scales[k].seconds)));
   }
-}
-
-std::string facts(const v1::FitReport& report) {
-  std::string out = report.model();
-  if (report.replicates_size() > 1) out += fmt::format("  ·  {} replicates", report.replicates_size());
-  if (report.rate_hz() > 0.0) out += fmt::format("  ·  {:g} Hz", report.rate_hz());
-  return out + "  ·  " + std::string(verdict_words(verdict(report)));
 }
 
 }  // namespace
@@ -162,7 +164,8 @@ std::string facts(const v1::FitReport& report) {
 std::string budget_caption(const v1::FitReport& report) {
   const BudgetView view = budget_view(report);
   std::string out =
-      "Haar wavelet variance ν against its averaging time 2m/f. The right-hand scale reads the same "
+      "Haar wavelet variance ν against its averaging time 2m/f. The right-hand scale reads the "
+      "same "
       "points as Allan deviation √(2ν), whose own averaging time m/f is half of the one below. ";
   if (std::isfinite(report.confidence()) && report.confidence() > 0.0) {
     out += "Shaded: " + percent(report.confidence()) + " confidence. ";
@@ -206,8 +209,11 @@ std::string budget_svg(const v1::FitReport& report, const SvgOptions& options) {
       const double columns = (options.width - 8.0) / text_width("x", size);
       return shorten(clean_text(text), static_cast<std::size_t>(columns));
     };
-    svg.text("title", {4.0, 22.0}, fits(report.channel(), kTitleSize), kTitleSize, Anchor::kStart);
-    svg.text("subtitle", {4.0, 43.0}, fits(facts(report), kTextSize), kTextSize, Anchor::kStart);
+    svg.text("title", {4.0, 22.0}, fits(channel_name(report.channel()), kTitleSize), kTitleSize,
+             Anchor::kStart);
+    const std::string words(verdict_words(verdict(report)));
+    svg.text("subtitle", {4.0, 43.0}, fits(words + ": " + facts(report), kTextSize), kTextSize,
+             Anchor::kStart);
   }
   draw_key(svg, view, 4.0, key_row);
   draw_misfits(svg, report, view, layout);

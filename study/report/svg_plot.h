@@ -1,6 +1,7 @@
 #pragma once
 
-// The figures: the noise budget with its residual strip, and the replicates' residuals as a heat map.
+// The figures: the noise budget with its residual strip, and the replicates' residuals as a heat
+// map.
 
 #include <string>
 
@@ -9,19 +10,20 @@
 namespace imunoise::report {
 
 enum class SvgVariant {
-  kStandalone,  ///< A file for papers: white background, title and caption, its own style, no script.
-  kInline,      ///< Part of the page: colours from its style sheet, columns that the pointer can find.
+  kStandalone,  ///< A file for papers: white background, title and caption, its own style, no
+                ///< script.
+  kInline,  ///< Part of the page: colours from its style sheet, columns that the pointer can find.
 };
 
 struct SvgOptions {
   SvgVariant variant = SvgVariant::kStandalone;
-  double width = 900.0;   ///< px; below 600 the figure is laid out for phones.
-  std::string id = "f";   ///< Makes the ids of several figures on one page differ.
+  double width = 900.0;  ///< px; below 600 the figure is laid out for phones.
+  std::string id = "f";  ///< Makes the ids of several figures on one page differ.
 };
 
-/// The noise budget: wavelet variance over averaging time, measured (95 % intervals) against the model,
-/// its terms and the replicates; below it the residuals in standard deviations. Zeros, gaps and empty
-/// reports are drawn as far as a logarithmic axis can show them.
+/// The noise budget: wavelet variance over averaging time, measured (95 % intervals) against the
+/// model, its terms and the replicates; below it the residuals in standard deviations. Zeros, gaps
+/// and empty reports are drawn as far as a logarithmic axis can show them.
 std::string budget_svg(const v1::FitReport& report, const SvgOptions& options = {});
 
 /// One row a replicate, one cell a scale: the residual's sign and size. Empty without replicates.

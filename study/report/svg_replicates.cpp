@@ -22,11 +22,15 @@ constexpr double kFullColour = 6.0;  // σ
 std::string cell_class(double residual) {
   const int step = std::min(static_cast<int>(kSteps),
                             static_cast<int>(kSteps * std::abs(residual) / kFullColour + 0.5));
-  return fmt::format("cell {}{}", step == 0 ? "zero" : residual > 0.0 ? "plus" : "minus",
+  return fmt::format("cell {}{}",
+                     step == 0        ? "zero"
+                     : residual > 0.0 ? "plus"
+                                      : "minus",
                      step == 0 ? "" : std::to_string(step));
 }
 
-void draw_row(SvgWriter& svg, const ReplicateView& replicate, const LogAxis& time, const Box& frame) {
+void draw_row(SvgWriter& svg, const ReplicateView& replicate, const LogAxis& time,
+              const Box& frame) {
   BudgetView row;
   row.scales = replicate.scales;
   for (std::size_t k = 0; k < row.scales.size(); ++k) {
@@ -44,8 +48,8 @@ void draw_row(SvgWriter& svg, const ReplicateView& replicate, const LogAxis& tim
     svg.rect(cell_class(residual), box);
     const double width = box.right - box.left;
     if (std::abs(residual) > kSigmaLimit && width > 7.0) {
-      const std::string mark = width > 26.0 ? signed_sigma(residual, Digits::kTypeset)
-                                            : (residual > 0.0 ? "+" : "−");
+      const std::string mark =
+          width > 26.0 ? signed_sigma(residual, Digits::kTypeset) : (residual > 0.0 ? "+" : "−");
       svg.text("cell-mark", {0.5 * (box.left + box.right), box.bottom - 6.0}, mark, 10.0,
                Anchor::kMiddle);
     }

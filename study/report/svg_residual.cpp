@@ -34,7 +34,9 @@ void draw_untested(SvgWriter& svg, const BudgetView& view, const BudgetLayout& l
 
 void draw_sigma_axis(SvgWriter& svg, const BudgetLayout& layout) {
   const Box& frame = layout.residual;
-  svg.rect("chance", {frame.left, layout.sigma(kSigmaLimit), frame.right, layout.sigma(-kSigmaLimit)});
+  svg.rect("chance",
+           {frame.left, layout.sigma(kSigmaLimit), frame.right, layout.sigma(-kSigmaLimit)});
+  draw_time_grid(svg, layout.time, frame);
   double previous = frame.bottom + 100.0;
   for (const double sigma : layout.sigma.ticks()) {
     const double y = layout.sigma(sigma);
@@ -58,7 +60,6 @@ void draw_residuals(SvgWriter& svg, const BudgetView& view, const BudgetLayout& 
   const Box& frame = layout.residual;
   svg.raw(hatch(id));
   draw_sigma_axis(svg, layout);
-  draw_time_grid(svg, layout.time, frame);
   draw_untested(svg, view, layout, id);
   for (const ScaleView& scale : view.scales) {
     if (!std::isfinite(scale.residual)) continue;
@@ -74,7 +75,8 @@ void draw_misfits(SvgWriter& svg, const v1::FitReport& report, const BudgetView&
                   const BudgetLayout& layout) {
   // When the test passes, a scale beyond 2σ is the one in twenty that chance puts there.
   if (const Verdict v = verdict(report); v == Verdict::kFits || v == Verdict::kUntested) return;
-  const Box both{layout.budget.left, layout.budget.top, layout.budget.right, layout.residual.bottom};
+  const Box both{layout.budget.left, layout.budget.top, layout.budget.right,
+                 layout.residual.bottom};
   for (const Misfit& misfit : misfits(view)) {
     Box box = column_of(view, layout.time, misfit.first, both);
     box.right = column_of(view, layout.time, misfit.last, both).right;

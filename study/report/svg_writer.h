@@ -44,7 +44,8 @@ class SvgWriter {
   void circle(std::string_view css_class, Point centre, double radius);
   void path(std::string_view css_class, const std::vector<Point>& points, bool closed = false);
   /// `text` is escaped here.
-  void text(std::string_view css_class, Point at, std::string_view text, double size, Anchor anchor);
+  void text(std::string_view css_class, Point at, std::string_view text, double size,
+            Anchor anchor);
   /// 10 to the power of an exponent, as a raised number.
   void power_of_ten(std::string_view css_class, Point at, int exponent, double size, Anchor anchor);
   const std::string& str() const { return out_; }

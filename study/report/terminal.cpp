@@ -24,10 +24,13 @@ TerminalStyle usable(TerminalStyle style) {
 
 Ink ink_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kFits: return Ink::kGood;
+    case Verdict::kFits:
+      return Ink::kGood;
     case Verdict::kDoubtful:
-    case Verdict::kFails: return Ink::kAlarm;
-    case Verdict::kUntested: break;
+    case Verdict::kFails:
+      return Ink::kAlarm;
+    case Verdict::kUntested:
+      break;
   }
   return Ink::kQuiet;
 }
@@ -110,8 +113,9 @@ std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
   const TerminalStyle style = usable(wanted);
   const BudgetView view = budget_view(report);
   const Verdict v = verdict(report);
-  std::string out = title(report.channel() + ": " + report.model() + ": " +
-                              std::string(verdict_words(v)), style);
+  std::string out = title(
+      channel_name(report.channel()) + " " + std::string(verdict_words(v)) + ": " + facts(report),
+      style);
   if (!report.summary().empty()) out += paragraph(report.summary(), Ink::kPlain, style);
   out += "\n" + terminal_plot(view, true, style) + marks(report, style);
   out += "\n" + paragraph(verdict_sentence(report), ink_of(v), style);
@@ -135,12 +139,14 @@ std::string wv_text(const v1::WaveletVarianceReport& report, const TerminalStyle
                     duration(0.5 * scale.seconds),
                     number(allan.deviation(scale.measured), 3, kStyle) + " " + allan.unit});
   }
-  std::string out = title(fmt::format("{}: wavelet variance, {} estimator", report.channel(),
-                                      report.estimator()), style);
+  std::string out = title(fmt::format("{}: wavelet variance, {} estimator",
+                                      channel_name(report.channel()), report.estimator()),
+                          style);
   out += "\n" + terminal_plot(view, false, style) + "\n";
   if (rows.empty()) return out;
-  return out + terminal_table({"over", "variance, " + squared(report.unit()), "Allan tau",
-                               "Allan deviation"}, rows, style);
+  return out + terminal_table(
+                   {"over", "variance, " + squared(report.unit()), "Allan tau", "Allan deviation"},
+                   rows, style);
 }
 
 }  // namespace imunoise::report

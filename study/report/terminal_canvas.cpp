@@ -12,18 +12,25 @@ namespace {
 constexpr char32_t kBraille = 0x2800;
 
 // Bit of the dot at (column, row) of a braille character, by Unicode's numbering.
-constexpr std::array<std::array<unsigned, 4>, 2> kDots = {{{0x01, 0x02, 0x04, 0x40},
-                                                           {0x08, 0x10, 0x20, 0x80}}};
+constexpr std::array<std::array<unsigned, 4>, 2> kDots = {
+    {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}}};
 
 std::string_view ansi(Ink ink) {
   switch (ink) {
-    case Ink::kPlain: break;
-    case Ink::kModel: return "\x1b[34m";
-    case Ink::kMeasured: return "\x1b[1m";
-    case Ink::kAlarm: return "\x1b[1;31m";
-    case Ink::kQuiet: return "\x1b[2m";
-    case Ink::kGood: return "\x1b[32m";
-    case Ink::kStrong: return "\x1b[1m";
+    case Ink::kPlain:
+      break;
+    case Ink::kModel:
+      return "\x1b[34m";
+    case Ink::kMeasured:
+      return "\x1b[1m";
+    case Ink::kAlarm:
+      return "\x1b[1;31m";
+    case Ink::kQuiet:
+      return "\x1b[2m";
+    case Ink::kGood:
+      return "\x1b[32m";
+    case Ink::kStrong:
+      return "\x1b[1m";
   }
   return {};
 }

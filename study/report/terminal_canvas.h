@@ -18,8 +18,8 @@ enum class Ink { kPlain, kModel, kMeasured, kAlarm, kQuiet, kGood, kStrong };
 /// `text` in a colour, if the style has any.
 std::string inked(std::string_view text, Ink ink, const TerminalStyle& style);
 
-/// A drawing in characters: curves in braille dots (2 × 4 a character; in ASCII one '.' a character), and
-/// marks that cover them.
+/// A drawing in characters: curves in braille dots (2 × 4 a character; in ASCII one '.' a
+/// character), and marks that cover them.
 class TerminalCanvas {
  public:
   TerminalCanvas(int columns, int rows, const TerminalStyle& style);

@@ -36,9 +36,7 @@ std::optional<Plot> plot_of(const BudgetView& view, int columns) {
               LogAxis(variances.low() / 1.3, variances.high() * 1.3, kRows, 0.0)};
 }
 
-Ink ink_of(const ScaleView& scale) {
-  return scale.outside() ? Ink::kAlarm : Ink::kMeasured;
-}
+Ink ink_of(const ScaleView& scale) { return scale.outside() ? Ink::kAlarm : Ink::kMeasured; }
 
 std::string_view mark_of(const ScaleView& scale, const TerminalStyle& style) {
   if (scale.outside()) return style.unicode ? "◆" : "x";
@@ -92,7 +90,8 @@ std::string time_labels(const Plot& plot, int columns) {
     const std::string label = tick_label(tick.value) + " s";
     const auto at = static_cast<std::size_t>(kMargin + plot.time(tick.value));
     const std::size_t used = display_width(out);
-    if (at < used || at + display_width(label) > static_cast<std::size_t>(kMargin + columns)) continue;
+    if (at < used || at + display_width(label) > static_cast<std::size_t>(kMargin + columns))
+      continue;
     out += std::string(at - used, ' ') + label;
   }
   return out;

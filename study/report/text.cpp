@@ -10,7 +10,8 @@ namespace {
 
 bool is_control(char32_t c) {
   const bool c0_c1 = c < 0x20 || (c >= 0x7F && c < 0xA0);
-  // Characters that reorder the text after them or hide in it, and those that XML 1.0 does not allow.
+  // Characters that reorder the text after them or hide in it, and those that XML 1.0 does not
+  // allow.
   const bool invisible = (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
                          (c >= 0x2066 && c <= 0x2069) || c == 0xFEFF || (c & 0xFFFEU) == 0xFFFEU;
   return c0_c1 || invisible;
@@ -29,10 +30,10 @@ std::size_t columns_of(char32_t c) {
 
 std::string_view ascii_spelling(char32_t c) {
   static constexpr std::array<std::pair<char32_t, std::string_view>, 24> kSpellings = {{
-      {U'°', "deg"}, {U'µ', "u"},   {U'μ', "u"},   {U'²', "^2"}, {U'³', "^3"}, {U'≈', "~"},
-      {U'σ', "s"},   {U'ν', "v"},   {U'φ', "phi"}, {U'γ', "g"},  {U'ω', "w"},  {U'τ', "tau"},
-      {U'χ', "chi"}, {U'±', "+-"},  {U'×', "x"},   {U'·', "*"},  {U'−', "-"},  {U'–', "-"},
-      {U'—', "-"},   {U'…', ".."},  {U'≥', ">="},  {U'≤', "<="}, {U'‘', "'"}, {U'’', "'"},
+      {U'°', "deg"}, {U'µ', "u"},  {U'μ', "u"},   {U'²', "^2"}, {U'³', "^3"}, {U'≈', "~"},
+      {U'σ', "s"},   {U'ν', "v"},  {U'φ', "phi"}, {U'γ', "g"},  {U'ω', "w"},  {U'τ', "tau"},
+      {U'χ', "chi"}, {U'±', "+-"}, {U'×', "x"},   {U'·', "*"},  {U'−', "-"},  {U'–', "-"},
+      {U'—', "-"},   {U'…', ".."}, {U'≥', ">="},  {U'≤', "<="}, {U'‘', "'"},  {U'’', "'"},
   }};
   const auto* const found = std::find_if(kSpellings.begin(), kSpellings.end(),
                                          [c](const auto& spelling) { return spelling.first == c; });
@@ -92,12 +93,23 @@ std::string escape_markup(std::string_view text) {
   std::string out;
   for (const char c : clean_text(text)) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;

@@ -25,11 +25,17 @@ std::string_view verdict_words(Verdict verdict);
 /// One sentence that says what the p-value means.
 std::string verdict_sentence(const v1::FitReport& report);
 
+/// The model and what it was fitted to: "WN + RW · angular rate · 100 Hz · 6 replicates".
+std::string facts(const v1::FitReport& report);
+
+/// The channel's name, or words in its place.
+std::string channel_name(const std::string& channel);
+
 /// Neighbouring tested scales whose residuals leave ±2σ on the same side.
 struct Misfit {
-  std::size_t first = 0;     ///< Index into BudgetView::scales.
-  std::size_t last = 0;      ///< Inclusive.
-  std::size_t worst = 0;     ///< Where the residual is largest.
+  std::size_t first = 0;  ///< Index into BudgetView::scales.
+  std::size_t last = 0;   ///< Inclusive.
+  std::size_t worst = 0;  ///< Where the residual is largest.
 };
 std::vector<Misfit> misfits(const BudgetView& view);
 

@@ -9,8 +9,8 @@ Element parse_tag(const std::string& tag) {
   Element out;
   out.name = tag.substr(0, tag.find_first_of(" \n/"));
   static const std::regex kAttribute("([\\w:-]+)=\"([^\"<]*)\"");
-  for (auto it = std::sregex_iterator(tag.begin(), tag.end(), kAttribute); it != std::sregex_iterator();
-       ++it) {
+  for (auto it = std::sregex_iterator(tag.begin(), tag.end(), kAttribute);
+       it != std::sregex_iterator(); ++it) {
     out.attributes[(*it)[1]] = (*it)[2];
   }
   return out;
@@ -50,7 +50,8 @@ Markup read_markup(const std::string& source) {
       continue;
     }
     out.elements.push_back(parse_tag(tag));
-    if (tag.back() != '/' && out.elements.back().name != "meta") open.push_back(out.elements.size() - 1);
+    if (tag.back() != '/' && out.elements.back().name != "meta")
+      open.push_back(out.elements.size() - 1);
   }
   if (!open.empty()) out.error = "not closed: " + out.elements[open.back()].name;
   return out;

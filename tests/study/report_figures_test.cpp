@@ -39,7 +39,8 @@ std::size_t count_class(const Markup& markup, const std::string& css_class) {
 std::vector<Point> points_of(const Element& element) {
   std::vector<Point> out;
   if (element.name == "line") {
-    out = {{value(element, "x1"), value(element, "y1")}, {value(element, "x2"), value(element, "y2")}};
+    out = {{value(element, "x1"), value(element, "y1")},
+           {value(element, "x2"), value(element, "y2")}};
   } else if (element.name == "circle") {
     out = {{value(element, "cx"), value(element, "cy")}};
   } else if (element.name == "rect" && element.attributes.at("class") != "paper") {
@@ -50,7 +51,8 @@ std::vector<Point> points_of(const Element& element) {
   } else if (element.name == "path") {
     static const std::regex kPair("[ML](-?[0-9.]+),(-?[0-9.]+)");
     const std::string& d = element.attributes.at("d");
-    for (auto it = std::sregex_iterator(d.begin(), d.end(), kPair); it != std::sregex_iterator(); ++it) {
+    for (auto it = std::sregex_iterator(d.begin(), d.end(), kPair); it != std::sregex_iterator();
+         ++it) {
       out.push_back({std::stod((*it)[1]), std::stod((*it)[2])});
     }
     EXPECT_FALSE(out.empty());
@@ -64,7 +66,9 @@ std::vector<std::pair<std::string, Box>> text_boxes(const Markup& markup) {
   for (const Element& element : markup.elements) {
     if (element.name != "text") continue;
     const std::string& at = element.attributes.at("text-anchor");
-    const Anchor anchor = at == "start" ? Anchor::kStart : at == "end" ? Anchor::kEnd : Anchor::kMiddle;
+    const Anchor anchor = at == "start" ? Anchor::kStart
+                          : at == "end" ? Anchor::kEnd
+                                        : Anchor::kMiddle;
     static const std::regex kEntity("&[a-z#0-9]+;");
     const std::string text = std::regex_replace(element.text, kEntity, "x");
     out.emplace_back(text, text_box({value(element, "x"), value(element, "y")}, text,
@@ -76,7 +80,8 @@ std::vector<std::pair<std::string, Box>> text_boxes(const Markup& markup) {
 TEST(Figures, AreWellFormedAndInsideTheCanvas) {
   for (const v1::FitReport& report : all_samples()) {
     for (const SvgOptions& options : all_options()) {
-      for (const std::string& svg : {budget_svg(report, options), replicates_svg(report, options)}) {
+      for (const std::string& svg :
+           {budget_svg(report, options), replicates_svg(report, options)}) {
         if (svg.empty()) continue;
         const Markup markup = read_markup(svg);
         ASSERT_EQ(markup.error, "") << report.channel();
@@ -131,7 +136,8 @@ TEST(Figures, PointsStandWhereTheirNumbersSay) {
   const double log_low = std::log(layout.variance.low());
   const double log_high = std::log(layout.variance.high());
   for (std::size_t k = 0; k < measured.size(); ++k) {
-    const double up = (layout.budget.bottom - measured[k].y) / (layout.budget.bottom - layout.budget.top);
+    const double up =
+        (layout.budget.bottom - measured[k].y) / (layout.budget.bottom - layout.budget.top);
     const double read = std::exp(log_low + up * (log_high - log_low));
     EXPECT_NEAR(read / view.scales[k].measured, 1.0, 0.001);
   }

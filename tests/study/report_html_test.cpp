@@ -1,9 +1,8 @@
-#include "study/report/html.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "study/report/html.h"
 #include "study/report/verdict.h"
 #include "tests/study/markup_check.h"
 #include "tests/study/sample_report.h"
@@ -72,7 +71,8 @@ TEST(HtmlPage, TableHasARowForEveryColumnOfTheFigure) {
   for (const Element& element : markup.elements) {
     const auto css = element.attributes.find("class");
     if (css != element.attributes.end() && css->second == "column") ++columns;
-    if (element.name == "table") in_scales = css != element.attributes.end() && css->second == "scales";
+    if (element.name == "table")
+      in_scales = css != element.attributes.end() && css->second == "scales";
     if (element.name == "tr" && in_scales) ++rows;
   }
   EXPECT_EQ(columns, 2U * 18U);  // desk and phone

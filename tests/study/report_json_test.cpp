@@ -1,11 +1,10 @@
-#include "study/report/json.h"
-
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "study/report/json.h"
 #include "tests/study/sample_report.h"
 
 namespace imunoise::report {
@@ -16,7 +15,8 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST(Json, ProtobufReadsBackTheSameMessage) {
-  for (const v1::FitReport& report : {good_gyro(), bounded_gyro(), dense_unknown_unit(), v1::FitReport{}}) {
+  for (const v1::FitReport& report :
+       {good_gyro(), bounded_gyro(), dense_unknown_unit(), v1::FitReport{}}) {
     v1::FitReport back;
     const auto status = google::protobuf::util::JsonStringToMessage(to_json(report), &back);
     ASSERT_TRUE(status.ok()) << status.ToString();

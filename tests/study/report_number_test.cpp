@@ -1,10 +1,9 @@
-#include "study/report/number.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "study/report/budget_view.h"
+#include "study/report/number.h"
 #include "study/report/text.h"
 
 namespace imunoise::report {

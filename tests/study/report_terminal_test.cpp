@@ -1,10 +1,9 @@
-#include "study/report/terminal.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
+#include "study/report/terminal.h"
 #include "study/report/terminal_canvas.h"
 #include "study/report/terminal_table.h"
 #include "study/report/text.h"
@@ -33,9 +32,9 @@ TEST(Terminal, NoLineIsWiderThanTheTerminal) {
       for (const bool colour : {true, false}) {
         const TerminalStyle style{width, colour, unicode};
         std::vector<std::string> texts = {wv_text(measured_gyro(), style), wv_text({}, style)};
-        for (const v1::FitReport& report : {good_gyro(), misfit_gyro(), bounded_gyro(), accelerometer(),
-                                            dense_unknown_unit(), hostile_names(), broken_arrays(),
-                                            v1::FitReport{}}) {
+        for (const v1::FitReport& report :
+             {good_gyro(), misfit_gyro(), bounded_gyro(), accelerometer(), dense_unknown_unit(),
+              hostile_names(), broken_arrays(), v1::FitReport{}}) {
           texts.push_back(fit_text(report, style));
         }
         for (const std::string& text : texts) {
@@ -51,9 +50,8 @@ TEST(Terminal, NoLineIsWiderThanTheTerminal) {
 TEST(Terminal, WithoutUnicodeAllIsAscii) {
   for (const v1::FitReport& report : {misfit_gyro(), hostile_names(), bounded_gyro()}) {
     const std::string text = fit_text(report, {80, false, false});
-    EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) {
-      return c == '\n' || (c >= ' ' && c <= '~');
-    }));
+    EXPECT_TRUE(std::all_of(text.begin(), text.end(),
+                            [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
   }
   EXPECT_NE(fit_text(good_gyro(), {80, false, false}).find("deg/sqrt(h)"), std::string::npos);
 }
@@ -69,7 +67,8 @@ TEST(Terminal, ShowsEveryTestedMisfit) {
   std::size_t marks = 0;
   for (auto at = text.find("◆"); at != std::string::npos; at = text.find("◆", at + 1)) ++marks;
   EXPECT_EQ(marks, 2U + 1U);  // two scales and the key
-  EXPECT_EQ(std::count(text.begin(), text.end(), '#'), 2 + 1) << "both beyond 9 standard deviations";
+  EXPECT_EQ(std::count(text.begin(), text.end(), '#'), 2 + 1)
+      << "both beyond 9 standard deviations";
 }
 
 TEST(Terminal, EmptyReportsSaySo) {
@@ -89,12 +88,12 @@ TEST(TerminalCanvas, DotsFollowUnicodesNumbering) {
 }
 
 TEST(TerminalTable, LastColumnContinuesBelowItself) {
-  const std::string table = terminal_table({"a", "b"}, {{"x", "one two three four five six seven"}},
-                                           {40, false, true});
+  const std::string table =
+      terminal_table({"a", "b"}, {{"x", "one two three four five six seven"}}, {40, false, true});
   for (const std::string& line : lines_of(table)) EXPECT_LE(display_width(line), 40U);
   EXPECT_NE(table.find("  x  one two three four five six seven"), std::string::npos);
-  const std::string narrow = terminal_table({"a", "b"}, {{"a long first cell here", "one two three four"}},
-                                            {40, false, true});
+  const std::string narrow = terminal_table(
+      {"a", "b"}, {{"a long first cell here", "one two three four"}}, {40, false, true});
   EXPECT_NE(narrow.find("\n                        four\n"), std::string::npos) << narrow;
 }
 

@@ -22,13 +22,13 @@ double ar1(double m, double phi, double s2) {
 }
 
 struct Recipe {
-  double rate = 100.0;       // Hz
+  double rate = 100.0;  // Hz
   double samples = 1e6;
   int per_octave = 1;
   int replicates = 6;
-  double bump = 0.0;         // relative excess of the measured variance ..
-  double bump_from = 20.0;   // .. from this averaging time, s
-  double bump_to = 80.0;     // .. to this, s
+  double bump = 0.0;        // relative excess of the measured variance ..
+  double bump_from = 20.0;  // .. from this averaging time, s
+  double bump_to = 80.0;    // .. to this, s
 };
 
 v1::Parameter* parameter(v1::Term* term, const char* name, double value, double spread,
@@ -100,7 +100,8 @@ void measure(v1::FitReport& report, const Recipe& recipe) {
     double pooled = 0.0;
     for (int r = 0; r < recipe.replicates; ++r) {
       RandomStream random(20240311, {static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k)});
-      const double measured = model * bump * std::exp(spread * random.normal() - spread * spread / 2);
+      const double measured =
+          model * bump * std::exp(spread * random.normal() - spread * spread / 2);
       v1::ReplicateResidual& replicate = *report.mutable_replicates(r);
       replicate.add_scales_s(seconds);
       replicate.add_measured(measured);
@@ -152,19 +153,21 @@ v1::FitReport gyro(const Recipe& recipe, bool with_random_walk) {
                           "seen over a limited band.");
   parameter(markov, "phi", phi, 2.1e-5, "1", "correlation of neighbouring samples");
   parameter(markov, "sigma2", innovations, 0.045, "(rad/s)²", "variance of the innovations");
-  coefficient(markov, "σ", "standard deviation", std::sqrt(innovations / (1 - phi * phi)), 0.03, "rad/s",
-              kDegreesPerRadian * 3600.0, "°/h");
+  coefficient(markov, "σ", "standard deviation", std::sqrt(innovations / (1 - phi * phi)), 0.03,
+              "rad/s", kDegreesPerRadian * 3600.0, "°/h");
   fill(markov, recipe, [&](double m) { return ar1(m, phi, innovations); });
 
-  v1::Term* noise = term(report, "WN", "angle random walk", "Broadband electronic and thermal noise.");
+  v1::Term* noise =
+      term(report, "WN", "angle random walk", "Broadband electronic and thermal noise.");
   parameter(noise, "sigma2", 2.16e-5, 0.0009, "(rad/s)²", "variance of each sample");
-  coefficient(noise, "N", "angle random walk", std::sqrt(2.16e-5 / recipe.rate), 0.00045, "rad/s/√Hz",
-              kDegreesPerRadian * 60.0, "°/√h");
+  coefficient(noise, "N", "angle random walk", std::sqrt(2.16e-5 / recipe.rate), 0.00045,
+              "rad/s/√Hz", kDegreesPerRadian * 60.0, "°/√h");
   fill(noise, recipe, [](double m) { return white(m, 2.16e-5); });
 
   const double gamma2 = with_random_walk ? 3e-14 : 0.0;
   v1::Term* walk = term(report, "RW", "rate random walk", "A bias that drifts without bound.");
-  v1::Parameter* drift = parameter(walk, "gamma2", gamma2, 0.31, "(rad/s)²", "variance of the steps");
+  v1::Parameter* drift =
+      parameter(walk, "gamma2", gamma2, 0.31, "(rad/s)²", "variance of the steps");
   coefficient(walk, "K", "rate random walk", std::sqrt(gamma2 * recipe.rate), 0.15, "rad/s²/√Hz",
               kDegreesPerRadian * 3600.0 * 60.0, "(°/h)/√h");
   fill(walk, recipe, [&](double m) { return random_walk(m, gamma2); });
@@ -190,7 +193,8 @@ v1::FitReport good_gyro() {
   v1::FitReport report = gyro({}, true);
   report.set_p_value(0.37);
   report.set_summary(
-      "AR1 + WN + RW + QN explains all six replicates: white noise of 0.16 °/√h rules below 10 s, a slow "
+      "AR1 + WN + RW + QN explains all six replicates: white noise of 0.16 °/√h rules below 10 s, "
+      "a slow "
       "correlated noise from there on.");
   report.add_notes("The last scale has fewer than five degrees of freedom and was not tested.");
   return report;
@@ -231,7 +235,8 @@ v1::FitReport accelerometer() {
   report.set_weights("full");
   report.set_confidence(0.95);
   report.set_summary("White noise of 101 µg/√Hz and a slow bias walk explain the recording.");
-  v1::Term* noise = term(report, "WN", "velocity random walk", "Broadband electronic and thermal noise.");
+  v1::Term* noise =
+      term(report, "WN", "velocity random walk", "Broadband electronic and thermal noise.");
   parameter(noise, "sigma2", 1.96e-4, 0.004, "(m/s²)²", "variance of each sample");
   coefficient(noise, "N", "velocity random walk", std::sqrt(1.96e-4 / 200.0), 0.002, "m/s²/√Hz",
               1.0 / kMicroG, "µg/√Hz");
@@ -259,7 +264,8 @@ v1::FitReport dense_unknown_unit() {
     v1::Term* markov = term(report, "AR1", "correlated noise", "Noise with a memory.");
     parameter(markov, "phi", phi, 0.0004, "1", "correlation of neighbouring samples");
     parameter(markov, "sigma2", s2, 0.2, "unit²", "variance of the innovations");
-    coefficient(markov, "σ", "standard deviation", std::sqrt(s2 / (1 - phi * phi)), 0.1, "unit", 1.0, "");
+    coefficient(markov, "σ", "standard deviation", std::sqrt(s2 / (1 - phi * phi)), 0.1, "unit",
+                1.0, "");
     fill(markov, recipe, [phi = phi, s2 = s2](double m) { return ar1(m, phi, s2); });
   }
   v1::Term* noise = term(report, "WN", "white noise density", "Broadband noise.");

@@ -7,7 +7,8 @@
 
 namespace imunoise::report {
 
-/// Six replicates of a gyro at 100 Hz, 1e6 samples each: AR1 + WN + RW + QN, 18 dyadic scales, fits.
+/// Six replicates of a gyro at 100 Hz, 1e6 samples each: AR1 + WN + RW + QN, 18 dyadic scales,
+/// fits.
 v1::FitReport good_gyro();
 
 /// The same, measured 38 % above the model between 20 and 80 s.

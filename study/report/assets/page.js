@@ -15,7 +15,7 @@ for (const section of document.querySelectorAll("section")) {
     rows[scale].classList.add("at");
     readout.replaceChildren(...heads.map((head, i) => {
       const pair = document.createElement("div");
-      pair.append(document.createElement("dt"), document.createElement("dd"));
+      pair.append(document.createElement("span"), document.createElement("strong"));
       pair.firstChild.textContent = head;
       pair.lastChild.textContent = rows[scale].cells[i].textContent;
       return pair;
