@@ -16,13 +16,13 @@ std::string_view light_colour(std::string_view variable) {
 }  // namespace
 
 std::string plot_style_for_paper() {
-  constexpr std::string_view kOpen = "var(";
+  constexpr std::string_view var_open = "var(";
   std::string out;
   std::string_view rest = kPlotCss;
-  for (auto at = rest.find(kOpen); at != std::string_view::npos; at = rest.find(kOpen)) {
+  for (auto at = rest.find(var_open); at != std::string_view::npos; at = rest.find(var_open)) {
     const auto end = rest.find(')', at);
     out += rest.substr(0, at);
-    out += light_colour(rest.substr(at + kOpen.size(), end - at - kOpen.size()));
+    out += light_colour(rest.substr(at + var_open.size(), end - at - var_open.size()));
     rest.remove_prefix(end + 1);
   }
   return out.append(rest);

@@ -49,9 +49,9 @@ template <class Figure>
 std::string two_widths(Figure figure, const v1::FitReport& report, const std::string& id) {
   const auto one = [&](double width, const char* kind) {
     std::string svg = figure(report, {SvgVariant::kInline, width, id + kind});
-    const std::string_view plain = "class=\"figure\"";
+    const std::string_view plain = R"(class="figure")";
     if (!svg.empty()) {
-      svg.replace(svg.find(plain), plain.size(), fmt::format("class=\"figure {}\"", kind));
+      svg.replace(svg.find(plain), plain.size(), fmt::format(R"(class="figure {}")", kind));
     }
     return svg;
   };
@@ -85,10 +85,10 @@ std::string misfit_list(const v1::FitReport& report, const BudgetView& view) {
 
 std::string legend(const v1::FitReport& report, const BudgetView& view) {
   if (view.terms.empty()) return {};
-  std::string out = "<div class=\"legend\" role=\"group\" aria-label=\"show or hide terms\">";
+  std::string out = R"(<div class="legend" role="group" aria-label="show or hide terms">)";
   for (std::size_t t = 0; t < view.terms.size(); ++t) {
     out += fmt::format(
-        "<button type=\"button\" aria-pressed=\"true\" data-term=\"{}\"><span class=\"swatch "
+        R"(<button type="button" aria-pressed="true" data-term="{}"><span class="swatch )"
         "term-{}\">"
         "</span>{} {}</button>",
         t, t % kTermStyles, escape_markup(view.terms[t]),
@@ -100,7 +100,7 @@ std::string legend(const v1::FitReport& report, const BudgetView& view) {
 std::string budget_figure(const v1::FitReport& report, const BudgetView& view,
                           const std::string& id) {
   return "<figure class=\"budget\">\n" + legend(report, view) +
-         "<div class=\"plot\" tabindex=\"0\" role=\"group\" "
+         R"(<div class="plot" tabindex="0" role="group" )"
          "aria-label=\"noise budget; arrow keys read the scales one by one\">\n" +
          two_widths(budget_svg, report, id + "b") +
          "</div>\n<div class=\"readout\" role=\"status\"><span class=\"hint\">Point at the figure, "
@@ -127,7 +127,7 @@ std::string notes(const v1::FitReport& report) {
 
 std::string fitted_model(const v1::FitReport& report) {
   if (report.fitted_model().empty()) return {};
-  return "<div class=\"model-box\"><pre tabindex=\"0\" aria-label=\"fitted model\">" +
+  return R"(<div class="model-box"><pre tabindex="0" aria-label="fitted model">)" +
          escape_markup(report.fitted_model()) +
          "</pre><button type=\"button\" class=\"copy\">copy</button></div>\n";
 }
@@ -145,13 +145,12 @@ std::string section(const v1::FitReport& report, int index) {
 
 std::string navigation(const v1::FitReports& reports) {
   if (reports.channels_size() < 2) return {};
-  std::string out = "<nav aria-label=\"channels\">";
+  std::string out = R"(<nav aria-label="channels">)";
   for (int i = 0; i < reports.channels_size(); ++i) {
     const Verdict v = verdict(reports.channels(i));
-    out +=
-        fmt::format("<a href=\"#channel-{}\"><span class=\"mark {}\" title=\"{}\">{}</span>{}</a>",
-                    i, css_class(v), verdict_words(v), sign(v),
-                    escape_markup(channel_name(reports.channels(i).channel())));
+    out += fmt::format(R"(<a href="#channel-{}"><span class="mark {}" title="{}">{}</span>{}</a>)",
+                       i, css_class(v), verdict_words(v), sign(v),
+                       escape_markup(channel_name(reports.channels(i).channel())));
   }
   return out + "</nav>\n";
 }
@@ -165,7 +164,7 @@ std::string html_page(const v1::FitReports& reports) {
   }
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, "
+      R"(<meta name="viewport" content="width=device-width, )"
       "initial-scale=1\">\n<title>{}</title>\n"
       "<style>\n{}{}{}</style>\n</head>\n<body>\n<h1 class=\"brand\">imunoise: noise budget</h1>\n",
       escape_markup(title), kPaletteCss, kPlotCss, kPageCss);

@@ -16,7 +16,7 @@ namespace {
 constexpr Digits kStyle = Digits::kTypeset;
 
 std::string markup_cell(std::string_view css_class, std::string_view markup) {
-  return fmt::format("<td class=\"{}\">{}</td>", css_class, markup);
+  return fmt::format(R"(<td class="{}">{}</td>)", css_class, markup);
 }
 
 std::string cell(std::string_view css_class, std::string_view text) {
@@ -26,7 +26,7 @@ std::string cell(std::string_view css_class, std::string_view text) {
 std::string head(const std::vector<std::string>& titles) {
   std::string out = "<thead><tr>";
   for (const std::string& title : titles) {
-    out += fmt::format("<th scope=\"col\">{}</th>", escape_markup(title));
+    out += fmt::format(R"(<th scope="col">{}</th>)", escape_markup(title));
   }
   return out + "</tr></thead>\n";
 }
@@ -44,7 +44,7 @@ std::string parameter_cells(const v1::Parameter& p) {
           ? "open"
           : "quiet";
   std::string out =
-      markup_cell("", fmt::format("{}<span class=\"explain\">{}</span>", escape_markup(p.name()),
+      markup_cell("", fmt::format(R"({}<span class="explain">{}</span>)", escape_markup(p.name()),
                                   escape_markup(p.meaning())));
   out += cell("number", rounded(p.value(), p.lower(), p.upper(), kStyle));
   out += cell("number", bound ? "below " + number(p.upper(), 2, kStyle)
@@ -60,12 +60,12 @@ std::string parameter_table(const v1::FitReport& report) {
   std::string rows;
   for (std::size_t t = 0; t < names.size(); ++t) {
     const v1::Term& term = report.terms(static_cast<int>(t));
-    const std::string title = fmt::format(
-        "<td class=\"term\" rowspan=\"{}\"><span class=\"swatch "
-        "term-{}\"></span><strong>{}</strong> {}"
-        "<span class=\"explain\">{}</span></td>",
-        std::max(1, term.parameters_size()), t % kTermStyles, escape_markup(names[t]),
-        escape_markup(term.title()), escape_markup(term.meaning()));
+    const std::string title =
+        fmt::format(R"(<td class="term" rowspan="{}"><span class="swatch )"
+                    "term-{}\"></span><strong>{}</strong> {}"
+                    R"(<span class="explain">{}</span></td>)",
+                    std::max(1, term.parameters_size()), t % kTermStyles, escape_markup(names[t]),
+                    escape_markup(term.title()), escape_markup(term.meaning()));
     if (term.parameters().empty()) rows += "<tr>" + title + "<td colspan=\"5\"></td></tr>\n";
     for (int p = 0; p < term.parameters_size(); ++p) {
       rows += "<tr>" + (p == 0 ? title : "") + parameter_cells(term.parameters(p)) + "</tr>\n";
@@ -118,12 +118,12 @@ std::string scale_table(const v1::FitReport& report, const BudgetView& view) {
     rows += "</tr>\n";
   }
   return "<details><summary>The numbers at every scale</summary>\n<div class=\"scroll\">"
-         "<table class=\"scales\">" +
+         R"(<table class="scales">)" +
          head(titles) + "<tbody>" + rows + "</tbody></table></div></details>\n";
 }
 
 std::string provenance(const v1::FitReport& report) {
-  std::string out = "<dl class=\"provenance\">";
+  std::string out = R"(<dl class="provenance">)";
   const auto fact = [&out](const char* name, const std::string& value) {
     if (!value.empty()) {
       out += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, escape_markup(value));

@@ -57,9 +57,9 @@ std::string scalar(const Message& m, const Reflection& r, const FieldDescriptor*
     case FieldDescriptor::CPPTYPE_UINT32:
       return fmt::format("{}", list ? r.GetRepeatedUInt32(m, f, i) : r.GetUInt32(m, f));
     case FieldDescriptor::CPPTYPE_INT64:
-      return fmt::format("\"{}\"", list ? r.GetRepeatedInt64(m, f, i) : r.GetInt64(m, f));
+      return fmt::format(R"("{}")", list ? r.GetRepeatedInt64(m, f, i) : r.GetInt64(m, f));
     case FieldDescriptor::CPPTYPE_UINT64:
-      return fmt::format("\"{}\"", list ? r.GetRepeatedUInt64(m, f, i) : r.GetUInt64(m, f));
+      return fmt::format(R"("{}")", list ? r.GetRepeatedUInt64(m, f, i) : r.GetUInt64(m, f));
     case FieldDescriptor::CPPTYPE_BOOL:
       return (list ? r.GetRepeatedBool(m, f, i) : r.GetBool(m, f)) ? "true" : "false";
     case FieldDescriptor::CPPTYPE_ENUM:

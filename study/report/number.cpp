@@ -73,10 +73,10 @@ bool far_apart(double value, double lower, double upper) {
 }  // namespace
 
 std::string superscript(int exponent) {
-  static constexpr std::array kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  static constexpr std::array superscripts = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string out = exponent < 0 ? "⁻" : "";
   for (const char digit : std::to_string(std::abs(exponent))) {
-    out += kDigits.at(static_cast<std::size_t>(digit - '0'));
+    out += superscripts.at(static_cast<std::size_t>(digit - '0'));
   }
   return out;
 }
@@ -131,13 +131,13 @@ std::string duration(double seconds) {
     double size;  // s
     const char* symbol;
   };
-  static constexpr std::array<TimeUnit, 6> kUnits = {{{0.9995e-3, 1e-6, "µs"},
-                                                      {0.9995, 1e-3, "ms"},
-                                                      {2 * kMinute, 1.0, "s"},
-                                                      {2 * kHour, kMinute, "min"},
-                                                      {2 * kDay, kHour, "h"},
-                                                      {HUGE_VAL, kDay, "d"}}};
-  const auto* const unit = std::find_if(kUnits.begin(), kUnits.end() - 1,
+  static constexpr std::array<TimeUnit, 6> time_units = {{{0.9995e-3, 1e-6, "µs"},
+                                                          {0.9995, 1e-3, "ms"},
+                                                          {2 * kMinute, 1.0, "s"},
+                                                          {2 * kHour, kMinute, "min"},
+                                                          {2 * kDay, kHour, "h"},
+                                                          {HUGE_VAL, kDay, "d"}}};
+  const auto* const unit = std::find_if(time_units.begin(), time_units.end() - 1,
                                         [&](const TimeUnit& u) { return seconds < u.upto; });
   const double value = seconds / unit->size;
   std::string digits = fmt::format("{:.{}f}", value, value < 9.95 ? 1 : 0);

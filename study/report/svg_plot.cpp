@@ -155,7 +155,7 @@ void draw_columns(SvgWriter& svg, const BudgetView& view, const BudgetLayout& la
   for (std::size_t k = 0; k < view.scales.size(); ++k) {
     svg.rect(
         "column", column_of(view, layout.time, k, frame),
-        fmt::format("data-scale=\"{}\" data-x=\"{:.2f}\"", k, layout.time(view.scales[k].seconds)));
+        fmt::format(R"(data-scale="{}" data-x="{:.2f}")", k, layout.time(view.scales[k].seconds)));
   }
 }
 
@@ -180,7 +180,7 @@ std::string budget_caption(const v1::FitReport& report) {
 
 std::string svg_opening(const SvgOptions& options, double height, const std::string& name) {
   std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" viewBox=\"0 0 {0} {1:.0f}\" "
+      R"(<svg xmlns="http://www.w3.org/2000/svg" class="figure" viewBox="0 0 {0} {1:.0f}" )"
       "width=\"{0}\" height=\"{1:.0f}\" role=\"img\" aria-label=\"{2}\">\n",
       options.width, height, escape_markup(name));
   if (options.variant == SvgVariant::kStandalone) {

@@ -14,7 +14,7 @@ namespace {
 // Pattern of scales that are shown but not tested; ids are global to a page.
 std::string hatch(const std::string& id) {
   return fmt::format(
-      "<defs><pattern id=\"{}-hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+      R"(<defs><pattern id="{}-hatch" width="7" height="7" patternUnits="userSpaceOnUse" )"
       "patternTransform=\"rotate(45)\"><line class=\"hatch\" x1=\"0\" y1=\"0\" x2=\"0\" y2=\"7\"/>"
       "</pattern></defs>\n",
       id);

@@ -86,7 +86,7 @@ void SvgWriter::circle(std::string_view css_class, Point centre, double radius) 
 
 void SvgWriter::path(std::string_view css_class, const std::vector<Point>& points, bool closed) {
   if (points.empty()) return;
-  out_ += fmt::format("<path class=\"{}\" d=\"", css_class);
+  out_ += fmt::format(R"(<path class="{}" d=")", css_class);
   char command = 'M';
   for (const Point& point : points) {
     out_ += fmt::format("{}{},{}", command, px(point.x), px(point.y));
@@ -99,7 +99,7 @@ void SvgWriter::begin_text(std::string_view css_class, Point at, double size, An
   const char* const name = anchor == Anchor::kStart    ? "start"
                            : anchor == Anchor::kMiddle ? "middle"
                                                        : "end";
-  out_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\">",
+  out_ += fmt::format(R"(<text class="{}" x="{}" y="{}" font-size="{}" text-anchor="{}">)",
                       css_class, px(at.x), px(at.y), px(size), name);
 }
 

@@ -29,15 +29,15 @@ std::size_t columns_of(char32_t c) {
 }
 
 std::string_view ascii_spelling(char32_t c) {
-  static constexpr std::array<std::pair<char32_t, std::string_view>, 24> kSpellings = {{
+  static constexpr std::array<std::pair<char32_t, std::string_view>, 24> spellings = {{
       {U'°', "deg"}, {U'µ', "u"},  {U'μ', "u"},   {U'²', "^2"}, {U'³', "^3"}, {U'≈', "~"},
       {U'σ', "s"},   {U'ν', "v"},  {U'φ', "phi"}, {U'γ', "g"},  {U'ω', "w"},  {U'τ', "tau"},
       {U'χ', "chi"}, {U'±', "+-"}, {U'×', "x"},   {U'·', "*"},  {U'−', "-"},  {U'–', "-"},
       {U'—', "-"},   {U'…', ".."}, {U'≥', ">="},  {U'≤', "<="}, {U'‘', "'"},  {U'’', "'"},
   }};
-  const auto* const found = std::find_if(kSpellings.begin(), kSpellings.end(),
+  const auto* const found = std::find_if(spellings.begin(), spellings.end(),
                                          [c](const auto& spelling) { return spelling.first == c; });
-  return found == kSpellings.end() ? "?" : found->second;
+  return found == spellings.end() ? "?" : found->second;
 }
 
 }  // namespace
@@ -53,9 +53,9 @@ char32_t next_code_point(std::string_view text, std::size_t& at) {
     if ((byte(at + i) & 0xC0U) != 0x80U) return kReplacement;
     code = (code << 6U) | (byte(at + i) & 0x3FU);
   }
-  constexpr std::array<char32_t, 4> kSmallest = {0, 0x80, 0x800, 0x10000};
+  constexpr std::array<char32_t, 4> smallest = {0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (code < kSmallest[more] || surrogate || code > 0x10FFFF) return kReplacement;
+  if (code < smallest[more] || surrogate || code > 0x10FFFF) return kReplacement;
   at += more;
   return code;
 }

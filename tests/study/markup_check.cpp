@@ -8,8 +8,8 @@ namespace {
 Element parse_tag(const std::string& tag) {
   Element out;
   out.name = tag.substr(0, tag.find_first_of(" \n/"));
-  static const std::regex kAttribute("([\\w:-]+)=\"([^\"<]*)\"");
-  for (auto it = std::sregex_iterator(tag.begin(), tag.end(), kAttribute);
+  static const std::regex attribute_pattern("([\\w:-]+)=\"([^\"<]*)\"");
+  for (auto it = std::sregex_iterator(tag.begin(), tag.end(), attribute_pattern);
        it != std::sregex_iterator(); ++it) {
     out.attributes[(*it)[1]] = (*it)[2];
   }
@@ -17,8 +17,8 @@ Element parse_tag(const std::string& tag) {
 }
 
 bool entities_are_whole(const std::string& text) {
-  static const std::regex kEntity("&(amp|lt|gt|quot|#39);");
-  return std::regex_replace(text, kEntity, "").find('&') == std::string::npos;
+  static const std::regex entity_pattern("&(amp|lt|gt|quot|#39);");
+  return std::regex_replace(text, entity_pattern, "").find('&') == std::string::npos;
 }
 
 }  // namespace

@@ -49,10 +49,10 @@ std::vector<Point> points_of(const Element& element) {
     EXPECT_GE(value(element, "height"), 0.0);
     out = {corner, {corner.x + value(element, "width"), corner.y + value(element, "height")}};
   } else if (element.name == "path") {
-    static const std::regex kPair("[ML](-?[0-9.]+),(-?[0-9.]+)");
+    static const std::regex pair_pattern("[ML](-?[0-9.]+),(-?[0-9.]+)");
     const std::string& d = element.attributes.at("d");
-    for (auto it = std::sregex_iterator(d.begin(), d.end(), kPair); it != std::sregex_iterator();
-         ++it) {
+    for (auto it = std::sregex_iterator(d.begin(), d.end(), pair_pattern);
+         it != std::sregex_iterator(); ++it) {
       out.push_back({std::stod((*it)[1]), std::stod((*it)[2])});
     }
     EXPECT_FALSE(out.empty());
@@ -69,8 +69,8 @@ std::vector<std::pair<std::string, Box>> text_boxes(const Markup& markup) {
     const Anchor anchor = at == "start" ? Anchor::kStart
                           : at == "end" ? Anchor::kEnd
                                         : Anchor::kMiddle;
-    static const std::regex kEntity("&[a-z#0-9]+;");
-    const std::string text = std::regex_replace(element.text, kEntity, "x");
+    static const std::regex entity_pattern("&[a-z#0-9]+;");
+    const std::string text = std::regex_replace(element.text, entity_pattern, "x");
     out.emplace_back(text, text_box({value(element, "x"), value(element, "y")}, text,
                                     value(element, "font-size"), anchor));
   }
