@@ -58,7 +58,7 @@ std::string mantissa(double value, const Rounding& rounding, Digits style) {
 }
 
 std::string spelled(double value, const Rounding& rounding, Digits style) {
-  const std::string digits = mantissa(value, rounding, style);
+  std::string digits = mantissa(value, rounding, style);
   if (rounding.exponent == 0) return digits;
   if (digits.find_first_not_of("0.") == std::string::npos) return "0";
   return digits + power_of_ten(rounding.exponent, style);

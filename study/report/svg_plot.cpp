@@ -139,8 +139,8 @@ void draw_budget(SvgWriter& svg, const BudgetView& view, const BudgetLayout& lay
                {layout.time(scale.seconds), layout.variance(scale.measured)}, kPointRadius);
   }
   if (!absent.empty()) {
-    const std::size_t columns = static_cast<std::size_t>(
-        (layout.budget.right - layout.budget.left) / text_width("x", kNoteSize));
+    const auto columns = static_cast<std::size_t>((layout.budget.right - layout.budget.left) /
+                                                  text_width("x", kNoteSize));
     svg.text("note", {layout.budget.left, layout.budget.bottom + 17.0},
              shorten(clean_text("too small to draw: " + absent), columns), kNoteSize,
              Anchor::kStart);
