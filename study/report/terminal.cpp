@@ -1,0 +1,152 @@
+#include "study/report/terminal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/report/number.h"
+#include "study/report/terminal_plot.h"
+#include "study/report/terminal_table.h"
+#include "study/report/text.h"
+#include "study/report/verdict.h"
+
+namespace imunoise::report {
+namespace {
+
+constexpr int kLeastWidth = 40;
+constexpr Digits kStyle = Digits::kPlain;
+
+TerminalStyle usable(TerminalStyle style) {
+  style.width = std::max(style.width, kLeastWidth);
+  return style;
+}
+
+Ink ink_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFits:
+      return Ink::kGood;
+    case Verdict::kDoubtful:
+    case Verdict::kFails:
+      return Ink::kAlarm;
+    case Verdict::kUntested:
+      break;
+  }
+  return Ink::kQuiet;
+}
+
+std::string title(const std::string& text, const TerminalStyle& style) {
+  const std::string_view ellipsis = style.unicode ? "…" : "~";
+  const std::string line =
+      shorten(terminal_text(text, style), static_cast<std::size_t>(style.width), ellipsis);
+  return inked(line, Ink::kStrong, style) + "\n";
+}
+
+// A wrapped paragraph in one colour, line by line so that no colour runs over a line's end.
+std::string paragraph(const std::string& text, Ink ink, const TerminalStyle& style) {
+  const std::string lines = wrapped(text, 0, style);
+  std::string out;
+  for (std::size_t at = 0; at < lines.size();) {
+    const auto end = lines.find('\n', at);
+    out += inked(std::string_view(lines).substr(at, end - at), ink, style) + "\n";
+    at = end + 1;
+  }
+  return out;
+}
+
+std::string marks(const v1::FitReport& report, const TerminalStyle& style) {
+  const std::string text =
+      "ν in " + squared(report.unit()) + " over averaging time; " +
+      (style.unicode ? "● measured, ◆ beyond 2 σ, ⠤ model" : "o measured, x beyond 2 sd, . model") +
+      "; digits: residual in standard deviations, # above 9";
+  return paragraph(text, Ink::kQuiet, style);
+}
+
+std::string coefficients(const v1::FitReport& report, const TerminalStyle& style) {
+  std::vector<std::vector<std::string>> rows;
+  for (const v1::Term& term : report.terms()) {
+    for (const v1::Coefficient& c : term.coefficients()) {
+      const bool sheet = !c.datasheet_unit().empty();
+      rows.push_back({c.symbol(),
+                      sheet ? with_interval(c.datasheet_value(), c.datasheet_lower(),
+                                            c.datasheet_upper(), kStyle)
+                            : with_interval(c.value(), c.lower(), c.upper(), kStyle),
+                      sheet ? c.datasheet_unit() : c.unit(), c.title()});
+    }
+  }
+  if (rows.empty()) return {};
+  return "\n" + terminal_table({"", "coefficient", "unit", ""}, rows, style);
+}
+
+std::string parameters(const v1::FitReport& report, const TerminalStyle& style) {
+  const std::vector<std::string> names = budget_view(report).terms;
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t t = 0; t < names.size(); ++t) {
+    for (const v1::Parameter& p : report.terms(static_cast<int>(t)).parameters()) {
+      const bool bound = only_bounded(p) && p.upper() > 0.0;
+      rows.push_back({names[t], p.name(),
+                      bound ? "below " + number(p.upper(), 2, kStyle)
+                            : with_interval(p.value(), p.lower(), p.upper(), kStyle),
+                      p.unit() == "1" ? "" : p.unit(), observability_words(p)});
+    }
+  }
+  if (rows.empty()) return {};
+  return "\n" + terminal_table({"term", "parameter", "per sample", "unit", ""}, rows, style);
+}
+
+BudgetView measured_view(const v1::WaveletVarianceReport& report) {
+  BudgetView view;
+  for (int i = 0; i < std::min(report.scales_s_size(), report.variance_size()); ++i) {
+    ScaleView scale;
+    scale.seconds = report.scales_s(i);
+    scale.measured = report.variance(i);
+    scale.lower = i < report.lower_size() ? report.lower(i) : kMissing;
+    scale.upper = i < report.upper_size() ? report.upper(i) : kMissing;
+    view.scales.push_back(scale);
+  }
+  return view;
+}
+
+}  // namespace
+
+std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
+  const TerminalStyle style = usable(wanted);
+  const BudgetView view = budget_view(report);
+  const Verdict v = verdict(report);
+  std::string out = title(
+      channel_name(report.channel()) + " " + std::string(verdict_words(v)) + ": " + facts(report),
+      style);
+  if (!report.summary().empty()) out += paragraph(report.summary(), Ink::kPlain, style);
+  out += "\n" + terminal_plot(view, true, style) + marks(report, style);
+  out += "\n" + paragraph(verdict_sentence(report), ink_of(v), style);
+  if (v == Verdict::kFails || v == Verdict::kDoubtful) {
+    for (const Misfit& misfit : misfits(view)) out += wrapped(misfit_words(view, misfit), 2, style);
+  }
+  out += coefficients(report, style) + parameters(report, style);
+  if (!report.notes().empty()) out += "\n";
+  for (const std::string& note : report.notes()) out += wrapped("note: " + note, 0, style);
+  return out;
+}
+
+std::string wv_text(const v1::WaveletVarianceReport& report, const TerminalStyle& wanted) {
+  const TerminalStyle style = usable(wanted);
+  const BudgetView view = measured_view(report);
+  const AllanUnit allan = allan_unit(report.unit());
+  std::vector<std::vector<std::string>> rows;
+  for (const ScaleView& scale : view.scales) {
+    rows.push_back({duration(scale.seconds),
+                    with_interval(scale.measured, scale.lower, scale.upper, kStyle),
+                    duration(0.5 * scale.seconds),
+                    number(allan.deviation(scale.measured), 3, kStyle) + " " + allan.unit});
+  }
+  std::string out = title(fmt::format("{}: wavelet variance, {} estimator",
+                                      channel_name(report.channel()), report.estimator()),
+                          style);
+  out += "\n" + terminal_plot(view, false, style) + "\n";
+  if (rows.empty()) return out;
+  return out + terminal_table(
+                   {"over", "variance, " + squared(report.unit()), "Allan tau", "Allan deviation"},
+                   rows, style);
+}
+
+}  // namespace imunoise::report
