@@ -2,6 +2,7 @@
 
 // Lines of a text file of any length, read in blocks of fixed size.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,7 +21,7 @@ class LineReader {
  public:
   /// `block_bytes` (at least 1) is a parameter so that tests can put block borders anywhere.
   LineReader(const File& file, std::size_t block_bytes)
-      : file_(file), block_bytes_(block_bytes) {}
+      : file_(file), block_bytes_(std::min<std::uint64_t>(block_bytes, file.size() + 1)) {}
 
   /// The next line without its ending (LF or CRLF) and without the byte order mark of UTF-8; valid
   /// until the next call. Nothing at the end of the file or after an error: ask error().

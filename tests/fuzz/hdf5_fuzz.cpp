@@ -109,20 +109,22 @@ void add_dataset(Bytes& bytes, hid_t file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const QuietHdf5 quiet;
   Bytes bytes(data, size);
-  const MemoryFile place("");
+  // HDF5 resolves links, which a file in memory does not survive: a file on disk, then.
+  const std::filesystem::path place =
+      std::filesystem::temp_directory_path() / ("imunoise-fuzz-" + std::to_string(::getpid()) + ".h5");
   {
-    const Hdf5Handle file(
-        H5Fcreate(place.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    const Hdf5Handle file(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
     if (!file) std::abort();
     for (std::uint8_t left = bytes.next() % 3U; left > 0; --left) add_attribute(bytes, file.get());
     for (int left = 6; left > 0 && !bytes.empty(); --left) add_dataset(bytes, file.get());
   }
   ImportOptions options;
   if (size % 2U != 0) options.rate = Hertz{100.0};
-  const std::filesystem::path paths[] = {place.path()};
+  const std::filesystem::path paths[] = {place};
   const auto got = import_files(paths, options);
   if (got) {
     for (const Channel& channel : got->front().channels) require_finite(*channel.samples);
   }
+  std::filesystem::remove(place);
   return 0;
 }
