@@ -41,6 +41,9 @@ TEST_F(Binary, NpyOfEveryVersionTypeAndOrder) {
   EXPECT_EQ(std::get<std::vector<std::int16_t>>(*rows->front().channels[1].samples)[4], 13);
   ImportOptions options = at_rate(5);
   options.channels = {"col3", "col2"};
+  const auto some = import_one(path("a.npy"), options);
+  ASSERT_TRUE(some) << some.error().message;
+  EXPECT_EQ(std::get<std::vector<std::int16_t>>(*some->front().channels[0].samples)[4], 14);
   const auto columns = import_one(
       write("a.npy", npy(dictionary("<i4", "20, 3", true), bytes_of(counted<std::int32_t>(60)))), options);
   ASSERT_TRUE(columns) << columns.error().message;
