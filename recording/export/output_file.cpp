@@ -10,9 +10,10 @@ namespace imunoise::recording {
 namespace {
 
 tl::unexpected<Error> cannot_write(const std::filesystem::path& target, std::string_view reason) {
-  return fail(fmt::format("{}: cannot be written: {}; check the folder, its permissions and the space "
-                          "left",
-                          target.string(), reason));
+  return fail(
+      fmt::format("{}: cannot be written: {}; check the folder, its permissions and the space "
+                  "left",
+                  target.string(), reason));
 }
 
 std::filesystem::path beside(const std::filesystem::path& target) {

@@ -44,9 +44,10 @@ Result<void> write_hdf5(const std::filesystem::path& path, std::span<const Outpu
   }
   for (const OutputChannel& channel : channels) good = good && write_dataset(file.get(), channel);
   if (!file.close_now() || !good) {
-    return fail(fmt::format("{}: HDF5 cannot write it; check the folder, its permissions and the space "
-                            "left",
-                            path.string()));
+    return fail(
+        fmt::format("{}: HDF5 cannot write it; check the folder, its permissions and the space "
+                    "left",
+                    path.string()));
   }
   return temporary.commit();
 }

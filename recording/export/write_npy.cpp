@@ -17,8 +17,8 @@ static_assert(std::endian::native == std::endian::little, "doubles are written a
 // Version 1.0: magic, version, length of the dictionary, the dictionary padded so that the numbers
 // start at a multiple of 64 bytes.
 std::string npy_start(std::size_t rows, std::size_t columns) {
-  std::string dictionary = fmt::format(
-      "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows, columns);
+  std::string dictionary =
+      fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows, columns);
   constexpr std::size_t before = 10;
   dictionary.append(63 - (before + dictionary.size()) % 64, ' ');
   dictionary += '\n';

@@ -29,9 +29,10 @@ Result<void> check(const std::string& file, std::span<const OutputChannel> chann
   for (const OutputChannel& channel : channels) {
     if (channel.name.empty() || channel.name == "." || has_control_characters(channel.name) ||
         channel.name.find('/') != std::string::npos || !names.insert(channel.name).second) {
-      return fail(fmt::format("{}: '{}' cannot name a channel: names are not empty, not used twice, "
-                              "without '/' and control characters",
-                              file, channel.name));
+      return fail(
+          fmt::format("{}: '{}' cannot name a channel: names are not empty, not used twice, "
+                      "without '/' and control characters",
+                      file, channel.name));
     }
     if (channel.values.size() != channels.front().values.size()) {
       return fail(fmt::format("{}: channel {} has {} samples where {} has {}", file, channel.name,

@@ -37,8 +37,7 @@ Result<std::optional<double>> read_number_attribute(hid_t object, const char* na
   if (!opened) return tl::make_unexpected(opened.error());
   if (!*opened) return std::optional<double>();
   double value = 0.0;
-  const bool number =
-      (*opened)->type_class == H5T_INTEGER || (*opened)->type_class == H5T_FLOAT;
+  const bool number = (*opened)->type_class == H5T_INTEGER || (*opened)->type_class == H5T_FLOAT;
   if (!number || H5Aread((*opened)->attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
     return fail(fmt::format("attribute {} must be a number", name));
   }
@@ -81,9 +80,9 @@ Result<std::optional<std::string>> read_string_attribute(hid_t object, const cha
 
 bool write_attribute(hid_t object, const std::string& name, double value) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), H5T_IEEE_F64LE, space.get(),
-                                        H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose);
+  const Hdf5Handle attribute(
+      H5Acreate2(object, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
   return attribute && H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0;
 }
 
@@ -92,11 +91,13 @@ bool write_attribute(hid_t object, const std::string& name, std::string_view val
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   if (!type || H5Tset_size(type.get(), text.size()) < 0 ||
-      H5Tset_strpad(type.get(), H5T_STR_NULLPAD) < 0 || H5Tset_cset(type.get(), H5T_CSET_UTF8) < 0) {
+      H5Tset_strpad(type.get(), H5T_STR_NULLPAD) < 0 ||
+      H5Tset_cset(type.get(), H5T_CSET_UTF8) < 0) {
     return false;
   }
   const Hdf5Handle attribute(
-      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
   return attribute && H5Awrite(attribute.get(), type.get(), text.data()) >= 0;
 }
 

@@ -11,12 +11,12 @@
 
 namespace imunoise::recording {
 
-/// The number in attribute `name` of `object` (any integer or float, one element); nothing when there
-/// is no such attribute. Error, without file and object: another type or shape.
+/// The number in attribute `name` of `object` (any integer or float, one element); nothing when
+/// there is no such attribute. Error, without file and object: another type or shape.
 Result<std::optional<double>> read_number_attribute(hid_t object, const char* name);
 
-/// The string in attribute `name` (fixed or variable length, one element); nothing when there is none.
-/// Error, without file and object: another type or shape, more than 4096 bytes.
+/// The string in attribute `name` (fixed or variable length, one element); nothing when there is
+/// none. Error, without file and object: another type or shape, more than 4096 bytes.
 Result<std::optional<std::string>> read_string_attribute(hid_t object, const char* name);
 
 /// Writes a scalar attribute. False when HDF5 refuses.

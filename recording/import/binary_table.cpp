@@ -43,7 +43,8 @@ Result<std::vector<Meaning>> meanings(const File& file, std::size_t columns,
   }
   for (const v1::SidecarChannel& channel : sidecar->channels()) {
     out.push_back({channel.name(), channel.units(),
-                   channel.has_scale_factor() ? channel.scale_factor() : 1.0, channel.add_offset()});
+                   channel.has_scale_factor() ? channel.scale_factor() : 1.0,
+                   channel.add_offset()});
   }
   return out;
 }
@@ -92,22 +93,24 @@ Result<std::vector<Samples>> read_as(const Source& source) {
           source.file.read_at(layout.begin + first * sizeof(Stored) + row * row_bytes, bytes);
       if (!got) return tl::make_unexpected(got.error());
       if (*got != bytes.size()) {
-        return fail(fmt::format("{}: became shorter while it was read; read it again when its "
-                                "writer has finished",
-                                source.file.name()));
+        return fail(
+            fmt::format("{}: became shorter while it was read; read it again when its "
+                        "writer has finished",
+                        source.file.name()));
       }
       const std::size_t begin = layout.column_major ? pass : 0;
       const std::size_t end = layout.column_major ? pass + 1 : columns.size();
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t shift = layout.column_major ? 0 : source.wanted[k] * sizeof(Stored);
         if (const auto bad = append<Stored>(block.data() + shift, row_bytes, rows, columns[k])) {
-          return fail(fmt::format("{}: sample {}: the value in channel {} is not finite; split the "
-                                  "file there",
-                                  source.file.name(), *bad, source.meaning[source.wanted[k]].name));
+          return fail(
+              fmt::format("{}: sample {}: the value in channel {} is not finite; split the "
+                          "file there",
+                          source.file.name(), *bad, source.meaning[source.wanted[k]].name));
         }
       }
-      source.progress.report((static_cast<double>(pass) + static_cast<double>(row + rows) /
-                                                              static_cast<double>(layout.rows)) /
+      source.progress.report((static_cast<double>(pass) +
+                              static_cast<double>(row + rows) / static_cast<double>(layout.rows)) /
                              static_cast<double>(passes));
       if (source.progress.stopped()) {
         return fail(fmt::format("{}: the import was stopped", source.file.name()));
@@ -179,8 +182,7 @@ Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
     if (!unit) return tl::make_unexpected(unit.error());
     table.columns.push_back({column.name, {}, column.scale, column.offset, std::move(*unit)});
   }
-  Result<std::vector<Samples>> samples =
-      read_numbers({file, layout, *meaning, *wanted, progress});
+  Result<std::vector<Samples>> samples = read_numbers({file, layout, *meaning, *wanted, progress});
   if (!samples) return tl::make_unexpected(samples.error());
   for (std::size_t k = 0; k < samples->size(); ++k) {
     table.columns[k].samples = std::move((*samples)[k]);

@@ -32,8 +32,8 @@ struct BinaryLayout {
   bool column_major = false;
 };
 
-/// Reads the wanted columns, named and scaled as the sidecar says (col1, col2, ... without one). The
-/// layout must fit the file's size: the caller has checked that. Errors: see import_files.
+/// Reads the wanted columns, named and scaled as the sidecar says (col1, col2, ... without one).
+/// The layout must fit the file's size: the caller has checked that. Errors: see import_files.
 Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
                                 const std::optional<v1::Sidecar>& sidecar,
                                 const ImportOptions& options, FileProgress& progress);

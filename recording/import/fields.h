@@ -8,8 +8,8 @@
 
 namespace imunoise::recording {
 
-/// Fields of `line`, trimmed and unquoted ("" inside quotes is a quote). The delimiter ' ' stands for
-/// runs of blanks, also at the ends of the line. Never empty.
+/// Fields of `line`, trimmed and unquoted ("" inside quotes is a quote). The delimiter ' ' stands
+/// for runs of blanks, also at the ends of the line. Never empty.
 std::vector<std::string> split_fields(std::string_view line, char delimiter);
 
 /// A header's fields. With the delimiter ' ' a unit in brackets belongs to the name before it:

@@ -31,7 +31,8 @@ Result<File> File::open(const std::filesystem::path& path) {
     return fail(fmt::format("{}: is a folder; name the files in it", file.name_));
   }
   if (!known || !S_ISREG(facts.st_mode)) {
-    return fail(fmt::format("{}: is not a regular file; save its data to a file first", file.name_));
+    return fail(
+        fmt::format("{}: is not a regular file; save its data to a file first", file.name_));
   }
   return file;
 }

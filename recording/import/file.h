@@ -29,7 +29,8 @@ class File {
   const std::string& name() const { return name_; }
   /// Size in bytes when the file was opened.
   std::uint64_t size() const { return size_; }
-  /// Reads up to out.size() bytes at `offset`; fewer only at the end of the file. Error: the disk's.
+  /// Reads up to out.size() bytes at `offset`; fewer only at the end of the file. Error: the
+  /// disk's.
   Result<std::size_t> read_at(std::uint64_t offset, std::span<char> out) const;
 
  private:

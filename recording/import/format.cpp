@@ -20,7 +20,8 @@ constexpr std::array kTextExtensions = {".csv", ".tsv", ".txt", ".dat"};
 
 template <class List>
 bool contains(const List& list, const std::filesystem::path& extension) {
-  return std::any_of(list.begin(), list.end(), [&](const char* known) { return extension == known; });
+  return std::any_of(list.begin(), list.end(),
+                     [&](const char* known) { return extension == known; });
 }
 
 // HDF5 allows a block of the user's before its own magic, at 512 bytes or a doubling of that.
@@ -57,14 +58,17 @@ Result<Format> detect_format(const std::filesystem::path& path) {
   if (!hdf5) return tl::make_unexpected(hdf5.error());
   if (*hdf5) return Format::kHdf5;
   if (contains(kHdf5Extensions, extension)) {
-    return trouble("is not an HDF5 file, whatever its name says (a MATLAB file must be saved as v7.3); "
-                   "it may be truncated: copy it again");
+    return trouble(
+        "is not an HDF5 file, whatever its name says (a MATLAB file must be saved as v7.3); "
+        "it may be truncated: copy it again");
   }
-  if (extension == ".npy") return trouble("is not a NumPy file, whatever its name says; save it again");
+  if (extension == ".npy")
+    return trouble("is not a NumPy file, whatever its name says; save it again");
   const bool text = std::none_of(head.begin(), head.end(), [](char c) { return c == '\0'; });
   if (text || contains(kTextExtensions, extension)) return Format::kText;
-  return trouble("is of no known kind: HDF5 (.h5), NumPy (.npy), text (.csv, .tsv, .txt, .dat) or raw "
-                 "numbers with a sidecar (.f64, .f32, .i16, .i32, .bin)");
+  return trouble(
+      "is of no known kind: HDF5 (.h5), NumPy (.npy), text (.csv, .tsv, .txt, .dat) or raw "
+      "numbers with a sidecar (.f64, .f32, .i16, .i32, .bin)");
 }
 
 }  // namespace imunoise::recording

@@ -34,16 +34,18 @@ Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
   if (!space || !type) return trouble("cannot be described; the file is damaged");
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank != 1) {
-    return trouble(fmt::format("has {} dimensions where one is needed; store each channel as a "
-                               "dataset of its own, or choose others with --channel",
-                               rank));
+    return trouble(
+        fmt::format("has {} dimensions where one is needed; store each channel as a "
+                    "dataset of its own, or choose others with --channel",
+                    rank));
   }
   const H5T_class_t type_class = H5Tget_class(type.get());
   const std::size_t width = H5Tget_size(type.get());
   const bool integer = type_class == H5T_INTEGER && H5Tget_sign(type.get()) == H5T_SGN_2;
   if (!(integer || type_class == H5T_FLOAT) || !(width == 4 || width == (integer ? 2U : 8U))) {
-    return trouble("is not of type int16, int32, float32 or float64; convert it, or choose others "
-                   "with --channel");
+    return trouble(
+        "is not of type int16, int32, float32 or float64; convert it, or choose others "
+        "with --channel");
   }
   const hssize_t points = H5Sget_simple_extent_npoints(space.get());
   if (points <= 0) return trouble("holds no samples");
@@ -53,9 +55,10 @@ Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
   }
   const std::uint64_t stored = H5Dget_storage_size(dataset.get());
   if (count / kBestCompression > stored / width || stored == 0) {
-    return trouble(fmt::format("claims {} samples, but only {} bytes are stored; it was not written "
-                               "to its end",
-                               count, stored));
+    return trouble(
+        fmt::format("claims {} samples, but only {} bytes are stored; it was not written "
+                    "to its end",
+                    count, stored));
   }
   const Kind kind = !integer ? Kind::kFloat : width == 2 ? Kind::kInt16 : Kind::kInt32;
   return Hdf5Dataset(name, std::move(dataset), count, kind);
@@ -65,21 +68,24 @@ template <class Number>
 Result<Samples> Hdf5Dataset::read_as(hid_t memory_type) const {
   std::vector<Number> values(size_);
   if (H5Dread(id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    return fail(fmt::format("dataset {}: cannot be read: a chunk is damaged, or needs a filter that "
-                            "is not installed; copy the file again or h5repack it",
-                            name_));
+    return fail(
+        fmt::format("dataset {}: cannot be read: a chunk is damaged, or needs a filter that "
+                    "is not installed; copy the file again or h5repack it",
+                    name_));
   }
   const Result<std::optional<double>> fill = read_number_attribute(id(), "_FillValue");
   if (!fill) return fail(fmt::format("dataset {}: {}", name_, fill.error().message));
   for (std::size_t i = 0; i < size_; ++i) {
     const auto value = static_cast<double>(values[i]);
     if (std::is_floating_point_v<Number> && !std::isfinite(value)) {
-      return fail(fmt::format("dataset {}: sample {} is not finite; split the recording there", name_, i));
+      return fail(
+          fmt::format("dataset {}: sample {} is not finite; split the recording there", name_, i));
     }
     if (*fill && value == **fill) {
-      return fail(fmt::format("dataset {}: sample {} is missing (it equals _FillValue); split the "
-                              "recording there",
-                              name_, i));
+      return fail(
+          fmt::format("dataset {}: sample {} is missing (it equals _FillValue); split the "
+                      "recording there",
+                      name_, i));
     }
   }
   return Samples(std::move(values));

@@ -10,8 +10,8 @@
 
 namespace imunoise::recording {
 
-/// An open dataset that is known to be readable: one dimension, int16, int32, float32 or float64 (any
-/// byte order), stored in the file itself, and not larger than the file can hold.
+/// An open dataset that is known to be readable: one dimension, int16, int32, float32 or float64
+/// (any byte order), stored in the file itself, and not larger than the file can hold.
 class Hdf5Dataset {
  public:
   /// Error, without the file's name: what the dataset is instead.
@@ -20,8 +20,8 @@ class Hdf5Dataset {
   std::size_t size() const { return size_; }
   hid_t id() const { return dataset_.get(); }
   /// All samples; integers keep their type. Error, with the sample's index: a number that is not
-  /// finite, one that equals the attribute _FillValue (CF: a missing sample), a chunk that cannot be
-  /// read.
+  /// finite, one that equals the attribute _FillValue (CF: a missing sample), a chunk that cannot
+  /// be read.
   Result<Samples> read() const;
 
  private:

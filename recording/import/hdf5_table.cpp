@@ -19,7 +19,8 @@ namespace {
 // one could name any file of the disk.
 std::vector<std::string> dataset_names(hid_t file) {
   std::vector<std::string> names;
-  const auto visit = [](hid_t group, const char* name, const H5L_info_t* link, void* out) -> herr_t {
+  const auto visit = [](hid_t group, const char* name, const H5L_info_t* link,
+                        void* out) -> herr_t {
     auto& found = *static_cast<std::vector<std::string>*>(out);
     H5O_info_t object = {};
     if (link->type == H5L_TYPE_HARD && found.size() <= kMaximumColumns &&
@@ -40,9 +41,10 @@ Result<Hertz> rate_from_dataset(const std::string& file, hid_t id,
   const auto found = std::find_if(names.begin(), names.end(),
                                   [](const std::string& name) { return is_time_name(name); });
   if (found == names.end()) {
-    return fail(fmt::format("{}: no root attribute rate_hz and so no sampling rate; give it with "
-                            "--rate HZ",
-                            file));
+    return fail(
+        fmt::format("{}: no root attribute rate_hz and so no sampling rate; give it with "
+                    "--rate HZ",
+                    file));
   }
   const auto trouble = [&](const Error& error) {
     return fail(fmt::format("{}: {} (--rate HZ ignores the times)", file, error.message));
@@ -56,7 +58,8 @@ Result<Hertz> rate_from_dataset(const std::string& file, hid_t id,
   const Result<Samples> samples = dataset->read();
   if (!samples) return trouble(samples.error());
   const std::vector<double> times = std::visit(
-      [](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, *samples);
+      [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+      *samples);
   const std::string place = fmt::format("{}: dataset {}", file, *found);
   return rate_from_times(
       times, {place, *seconds, [](std::size_t i) { return fmt::format("sample {}", i); }});
@@ -75,9 +78,10 @@ Result<Column> read_column(const std::string& file, const Hdf5Dataset& dataset,
   if (!text) return trouble(text.error().message);
   Column column{name, {}, scale->value_or(1.0), offset->value_or(0.0), {}};
   if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset)) {
-    return trouble(fmt::format("scale_factor {} and add_offset {} must be finite, the factor not 0; "
-                               "correct the attributes",
-                               column.scale, column.offset));
+    return trouble(
+        fmt::format("scale_factor {} and add_offset {} must be finite, the factor not 0; "
+                    "correct the attributes",
+                    column.scale, column.offset));
   }
   Result<Unit> unit = resolve_unit(file, name, text->value_or(""), options);
   if (!unit) return tl::make_unexpected(unit.error());
@@ -99,9 +103,10 @@ Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOpt
   const std::string name = path.string();
   const Hdf5Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file) {
-    return fail(fmt::format("{}: HDF5 cannot open it: truncated, damaged or still being written; copy "
-                            "it again",
-                            name));
+    return fail(
+        fmt::format("{}: HDF5 cannot open it: truncated, damaged or still being written; copy "
+                    "it again",
+                    name));
   }
   const std::vector<std::string> names = dataset_names(file.get());
   std::vector<Offer> offers;
@@ -114,7 +119,8 @@ Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOpt
   if (options.rate) {
     table.rate = *options.rate;
   } else if (!stated) {
-    return fail(fmt::format("{}: root {}; give the rate with --rate HZ", name, stated.error().message));
+    return fail(
+        fmt::format("{}: root {}; give the rate with --rate HZ", name, stated.error().message));
   } else {
     const Result<Hertz> rate = *stated ? checked_rate(name, "the root attribute rate_hz", **stated)
                                        : rate_from_dataset(name, file.get(), names);

@@ -56,26 +56,28 @@ Result<void> check_length(const std::string& file, const Table& table, std::size
   const Column& first = table.columns.front();
   for (const Column& column : table.columns) {
     if (size(column.samples) != size(first.samples)) {
-      return fail(fmt::format("{}: channel {} has {} samples where {} has {}; read them apart with "
-                              "--channel",
-                              file, column.name, size(column.samples), first.name,
-                              size(first.samples)));
+      return fail(
+          fmt::format("{}: channel {} has {} samples where {} has {}; read them apart with "
+                      "--channel",
+                      file, column.name, size(column.samples), first.name, size(first.samples)));
     }
   }
   const std::size_t each = size(first.samples) / split_into;
   if (each >= kMinimumSamples) return {};
-  return fail(fmt::format("{}: {} samples{} are too few: a replicate needs at least {}; record longer{}",
-                          file, each, split_into > 1 ? fmt::format(" in each of {} parts", split_into) : "",
-                          kMinimumSamples, split_into > 1 ? " or split into fewer" : ""));
+  return fail(
+      fmt::format("{}: {} samples{} are too few: a replicate needs at least {}; record longer{}",
+                  file, each, split_into > 1 ? fmt::format(" in each of {} parts", split_into) : "",
+                  kMinimumSamples, split_into > 1 ? " or split into fewer" : ""));
 }
 
 // Files are replicates of one another only when they measure the same.
 Result<void> check_agreement(const std::string& first_file, const Table& first,
                              const std::string& file, const Table& table) {
   if (std::abs(table.rate.value / first.rate.value - 1.0) > kRateTolerance) {
-    return fail(fmt::format("{}: sampled at {} Hz, but {} at {} Hz; import them apart, or state the "
-                            "true rate with --rate HZ",
-                            file, table.rate.value, first_file, first.rate.value));
+    return fail(
+        fmt::format("{}: sampled at {} Hz, but {} at {} Hz; import them apart, or state the "
+                    "true rate with --rate HZ",
+                    file, table.rate.value, first_file, first.rate.value));
   }
   const auto named = [](const std::string& name) {
     return [&name](const Column& column) { return column.name == name; };
@@ -83,19 +85,22 @@ Result<void> check_agreement(const std::string& first_file, const Table& first,
   for (const Column& column : first.columns) {
     const auto found = std::find_if(table.columns.begin(), table.columns.end(), named(column.name));
     if (found == table.columns.end()) {
-      return fail(fmt::format("{}: no channel '{}', which {} has; choose common ones with --channel",
-                              file, column.name, first_file));
+      return fail(
+          fmt::format("{}: no channel '{}', which {} has; choose common ones with --channel", file,
+                      column.name, first_file));
     }
     if (found->unit.symbol != column.unit.symbol) {
-      return fail(fmt::format("{}: channel {} is in {}, but in {} it is in {}; import them apart, or state "
-                              "the true unit with --unit",
-                              file, column.name, found->unit.symbol, first_file, column.unit.symbol));
+      return fail(
+          fmt::format("{}: channel {} is in {}, but in {} it is in {}; import them apart, or state "
+                      "the true unit with --unit",
+                      file, column.name, found->unit.symbol, first_file, column.unit.symbol));
     }
   }
   for (const Column& column : table.columns) {
     if (std::any_of(first.columns.begin(), first.columns.end(), named(column.name))) continue;
-    return fail(fmt::format("{}: has channel '{}', which {} has not; choose common ones with --channel",
-                            file, column.name, first_file));
+    return fail(
+        fmt::format("{}: has channel '{}', which {} has not; choose common ones with --channel",
+                    file, column.name, first_file));
   }
   return {};
 }
@@ -136,7 +141,8 @@ void add_replicates(const std::filesystem::path& path, const std::string& name, 
 Result<void> check_options(std::span<const std::filesystem::path> paths,
                            const ImportOptions& options) {
   if (paths.empty()) return fail("no file is named; name at least one");
-  if (options.split_into == 0) return fail("cannot split into 0 replicates; --split-into starts at 1");
+  if (options.split_into == 0)
+    return fail("cannot split into 0 replicates; --split-into starts at 1");
   if (options.rate && (!std::isfinite(options.rate->value) || options.rate->value <= 0.0)) {
     return fail(fmt::format("--rate {} is not a sampling rate; it must be positive, in Hz",
                             options.rate->value));
@@ -163,7 +169,8 @@ Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::pat
     const std::string file = paths[i].string();
     const Result<void> long_enough = check_length(file, *tables[i], options.split_into);
     if (!long_enough) return tl::make_unexpected(long_enough.error());
-    const Result<void> same = check_agreement(paths.front().string(), *tables.front(), file, *tables[i]);
+    const Result<void> same =
+        check_agreement(paths.front().string(), *tables.front(), file, *tables[i]);
     if (!same) return tl::make_unexpected(same.error());
   }
   // Every file's channels in the first file's order.

@@ -26,7 +26,9 @@ Result<Preamble> read_preamble(const File& file) {
   const Result<std::size_t> got = file.read_at(0, start);
   if (!got) return tl::make_unexpected(got.error());
   if (*got < start.size()) return truncated();
-  const auto byte = [&](std::size_t i) { return std::uint64_t{static_cast<unsigned char>(start[i])}; };
+  const auto byte = [&](std::size_t i) {
+    return std::uint64_t{static_cast<unsigned char>(start[i])};
+  };
   const std::uint64_t major = byte(6);
   if (major < 1 || major > 3) {
     return fail(fmt::format("{}: .npy version {}, known are 1, 2 and 3; save it with another NumPy",
@@ -58,14 +60,16 @@ Result<Table> read_npy(const std::filesystem::path& path, const ImportOptions& o
   if (!header) return trouble(header.error().message);
   const std::optional<NumberType> type = number_type(header->dtype);
   if (!type) {
-    return trouble(fmt::format("numbers of type '{}'; known are <i2, <i4, <f4, <f8: convert with "
-                               "numpy.save(path, array.astype('<f8'))",
-                               header->dtype));
+    return trouble(
+        fmt::format("numbers of type '{}'; known are <i2, <i4, <f4, <f8: convert with "
+                    "numpy.save(path, array.astype('<f8'))",
+                    header->dtype));
   }
   if (header->shape.empty() || header->shape.size() > 2) {
-    return trouble(fmt::format("an array of {} dimensions; save one of shape (samples,) or (samples, "
-                               "channels)",
-                               header->shape.size()));
+    return trouble(
+        fmt::format("an array of {} dimensions; save one of shape (samples,) or (samples, "
+                    "channels)",
+                    header->shape.size()));
   }
   BinaryLayout layout;
   layout.type = *type;
@@ -77,9 +81,10 @@ Result<Table> read_npy(const std::filesystem::path& path, const ImportOptions& o
   std::uint64_t claimed = 0;
   if (__builtin_mul_overflow(layout.rows, layout.columns, &claimed) ||
       __builtin_mul_overflow(claimed, width(*type), &claimed) || claimed != payload) {
-    return trouble(fmt::format("the header announces {} x {} numbers of {} bytes, but {} bytes follow; "
-                               "the file is truncated or damaged: copy or save it again",
-                               layout.rows, layout.columns, width(*type), payload));
+    return trouble(
+        fmt::format("the header announces {} x {} numbers of {} bytes, but {} bytes follow; "
+                    "the file is truncated or damaged: copy or save it again",
+                    layout.rows, layout.columns, width(*type), payload));
   }
   if (claimed == 0) return trouble("holds no samples; check how it was exported");
   const Result<std::optional<v1::Sidecar>> sidecar = read_sidecar(path);

@@ -42,21 +42,24 @@ Result<Table> read_raw(const std::filesystem::path& path, const ImportOptions& o
   if (!sidecar) return tl::make_unexpected(sidecar.error());
   const std::string where = sidecar_path(path).string();
   if (!*sidecar) {
-    return trouble(fmt::format("raw numbers need a sidecar {} that says what they are, e.g. "
-                               R"({{"rate_hz": 100, "dtype": "<f8", "channels": [{{"name": "gyro_x", )"
-                               R"("units": "deg/s"}}]}})",
-                               where));
+    return trouble(
+        fmt::format("raw numbers need a sidecar {} that says what they are, e.g. "
+                    R"({{"rate_hz": 100, "dtype": "<f8", "channels": [{{"name": "gyro_x", )"
+                    R"("units": "deg/s"}}]}})",
+                    where));
   }
   const std::string_view implied = dtype_of(path.extension());
   const std::string& stated = (*sidecar)->dtype();
   if (!implied.empty() && !stated.empty() && implied != stated) {
-    return trouble(fmt::format("the extension says {}, but {} says {}; rename the file to .bin or "
-                               "correct the sidecar",
-                               implied, where, stated));
+    return trouble(
+        fmt::format("the extension says {}, but {} says {}; rename the file to .bin or "
+                    "correct the sidecar",
+                    implied, where, stated));
   }
   const std::optional<NumberType> type = number_type(stated.empty() ? implied : stated);
   if (!type) {
-    return trouble(fmt::format("{} states dtype '{}'; known are <i2, <i4, <f4, <f8", where, stated));
+    return trouble(
+        fmt::format("{} states dtype '{}'; known are <i2, <i4, <f4, <f8", where, stated));
   }
   if ((*sidecar)->channels().empty()) {
     return trouble(fmt::format("{} names no channels; name each column in order", where));
@@ -67,10 +70,10 @@ Result<Table> read_raw(const std::filesystem::path& path, const ImportOptions& o
   const std::uint64_t row = layout.columns * width(*type);
   if (file->size() == 0) return trouble("is empty; record again");
   if (file->size() % row != 0) {
-    return trouble(fmt::format("{} bytes are not a whole number of rows of {} bytes ({} channels of "
-                               "{}); the file is truncated or {} is wrong",
-                               file->size(), row, layout.columns, stated.empty() ? implied : stated,
-                               where));
+    return trouble(
+        fmt::format("{} bytes are not a whole number of rows of {} bytes ({} channels of "
+                    "{}); the file is truncated or {} is wrong",
+                    file->size(), row, layout.columns, stated.empty() ? implied : stated, where));
   }
   layout.rows = file->size() / row;
   return read_binary_table(*file, layout, *sidecar, options, progress);

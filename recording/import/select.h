@@ -23,7 +23,8 @@ struct Offer {
 };
 
 /// Indices of the wanted columns in the order wanted. Error: a channel that the file has not (those
-/// that exist are listed), two columns of one wanted name, no channel at all. `file` is for messages.
+/// that exist are listed), two columns of one wanted name, no channel at all. `file` is for
+/// messages.
 Result<std::vector<std::size_t>> select_columns(std::string_view file,
                                                 const std::vector<Offer>& offers,
                                                 const std::vector<std::string>& wanted);

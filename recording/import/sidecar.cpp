@@ -29,15 +29,15 @@ Result<v1::Sidecar> parse_sidecar(std::string_view file, std::string_view json) 
   google::protobuf::util::JsonParseOptions strict;
   strict.ignore_unknown_fields = false;
   const auto status = google::protobuf::util::JsonStringToMessage(
-      google::protobuf::StringPiece(json.data(), json.size()), &out,
-      strict);
+      google::protobuf::StringPiece(json.data(), json.size()), &out, strict);
   if (!status.ok()) {
     return fail(fmt::format("{}: {}; a sidecar reads like {}", file, status.message().ToString(),
                             kExample));
   }
   // 0 stands for "not stated": the user may give the rate.
   if (!std::isfinite(out.rate_hz()) || out.rate_hz() < 0.0) {
-    return fail(fmt::format("{}: rate_hz {} is not a sampling rate; correct it", file, out.rate_hz()));
+    return fail(
+        fmt::format("{}: rate_hz {} is not a sampling rate; correct it", file, out.rate_hz()));
   }
   for (const v1::SidecarChannel& channel : out.channels()) {
     if (channel.name().empty()) {
@@ -46,8 +46,8 @@ Result<v1::Sidecar> parse_sidecar(std::string_view file, std::string_view json) 
     const double scale = channel.has_scale_factor() ? channel.scale_factor() : 1.0;
     if (!std::isfinite(scale) || scale == 0.0 || !std::isfinite(channel.add_offset())) {
       return fail(fmt::format(
-          "{}: channel {}: scale_factor {} and add_offset {} must be finite, the factor not 0", file,
-          channel.name(), scale, channel.add_offset()));
+          "{}: channel {}: scale_factor {} and add_offset {} must be finite, the factor not 0",
+          file, channel.name(), scale, channel.add_offset()));
     }
   }
   return out;

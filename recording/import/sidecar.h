@@ -15,8 +15,8 @@ namespace imunoise::recording {
 /// Where the sidecar of `path` lies: "run.f64" has "run.f64.json".
 std::filesystem::path sidecar_path(const std::filesystem::path& path);
 
-/// Parses a sidecar's text. `file` is for messages. Error: not JSON, an unknown field, a rate that is
-/// not positive, a factor that is 0 or not finite, a channel without a name.
+/// Parses a sidecar's text. `file` is for messages. Error: not JSON, an unknown field, a rate that
+/// is not positive, a factor that is 0 or not finite, a channel without a name.
 Result<v1::Sidecar> parse_sidecar(std::string_view file, std::string_view json);
 
 /// Reads the sidecar of `path`; nothing when there is none.

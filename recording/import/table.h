@@ -1,6 +1,7 @@
 #pragma once
 
-// What each format's reader hands to import_files: numbers as stored, with what the file says of them.
+// What each format's reader hands to import_files: numbers as stored, with what the file says of
+// them.
 
 #include <atomic>
 #include <cstddef>

@@ -58,9 +58,10 @@ Result<bool> has_header(const TextHead& head, char delimiter, const ImportOption
   const auto text = std::find_if(fields.begin(), fields.end(), [](const std::string& field) {
     return !field.empty() && !is_numeric(field);
   });
-  return fail(fmt::format("{}: row {}: {} while other values are numbers; correct the row, or say "
-                          "with --header or --no-header whether it names the columns",
-                          head.file, head.rows.front().line, explain_no_number(*text)));
+  return fail(
+      fmt::format("{}: row {}: {} while other values are numbers; correct the row, or say "
+                  "with --header or --no-header whether it names the columns",
+                  head.file, head.rows.front().line, explain_no_number(*text)));
 }
 
 void take_names(TextLayout& layout, const std::vector<std::string>& fields) {
@@ -86,15 +87,16 @@ Result<bool> take_units(TextLayout& layout, const TextHead& head) {
   if (fields.size() != layout.columns.size()) return false;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::string unit = units(fields[i]);
-    const bool known = unit.empty() || unit == "-" ||
-                       (is_time_name(layout.columns[i].name)
-                            ? time_unit(layout.columns[i].name, unit).has_value()
-                            : parse_unit(unit).has_value());
+    const bool known =
+        unit.empty() || unit == "-" ||
+        (is_time_name(layout.columns[i].name) ? time_unit(layout.columns[i].name, unit).has_value()
+                                              : parse_unit(unit).has_value());
     if (known) continue;
     if (kind_of(fields) == Kind::kMixed) return false;  // samples with a flaw: told with its row
-    return fail(fmt::format("{}: row {}: '{}' is neither a number nor a known unit in column {}; "
-                            "correct it or delete the row",
-                            head.file, row.line, unit, layout.columns[i].name));
+    return fail(
+        fmt::format("{}: row {}: '{}' is neither a number nor a known unit in column {}; "
+                    "correct it or delete the row",
+                    head.file, row.line, unit, layout.columns[i].name));
   }
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (layout.columns[i].unit.empty()) layout.columns[i].unit = units(fields[i]);
@@ -106,7 +108,8 @@ Result<bool> take_units(TextLayout& layout, const TextHead& head) {
 
 Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& options) {
   if (head.rows.empty()) {
-    return fail(fmt::format("{}: holds no rows; record again or check how it was exported", head.file));
+    return fail(
+        fmt::format("{}: holds no rows; record again or check how it was exported", head.file));
   }
   TextLayout layout;
   layout.delimiter = options.delimiter ? *options.delimiter : detect_delimiter(head.rows);

@@ -31,12 +31,12 @@ inline constexpr std::size_t kHeadRows = 4;
 struct TextLayout {
   char delimiter = ',';              ///< ' ' for runs of blanks.
   std::vector<HeaderField> columns;  ///< One a column; without a header col1, col2, ...
-  std::vector<bool> unnamed;         ///< Columns whose header is empty: an index, a trailing delimiter.
-  std::size_t header_rows = 0;       ///< How many of the head's rows hold no samples: 0, 1 or 2.
+  std::vector<bool> unnamed;    ///< Columns whose header is empty: an index, a trailing delimiter.
+  std::size_t header_rows = 0;  ///< How many of the head's rows hold no samples: 0, 1 or 2.
 };
 
-/// Error: no rows; a first row of which one cannot tell whether it is a header; a row of units with an
-/// unknown one or of the wrong length.
+/// Error: no rows; a first row of which one cannot tell whether it is a header; a row of units with
+/// an unknown one or of the wrong length.
 Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& options);
 
 }  // namespace imunoise::recording

@@ -72,12 +72,13 @@ std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size
     return Error{fmt::format("{}: row {}: {}", file_, line_number, what)};
   };
   if (fields.size() != row_.size()) {
-    return trouble(fmt::format("{} values where the table has {} columns; delete the row or split the "
-                               "file there (columns are separated by {})",
-                               fields.size(), row_.size(),
-                               layout_.delimiter == ' '    ? std::string("blanks")
-                               : layout_.delimiter == '\t' ? std::string("tabs")
-                                                           : fmt::format("'{}'", layout_.delimiter)));
+    return trouble(
+        fmt::format("{} values where the table has {} columns; delete the row or split the "
+                    "file there (columns are separated by {})",
+                    fields.size(), row_.size(),
+                    layout_.delimiter == ' '    ? std::string("blanks")
+                    : layout_.delimiter == '\t' ? std::string("tabs")
+                                                : fmt::format("'{}'", layout_.delimiter)));
   }
   for (std::size_t c = 0; c < fields.size(); ++c) {
     if (!wanted_[c] || is_number(fields[c], row_[c])) continue;

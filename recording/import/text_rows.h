@@ -37,8 +37,8 @@ class RowParser {
   /// `wanted[c]` tells whether column c is kept.
   RowParser(std::string file, const TextLayout& layout, const std::vector<bool>& wanted);
 
-  /// Makes room for `rows` rows in all, or an eighth more than there are if that is more. Does nothing
-  /// while there is room for `spare` more rows.
+  /// Makes room for `rows` rows in all, or an eighth more than there are if that is more. Does
+  /// nothing while there is room for `spare` more rows.
   void reserve(std::size_t rows, std::size_t spare);
   /// Adds one row. Nothing when all is well; else what is wrong, with the row and the way out.
   std::optional<Error> add(std::string_view line, std::size_t line_number);

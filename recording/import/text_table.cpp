@@ -86,9 +86,10 @@ Result<Plan> make_plan(const std::string& file, const TextLayout& layout, bool r
   }
   if (!plan.time) {
     if (rate_in_head) return plan;
-    return fail(fmt::format("{}: no time column (t, time, timestamp) and so no sampling rate; give it "
-                            "with --rate HZ",
-                            file));
+    return fail(
+        fmt::format("{}: no time column (t, time, timestamp) and so no sampling rate; give it "
+                    "with --rate HZ",
+                    file));
   }
   const HeaderField& column = layout.columns[*plan.time];
   const Result<std::optional<double>> unit = time_unit(column.name, column.unit);
@@ -122,8 +123,9 @@ Result<void> read_rows(const File& file, const TextHead& head, std::size_t heade
       const double whole = static_cast<double>(std::max(file.size(), lines.bytes_done()));
       // Room for the rows to come, from the mean length of those seen: growing by doubling would
       // hold the numbers three times over.
-      rows.reserve(static_cast<std::size_t>(1.02 * whole / done * static_cast<double>(next_estimate)),
-                   rows_between_reports);
+      rows.reserve(
+          static_cast<std::size_t>(1.02 * whole / done * static_cast<double>(next_estimate)),
+          rows_between_reports);
       progress.report(done / whole);
       if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", file.name()));
       next_estimate = next_estimate < rows_between_reports ? rows_between_reports
@@ -162,10 +164,10 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
     const std::string place =
         fmt::format("{}: column {}", file->name(), layout->columns[*plan->time].name);
     const RowMap& map = rows.row_map();
-    const Result<Hertz> rate = rate_from_times(
-        rows.values(*plan->time),
-        {place, plan->time_unit,
-                [&](std::size_t i) { return fmt::format("row {}", map.line_of(i)); }});
+    const Result<Hertz> rate =
+        rate_from_times(rows.values(*plan->time), {place, plan->time_unit, [&](std::size_t i) {
+                                                     return fmt::format("row {}", map.line_of(i));
+                                                   }});
     if (!rate) return tl::make_unexpected(rate.error());
     table.rate = *rate;
   } else {

@@ -77,9 +77,10 @@ Result<std::optional<double>> time_unit(std::string_view name, std::string_view 
   if (unit == "ms") return std::optional(1e-3);
   if (unit == "us" || unit == "µs" || unit == "μs") return std::optional(1e-6);
   if (unit == "ns") return std::optional(1e-9);
-  return fail(fmt::format("'{}' is not a unit of time that is known here (s, ms, us, ns); correct it, "
-                          "or give --rate HZ to ignore the times",
-                          unit));
+  return fail(
+      fmt::format("'{}' is not a unit of time that is known here (s, ms, us, ns); correct it, "
+                  "or give --rate HZ to ignore the times",
+                  unit));
 }
 
 Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& column) {
@@ -98,9 +99,10 @@ Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& c
     }
     if (step == 0.0) return trouble(fmt::format("time {} stands twice", times[i]));
     if (step > 1.5 * median) {
-      return trouble(fmt::format("a gap: time steps by {:.6g} where {:.6g} is usual, about {:.0f} "
-                                 "samples are missing",
-                                 step, median, std::max(1.0, std::round(step / median) - 1.0)));
+      return trouble(
+          fmt::format("a gap: time steps by {:.6g} where {:.6g} is usual, about {:.0f} "
+                      "samples are missing",
+                      step, median, std::max(1.0, std::round(step / median) - 1.0)));
     }
     if (step < 0.5 * median) {
       return trouble(
@@ -109,9 +111,10 @@ Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& c
     scatter = std::max(scatter, std::abs(step - median));
   }
   if (!column.seconds && median > 1.0) {
-    return fail(fmt::format("{}: states no unit and steps by {:.6g}; write the unit into the header, "
-                            "e.g. 'time [ms]', or give --rate HZ",
-                            column.place, median));
+    return fail(
+        fmt::format("{}: states no unit and steps by {:.6g}; write the unit into the header, "
+                    "e.g. 'time [ms]', or give --rate HZ",
+                    column.place, median));
   }
   const double span = times.back() - times.front();
   const double mean = span / static_cast<double>(times.size() - 1) * column.seconds.value_or(1.0);

@@ -32,9 +32,9 @@ class Bytes {
 };
 
 Hdf5Handle any_type(Bytes& bytes) {
-  const std::array types = {H5T_STD_I16LE,  H5T_STD_I16BE,  H5T_STD_I32LE,  H5T_STD_I64LE,
-                            H5T_STD_U16LE,  H5T_STD_I8LE,   H5T_IEEE_F32LE, H5T_IEEE_F64BE,
-                            H5T_IEEE_F64LE, H5T_C_S1,       H5T_STD_B16LE,  H5T_STD_REF_OBJ};
+  const std::array types = {H5T_STD_I16LE,  H5T_STD_I16BE, H5T_STD_I32LE,  H5T_STD_I64LE,
+                            H5T_STD_U16LE,  H5T_STD_I8LE,  H5T_IEEE_F32LE, H5T_IEEE_F64BE,
+                            H5T_IEEE_F64LE, H5T_C_S1,      H5T_STD_B16LE,  H5T_STD_REF_OBJ};
   const std::uint8_t choice = bytes.next();
   Hdf5Handle type(H5Tcopy(types[choice % types.size()]), H5Tclose);
   const std::uint8_t shape = bytes.next();
@@ -52,13 +52,13 @@ Hdf5Handle any_space(Bytes& bytes) {
   if (choice % 8U == 0) return {H5Screate(H5S_SCALAR), H5Sclose};
   if (choice % 8U == 1) return {H5Screate(H5S_NULL), H5Sclose};
   const int rank = choice % 8U == 2 ? 2 : 1;
-  const std::array<hsize_t, 2> shape = {choice % 8U == 3 ? hsize_t{1} << (choice >> 3U) : choice >> 3U,
-                                        2};
+  const std::array<hsize_t, 2> shape = {
+      choice % 8U == 3 ? hsize_t{1} << (choice >> 3U) : choice >> 3U, 2};
   return {H5Screate_simple(rank, shape.data(), nullptr), H5Sclose};
 }
 
-// Room for any small object of this space and type, filled from the fuzzer; empty when it is too big
-// or holds pointers.
+// Room for any small object of this space and type, filled from the fuzzer; empty when it is too
+// big or holds pointers.
 std::vector<std::uint8_t> any_values(Bytes& bytes, hid_t type, hid_t space) {
   const hssize_t points = H5Sget_simple_extent_npoints(space);
   const std::size_t width = H5Tget_size(type);
@@ -93,9 +93,9 @@ void add_dataset(Bytes& bytes, hid_t file) {
   if (layout % 4U == 1 && (layout & 64U) != 0) H5Pset_deflate(properties.get(), 1);
   if (layout % 4U == 2) H5Pset_layout(properties.get(), H5D_COMPACT);
   if (layout % 4U == 3) H5Pset_external(properties.get(), "/dev/zero", 0, H5F_UNLIMITED);
-  const Hdf5Handle dataset(H5Dcreate2(file, name, type.get(), space.get(), H5P_DEFAULT,
-                                      properties.get(), H5P_DEFAULT),
-                           H5Dclose);
+  const Hdf5Handle dataset(
+      H5Dcreate2(file, name, type.get(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+      H5Dclose);
   if (!dataset) return;
   const std::vector<std::uint8_t> values = any_values(bytes, type.get(), space.get());
   if (!values.empty() && layout % 4U != 3) {
@@ -110,10 +110,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const QuietHdf5 quiet;
   Bytes bytes(data, size);
   // HDF5 resolves links, which a file in memory does not survive: a file on disk, then.
-  const std::filesystem::path place =
-      std::filesystem::temp_directory_path() / ("imunoise-fuzz-" + std::to_string(::getpid()) + ".h5");
+  const std::filesystem::path place = std::filesystem::temp_directory_path() /
+                                      ("imunoise-fuzz-" + std::to_string(::getpid()) + ".h5");
   {
-    const Hdf5Handle file(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    const Hdf5Handle file(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                          H5Fclose);
     if (!file) std::abort();
     for (std::uint8_t left = bytes.next() % 3U; left > 0; --left) add_attribute(bytes, file.get());
     for (int left = 6; left > 0 && !bytes.empty(); --left) add_dataset(bytes, file.get());

@@ -15,8 +15,8 @@ TEST_F(Refused, FlawsInRowsOfText) {
   const auto flaw = [&](const std::string& row) {
     return error_of(write("run3.csv", kRows + row + "\n" + repeated("1,2\n")), at_rate(10));
   };
-  expect_parts(flaw("1,abc"), {"run3.csv: row 22: 'abc' is not a number in column y", "delete the row",
-                               "split"});
+  expect_parts(flaw("1,abc"),
+               {"run3.csv: row 22: 'abc' is not a number in column y", "delete the row", "split"});
   expect_parts(flaw("nan,1"), {"run3.csv: row 22", "'nan' is not a finite number", "column x"});
   expect_parts(flaw("1,-inf"), {"row 22", "'-inf' is not a finite number", "column y"});
   expect_parts(flaw("1,1e999"), {"row 22", "'1e999' is not a finite number"});
@@ -26,7 +26,9 @@ TEST_F(Refused, FlawsInRowsOfText) {
   expect_parts(flaw("1,2x"), {"row 22", "'2x' is not a number"});
   expect_parts(flaw("1,+-2"), {"row 22", "'+-2' is not a number"});
   expect_parts(flaw("1,0x10"), {"row 22", "'0x10' is not a number"});
-  expect_parts(flaw("1,\x01\x02"), {"row 22", "'?" "?' is not a number"});
+  expect_parts(flaw("1,\x01\x02"), {"row 22",
+                                    "'?"
+                                    "?' is not a number"});
 }
 
 TEST_F(Refused, DecimalCommas) {
@@ -57,25 +59,29 @@ TEST_F(Refused, HeadersThatSayTooLittle) {
 TEST_F(Refused, AChannelThatIsNotThere) {
   ImportOptions options = at_rate(1);
   options.channels = {"z"};
-  expect_parts(error_of(write("a.csv", kRows), options), {"a.csv: no channel 'z'", "x, y", "--channel"});
+  expect_parts(error_of(write("a.csv", kRows), options),
+               {"a.csv: no channel 'z'", "x, y", "--channel"});
 }
 
 TEST_F(Refused, FilesWithNothingInThem) {
   expect_parts(error_of(write("a.csv", "")), {"a.csv", "is empty"});
   expect_parts(error_of(write("a.csv", "# nothing\n\n")), {"a.csv", "no rows"});
-  expect_parts(error_of(write("a.csv", "x,y\n"), at_rate(1)), {"a.csv", "0 samples", "at least 16"});
+  expect_parts(error_of(write("a.csv", "x,y\n"), at_rate(1)),
+               {"a.csv", "0 samples", "at least 16"});
   expect_parts(error_of(write("a.csv", repeated("1\n", 15)), at_rate(1)),
                {"a.csv", "15 samples", "at least 16"});
   EXPECT_EQ(error_of(write("a.csv", repeated("1\n", 16)), at_rate(1)), "no error");
   expect_parts(error_of(path("missing.csv")), {"missing.csv", "No such file"});
   expect_parts(error_of(path(".")), {"is a folder"});
-  expect_parts(error_of(write("a.csv", std::string("\xff\xfe") + "1"), at_rate(1)), {"UTF-16", "UTF-8"});
+  expect_parts(error_of(write("a.csv", std::string("\xff\xfe") + "1"), at_rate(1)),
+               {"UTF-16", "UTF-8"});
 }
 
 TEST_F(Refused, NamesThatPromiseSomethingElse) {
   expect_parts(error_of(write("a.h5", "1,2\n")), {"a.h5", "not an HDF5 file"});
   expect_parts(error_of(write("a.npy", "1,2\n")), {"a.npy", "not a NumPy file"});
-  expect_parts(error_of(write("a.xyz", std::string("\0\1\2", 3))), {"a.xyz", ".npy", ".csv", ".f64"});
+  expect_parts(error_of(write("a.xyz", std::string("\0\1\2", 3))),
+               {"a.xyz", ".npy", ".csv", ".f64"});
   expect_parts(error_of(write("a.h5", "\x89HDF\r\n\x1a\nrest")), {"a.h5", "HDF5 cannot open"});
 }
 

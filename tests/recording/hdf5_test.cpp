@@ -19,13 +19,14 @@ class Hdf5File {
 
   hid_t id() const { return file_.get(); }
   template <class Number>
-  Hdf5Handle dataset(const char* name, const std::vector<Number>& values, hid_t stored, hid_t memory,
-                     std::vector<hsize_t> shape = {}) {
+  Hdf5Handle dataset(const char* name, const std::vector<Number>& values, hid_t stored,
+                     hid_t memory, std::vector<hsize_t> shape = {}) {
     if (shape.empty()) shape = {values.size()};
     const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                            H5Sclose);
-    Hdf5Handle out(H5Dcreate2(id(), name, stored, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                   H5Dclose);
+    Hdf5Handle out(
+        H5Dcreate2(id(), name, stored, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose);
     EXPECT_GE(H5Dwrite(out.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
     return out;
   }
@@ -50,7 +51,8 @@ TEST_F(Hdf5, CountsStayCountsAndFloatsBecomeDoubles) {
     file.dataset("b", std::vector<std::int32_t>(20, -100000), H5T_STD_I32LE, H5T_NATIVE_INT32);
     file.dataset("c", std::vector<float>(20, 0.1F), H5T_IEEE_F32LE, H5T_NATIVE_FLOAT);
     file.dataset("d", std::vector<double>(20, 0.1), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
-    const Hdf5Handle group(H5Gcreate2(file.id(), "e", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle group(H5Gcreate2(file.id(), "e", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Gclose);
   }
   const auto got = import_one(path("a.h5"));
   ASSERT_TRUE(got) << got.error().message;
@@ -95,10 +97,11 @@ TEST_F(Hdf5, DatasetsOfTheWrongKind) {
     return error_of(path("a.h5"));
   };
   expect_parts(message([](Hdf5File&) {}), {"a.h5", "no channel"});
-  expect_parts(message([](Hdf5File& f) {
-                 f.dataset("x", std::vector<double>(40), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {20, 2});
-               }),
-               {"a.h5: dataset x: has 2 dimensions", "--channel"});
+  expect_parts(
+      message([](Hdf5File& f) {
+        f.dataset("x", std::vector<double>(40), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {20, 2});
+      }),
+      {"a.h5: dataset x: has 2 dimensions", "--channel"});
   expect_parts(message([](Hdf5File& f) {
                  f.dataset("x", std::vector<std::int64_t>(20), H5T_STD_I64LE, H5T_NATIVE_INT64);
                }),
@@ -167,7 +170,8 @@ TEST_F(Hdf5, AClaimThatTheFileCannotHoldAllocatesNothing) {
                        H5Dclose);
     ASSERT_TRUE(x);
   }
-  expect_parts(error_of(path("a.h5"), at_rate(1)), {"a.h5: dataset x: claims 1099511627776 samples"});
+  expect_parts(error_of(path("a.h5"), at_rate(1)),
+               {"a.h5: dataset x: claims 1099511627776 samples"});
 }
 
 TEST_F(Hdf5, NumbersInAnotherFileAreNotFollowed) {

@@ -8,7 +8,8 @@ namespace imunoise::recording {
 namespace {
 
 TEST(RealData, SixReplicatesOfAnAdis16405) {
-  const std::filesystem::path folder = std::filesystem::path(IMUNOISE_SHARED_DIR) / "data/adis16405";
+  const std::filesystem::path folder =
+      std::filesystem::path(IMUNOISE_SHARED_DIR) / "data/adis16405";
   if (!std::filesystem::exists(folder)) {
     GTEST_SKIP() << "NOT TESTED ON REAL DATA: " << folder << " is not there";
   }
@@ -29,7 +30,8 @@ TEST(RealData, SixReplicatesOfAnAdis16405) {
     EXPECT_EQ(run.channels[0].unit.symbol, "deg/s");
     EXPECT_TRUE(std::holds_alternative<std::vector<std::int16_t>>(*run.channels[0].samples));
   }
-  // First and last counts of replicate 1, read with h5py: gyro_z 14, 9, -11 ... -9; gyro_x -1 ... 7.
+  // First and last counts of replicate 1, read with h5py: gyro_z 14, 9, -11 ... -9; gyro_x -1
+  // ... 7.
   constexpr double per_count = 0.05 * 0.017453292519943295;  // rad/s
   const Signal z = got->front().channels[0].signal();
   const Signal x = got->front().channels[1].signal();

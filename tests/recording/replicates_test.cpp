@@ -38,7 +38,8 @@ TEST_F(Replicates, SplittingSharesTheSamplesAndDropsTheRemainder) {
     EXPECT_DOUBLE_EQ(x.signal().value(32), 9.80665 * (33.0 * static_cast<double>(part) + 32.0));
   }
   options.split_into = 7;
-  expect_parts(error_of(path("run.csv"), options), {"run.csv", "14 samples in each of 7 parts", "fewer"});
+  expect_parts(error_of(path("run.csv"), options),
+               {"run.csv", "14 samples in each of 7 parts", "fewer"});
 }
 
 TEST_F(Replicates, SeveralFilesComeInTheOrderNamed) {
@@ -46,7 +47,8 @@ TEST_F(Replicates, SeveralFilesComeInTheOrderNamed) {
   std::filesystem::create_directory(path("b"));
   Paths paths;
   for (int i = 0; i < 6; ++i) {
-    paths.push_back(numbered((i % 2 == 0 ? "a/run" : "b/run") + std::to_string(i / 2) + ".csv", 20 + i, 100 * i));
+    paths.push_back(numbered((i % 2 == 0 ? "a/run" : "b/run") + std::to_string(i / 2) + ".csv",
+                             20 + i, 100 * i));
   }
   const auto got = import_files(paths, at_rate(10));
   ASSERT_TRUE(got) << got.error().message;
@@ -76,13 +78,15 @@ TEST_F(Replicates, FilesThatDisagreeAreRefused) {
     const auto got = import_files(paths, options);
     return got ? "no error" : got.error().message;
   };
-  expect_parts(message("x [mg],y\n"), {"two.csv: channel x is in mg", "one.csv it is in g", "--unit"});
+  expect_parts(message("x [mg],y\n"),
+               {"two.csv: channel x is in mg", "one.csv it is in g", "--unit"});
   expect_parts(message("x [g],z\n"), {"two.csv: no channel 'y'", "one.csv", "--channel"});
   ImportOptions options = at_rate(10);
   options.channels = {"y"};
   expect_parts(message("x [g],z\n", options), {"two.csv: no channel 'y' (it has: x, z)"});
   const auto more = import_files(
-      Paths{numbered("one.csv", 20), write("three.csv", "x [g],y,z\n" + repeated("1,2,3\n"))}, at_rate(10));
+      Paths{numbered("one.csv", 20), write("three.csv", "x [g],y,z\n" + repeated("1,2,3\n"))},
+      at_rate(10));
   ASSERT_FALSE(more);
   expect_parts(more.error().message, {"three.csv: has channel 'z'", "one.csv has not"});
 }

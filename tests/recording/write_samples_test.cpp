@@ -19,7 +19,8 @@ class WriteSamples : public FileTest {
     std::mt19937_64 random(11);
     for (std::size_t i = 0; i < 70000; ++i) {  // more than one HDF5 chunk and one block of text
       x_.push_back(static_cast<double>(random()) * 1e-19 - 0.5);
-      y_.push_back(std::bit_cast<double>((random() & ~(0x7ffULL << 52U)) | (random() % 0x7ff) << 52U));
+      y_.push_back(
+          std::bit_cast<double>((random() & ~(0x7ffULL << 52U)) | (random() % 0x7ff) << 52U));
     }
   }
   std::vector<OutputChannel> channels() const {
@@ -38,7 +39,8 @@ class WriteSamples : public FileTest {
 TEST_F(WriteSamples, ComesBackBitForBit) {
   for (const char* name : {"a.h5", "a.hdf5", "a.csv", "a.npy"}) {
     for (int time = 0; time < 2; ++time) {  // the second time an older file is replaced
-      ASSERT_EQ(error(name, channels(), {{"sensor", "none\nat all"}, {"seed", "7"}}, 819.2), "no error");
+      ASSERT_EQ(error(name, channels(), {{"sensor", "none\nat all"}, {"seed", "7"}}, 819.2),
+                "no error");
     }
     const auto got = import_one(path(name));
     ASSERT_TRUE(got) << got.error().message;
@@ -49,7 +51,8 @@ TEST_F(WriteSamples, ComesBackBitForBit) {
     EXPECT_EQ(x.unit.symbol, "deg/s");
     EXPECT_EQ(got->front().channels[1].name, "y [raw]");
     EXPECT_EQ(got->front().channels[1].unit.quantity, Quantity::kUnknown);
-    for (const auto& [channel, values] : {std::pair(x, x_), std::pair(got->front().channels[1], y_)}) {
+    for (const auto& [channel, values] :
+         {std::pair(x, x_), std::pair(got->front().channels[1], y_)}) {
       const std::vector<double> back = stored_doubles(channel);
       ASSERT_EQ(back.size(), values.size()) << name;
       EXPECT_EQ(std::memcmp(back.data(), values.data(), 8 * back.size()), 0) << name;
