@@ -57,11 +57,15 @@ void set_chi_square_interval(WaveletVariance& wv) {
   const Eigen::ArrayXd m = wv.scales.half_widths();
   const auto samples = static_cast<double>(wv.samples);
   wv.edof = ((samples - 2.0 * m + 1.0) / (2.0 * m)).max(1.0);
+  fill_interval(wv);
+}
+
+void fill_interval(WaveletVariance& wv) {
   wv.lower = wv.variance;
   wv.upper = wv.variance;
   const double tail = (1.0 - wv.confidence) / 2.0;
   const double widen = 1.0 / std::sqrt(wv.efficiency);
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
+  for (Eigen::Index i = 0; i < wv.variance.size(); ++i) {
     const double low = wv.edof(i) / chi_square_quantile(1.0 - tail, wv.edof(i));
     const double high = wv.edof(i) / chi_square_quantile(tail, wv.edof(i));
     wv.lower(i) *= std::max(0.0, 1.0 - (1.0 - low) * widen);

@@ -31,8 +31,10 @@ struct WaveletVariance {
 WaveletVariance wavelet_variance(const Signal& signal, const Scales& scales, double confidence = 0.95,
                                  const Progress& progress = {});
 
-/// Fills lower, upper and edof from variance, scales, samples, confidence and efficiency. The robust
-/// estimator's interval is the classical one widened by 1/√efficiency about the estimate.
+/// Fills edof from scales and samples, and then the interval.
 void set_chi_square_interval(WaveletVariance& wv);
+/// Fills lower and upper from variance, edof, confidence and efficiency. The robust estimator's interval
+/// is the classical one widened by 1/√efficiency about the estimate.
+void fill_interval(WaveletVariance& wv);
 
 }  // namespace imunoise

@@ -1,0 +1,57 @@
+#pragma once
+
+// What the user asked for. CLI11 is slow to compile: it lives in arguments.cpp alone.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "recording/import/import.h"
+#include "study/analysis/fit_series.h"
+
+namespace imunoise::cli {
+
+/// Where measurements come from.
+struct InputArguments {
+  std::vector<std::filesystem::path> files;
+  recording::ImportOptions import;
+};
+
+struct WvArguments {
+  InputArguments input;
+  study::MeasureOptions measure;
+  bool json = false;
+};
+
+struct FitArguments {
+  InputArguments input;
+  study::FitOptions fit;
+  bool json = false;
+  std::optional<std::filesystem::path> report;  ///< HTML page
+  std::optional<std::filesystem::path> svg;     ///< picture for papers
+};
+
+struct SimulateArguments {
+  std::string model;
+  Hertz rate;
+  std::size_t samples = 0;
+  std::uint32_t replicates = 1;
+  std::uint64_t seed = 1;
+  Unit unit;
+  std::string channel = "x";
+  std::filesystem::path out;
+  bool json = false;
+};
+
+struct Arguments {
+  std::variant<WvArguments, FitArguments, SimulateArguments> command;
+  std::optional<std::size_t> threads;
+};
+
+/// The arguments, or the exit status with which to end (help and usage errors are printed).
+std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace imunoise::cli

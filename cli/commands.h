@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/arguments.h"
+
+namespace imunoise::cli {
+
+/// Each runs one command and returns the exit status.
+int run(const WvArguments& arguments);
+int run(const FitArguments& arguments);
+int run(const SimulateArguments& arguments);
+
+}  // namespace imunoise::cli

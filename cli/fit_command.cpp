@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/output.h"
+#include "cli/progress_line.h"
+#include "study/report/html.h"
+#include "study/report/json.h"
+#include "study/report/svg_plot.h"
+
+namespace imunoise::cli {
+namespace {
+
+// One picture a channel: OUT.svg, or OUT_channel.svg when there are several.
+Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem::path& path) {
+  for (const v1::FitReport& one : reports.channels()) {
+    std::filesystem::path out = path;
+    if (reports.channels_size() > 1) {
+      out.replace_filename(path.stem().string() + "_" + one.channel() + path.extension().string());
+    }
+    if (auto done = write_file(out, report::budget_svg(one)); !done) return done;
+    fmt::print(stderr, "wrote {}\n", out.string());
+  }
+  return {};
+}
+
+}  // namespace
+
+int run(const FitArguments& arguments) {
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return print_error(replicates.error());
+  v1::FitReports reports;
+  for (const study::Series& series : all_series(*replicates)) {
+    ProgressLine line(series.channel);
+    const auto fitted = study::fit_series(series, arguments.fit, line.progress());
+    if (!fitted) return print_error(fitted.error());
+    *reports.add_channels() = *fitted;
+  }
+  if (arguments.report) {
+    if (auto done = write_file(*arguments.report, report::html_page(reports)); !done) return print_error(done.error());
+    fmt::print(stderr, "wrote {}\n", arguments.report->string());
+  }
+  if (arguments.svg) {
+    if (auto done = write_pictures(reports, *arguments.svg); !done) return print_error(done.error());
+  }
+  if (arguments.json) {
+    const bool single = reports.channels_size() == 1;
+    print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));
+    return 0;
+  }
+  for (const v1::FitReport& one : reports.channels()) print(report::fit_text(one, terminal_style()));
+  return 0;
+}
+
+}  // namespace imunoise::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "cli/arguments.h"
+#include "study/analysis/series.h"
+
+namespace imunoise::cli {
+
+/// The replicates of the user's files; series borrow from them.
+Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments);
+
+/// One series for each channel.
+std::vector<study::Series> all_series(const std::vector<recording::Replicate>& replicates);
+
+}  // namespace imunoise::cli

@@ -1,0 +1,14 @@
+#include <optional>
+
+#include "cli/commands.h"
+#include "core/support/parallel.h"
+
+int main(int argc, char** argv) {
+  using namespace imunoise;
+  const auto parsed = cli::parse_arguments(argc, argv);
+  if (const int* status = std::get_if<int>(&parsed)) return *status;
+  const auto& arguments = std::get<cli::Arguments>(parsed);
+  std::optional<ThreadLimit> limit;
+  if (arguments.threads) limit.emplace(*arguments.threads);
+  return std::visit([](const auto& command) { return cli::run(command); }, arguments.command);
+}

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/support/result.h"
+#include "study/report/terminal.h"
+
+namespace imunoise::cli {
+
+/// Width, colour and character set of standard output.
+report::TerminalStyle terminal_style();
+
+void print(std::string_view text);
+/// "imunoise: message" on standard error; returns the exit status of a failed command.
+int print_error(const Error& error);
+
+/// Writes a whole file, under a temporary name first.
+Result<void> write_file(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace imunoise::cli

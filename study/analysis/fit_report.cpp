@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/support/distributions.h"
+#include "study/analysis/fit_series.h"
+
+namespace imunoise::study {
+namespace {
+
+std::string_view quantity_name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kAngularRate:
+      return "angular rate";
+    case Quantity::kAcceleration:
+      return "acceleration";
+    case Quantity::kMagneticFluxDensity:
+      return "magnetic flux density";
+    case Quantity::kTemperature:
+      return "temperature";
+    case Quantity::kVoltage:
+      return "voltage";
+    case Quantity::kUnknown:
+      break;
+  }
+  return "";
+}
+
+std::string unit_of(Dimension dimension, Quantity quantity) {
+  switch (dimension) {
+    case Dimension::kPower:
+      return quantity == Quantity::kUnknown ? "unit²" : fmt::format("({})²", si_symbol(quantity));
+    case Dimension::kSeconds:
+      return "s";
+    case Dimension::kPurePerSample:
+      break;
+  }
+  return "1";
+}
+
+v1::Observability observability(Observability from) {
+  switch (from) {
+    case Observability::kObserved:
+      return v1::observed;
+    case Observability::kUpperBound:
+      return v1::upper_bound_only;
+    case Observability::kIndistinguishable:
+      return v1::indistinguishable;
+    case Observability::kGiven:
+      break;
+  }
+  return v1::given;
+}
+
+void add_coefficient(const DerivedEstimate& quantity, Quantity measures, v1::Term& to) {
+  const CoefficientUnits units = coefficient_units(quantity.coefficient, measures);
+  v1::Coefficient& out = *to.add_coefficients();
+  out.set_symbol(std::string(units.symbol));
+  out.set_title(std::string(units.title));
+  out.set_value(quantity.value);
+  out.set_lower(quantity.lower);
+  out.set_upper(quantity.upper);
+  out.set_unit(units.si);
+  if (units.datasheet.empty()) return;
+  out.set_datasheet_value(quantity.value * units.to_datasheet);
+  out.set_datasheet_lower(quantity.lower * units.to_datasheet);
+  out.set_datasheet_upper(quantity.upper * units.to_datasheet);
+  out.set_datasheet_unit(units.datasheet);
+}
+
+void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured, const Eigen::ArrayXd& m,
+               v1::FitReport& out) {
+  const Model& model = fit.estimate.model;
+  const Quantity quantity = measured.front().quantity;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    const Process& process = model.terms[t].process;
+    v1::Term& term = *out.add_terms();
+    term.set_name(std::string(info(process).name));
+    term.set_title(std::string(info(process).title));
+    term.set_meaning(std::string(info(process).meaning));
+    const std::vector<ParameterInfo> about = parameters(process);
+    for (std::size_t p = 0; p < about.size(); ++p) {
+      const ParameterEstimate& estimate = fit.parameters[t][p];
+      v1::Parameter& parameter = *term.add_parameters();
+      parameter.set_name(about[p].name);
+      parameter.set_value(estimate.value);
+      parameter.set_lower(estimate.lower);
+      parameter.set_upper(estimate.upper);
+      parameter.set_unit(unit_of(about[p].dimension, quantity));
+      parameter.set_meaning(std::string(about[p].meaning));
+      parameter.set_observability(observability(estimate.observability));
+      if (estimate.observability == Observability::kUpperBound) {
+        parameter.set_record_longer(record_longer(fit, measured, t, p));
+      }
+    }
+    for (const DerivedEstimate& quantity_estimate : fit.derived[t]) add_coefficient(quantity_estimate, quantity, term);
+    for (const double value : variance(process, m)) term.add_variance(value);
+  }
+}
+
+// The pooled curve against the model. Its spread follows from the exact covariance of each replicate.
+void add_budget(const Fit& fit, const std::vector<WaveletVariance>& measured, const WaveletVariance& total,
+                v1::FitReport& out) {
+  const Eigen::ArrayXd m = total.scales.half_widths();
+  const Eigen::ArrayXd nu = variance(fit.estimate.model, m);
+  v1::NoiseBudget& budget = *out.mutable_budget();
+  const double tail = 0.5 * (1.0 - fit.confidence);
+  for (std::size_t i = 0; i < total.scales.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    double weights = 0.0;
+    double spread = 0.0;
+    bool tested = false;
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+      const auto& scales = measured[k].scales;
+      const auto found = std::find(scales.begin(), scales.end(), total.scales[i]);
+      if (found == scales.end()) continue;
+      const auto own = found - scales.begin();
+      const double weight = static_cast<double>(measured[k].samples) - 2.0 * m(at) + 1.0;
+      weights += weight;
+      spread += weight * weight * fit.covariances[k](own, own);
+      tested = tested || fit.tested[k][static_cast<std::size_t>(own)];
+    }
+    spread /= weights * weights;
+    const double edof = spread > 0.0 ? 2.0 * nu(at) * nu(at) / spread : 1.0;
+    budget.add_scales(2.0 * m(at));
+    budget.add_scales_s(2.0 * m(at) / total.rate.value);
+    budget.add_measured(total.variance(at));
+    budget.add_lower(total.variance(at) * edof / chi_square_quantile(1.0 - tail, edof));
+    budget.add_upper(total.variance(at) * edof / chi_square_quantile(tail, edof));
+    budget.add_model(nu(at));
+    budget.add_residual(spread > 0.0 ? (total.variance(at) - nu(at)) / std::sqrt(spread) : 0.0);
+    budget.add_tested(tested);
+  }
+}
+
+void add_replicates(const Fit& fit, const Series& series, const std::vector<WaveletVariance>& measured,
+                    v1::FitReport& out) {
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    v1::ReplicateResidual& one = *out.add_replicates();
+    one.set_name(series.names[k]);
+    one.set_samples(static_cast<std::uint32_t>(measured[k].samples));
+    for (std::size_t i = 0; i < measured[k].scales.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      one.add_scales_s(2.0 * static_cast<double>(measured[k].scales[i]) / measured[k].rate.value);
+      one.add_measured(measured[k].variance(at));
+      const double residual = fit.residuals[k](at);
+      one.add_residual(std::isfinite(residual) ? residual : 0.0);
+    }
+  }
+}
+
+// "gyro_x: angle random walk 0.18 °/√h, ...; the model does not fit (p < 0.0001)."
+std::string summary_of(const v1::FitReport& report) {
+  std::string known;
+  for (const v1::Term& term : report.terms()) {
+    const bool seen = !term.parameters().empty() && term.parameters(0).observability() == v1::observed;
+    if (!seen) continue;
+    for (const v1::Coefficient& c : term.coefficients()) {
+      const bool datasheet = !c.datasheet_unit().empty();
+      known += fmt::format("{}{} {:.3g} {}", known.empty() ? "" : ", ", c.title(),
+                           datasheet ? c.datasheet_value() : c.value(), datasheet ? c.datasheet_unit() : c.unit());
+    }
+  }
+  const double p = report.p_value();
+  const std::string chance = p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
+  std::string fits = "there are too few scales to test the fit";
+  if (report.degrees_of_freedom() > 0) {
+    fits = (p >= 0.05   ? "the model fits the measurements ("
+            : p >= 0.01 ? "it is doubtful that the model fits ("
+                        : "the model does not fit the measurements (") +
+           chance + ")";
+  }
+  return fmt::format("{}: {}{}.", report.channel(), known.empty() ? "" : known + "; ", fits);
+}
+
+}  // namespace
+
+v1::FitReport fit_report(const Fit& fit, const Series& series, const std::vector<WaveletVariance>& measured) {
+  const WaveletVariance total = pooled(measured);
+  v1::FitReport out;
+  out.set_channel(series.channel);
+  out.set_unit(std::string(si_symbol(total.quantity)));
+  out.set_quantity(std::string(quantity_name(total.quantity)));
+  out.set_rate_hz(total.rate.value);
+  out.set_model(print(fit.estimate.model));
+  out.set_fitted_model(print_with_values(fit.estimate.model));
+  out.set_weights(fit.estimate.weighting == Weighting::kFull ? "full" : "diag");
+  out.set_objective(fit.estimate.objective);
+  out.set_j_statistic(fit.goodness.statistic);
+  out.set_degrees_of_freedom(fit.goodness.degrees_of_freedom);
+  out.set_p_value(fit.goodness.p_value);
+  out.set_termination(std::string(describe(fit.estimate.termination)));
+  out.set_confidence(fit.confidence);
+  add_terms(fit, measured, total.scales.half_widths(), out);
+  add_budget(fit, measured, total, out);
+  add_replicates(fit, series, measured, out);
+  out.set_summary(summary_of(out));
+  if (total.quantity == Quantity::kUnknown) {
+    out.add_notes("The recording states no unit: numbers are in its own. Name it with --unit, e.g. --unit deg/s.");
+  }
+  return out;
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/inference/fit.h"
+#include "study/analysis/measure.h"
+
+namespace imunoise::study {
+
+enum class Estimator {
+  kMuGmwm,  ///< one model for all replicates (GMWM when there is only one)
+  kAGmwm,   ///< the average of one model a replicate
+};
+
+/// The model fitted when the user names none.
+inline constexpr std::string_view kDefaultModel = "2*AR1 + WN + RW";
+
+struct FitOptions {
+  std::optional<std::string> model;  ///< in the grammar; unset: kDefaultModel
+  Estimator estimator = Estimator::kMuGmwm;
+  Weighting weighting = Weighting::kFull;
+  MeasureOptions measure;
+};
+
+/// Measures the replicates, fits the model and says everything about it. Error: a model that cannot be
+/// read (with the place), more free parameters than moments, or the caller stopped it.
+Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options, const Progress& progress = {});
+
+/// A fit as a message. `measured` are the replicates it was made from.
+v1::FitReport fit_report(const Fit& fit, const Series& series, const std::vector<WaveletVariance>& measured);
+
+}  // namespace imunoise::study

@@ -1,0 +1,24 @@
+#pragma once
+
+// One channel over all its replicates: what a model is fitted to.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/signal/signal.h"
+#include "recording/import/channel.h"
+
+namespace imunoise::study {
+
+/// Borrows the samples of the replicates it was made from.
+struct Series {
+  std::string channel;
+  std::vector<std::string> names;  ///< of the replicates
+  std::vector<Signal> replicates;
+};
+
+/// Channel number `channel` of every replicate. Precondition: each has that many channels.
+Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel);
+
+}  // namespace imunoise::study
