@@ -8,7 +8,7 @@
 namespace imunoise {
 namespace {
 
-constexpr int kMostReweightings = 3;
+constexpr int kMostReweightings = 2;
 
 std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates) {
   std::vector<Eigen::MatrixXd> out;

@@ -19,6 +19,7 @@ using Complex = std::complex<double>;
 
 constexpr std::array<double, 3> kDifference = {1.0, -2.0, 1.0};  // p of the Haar wavelet on sums
 constexpr double kForgotten = 27.0;  // e^-27: an exponential counts as zero after this many lengths
+constexpr double kNothing = 45.0;    // e^-45: below the rounding of anything it is added to
 constexpr double kSmooth = 16.0;     // |log root|·lag below which polynomials are split off
 
 // γ_jk(s) = E[W_{j,t+s} W_{k,t}] for one pair of scales.
@@ -124,7 +125,12 @@ class CrossCovariance {
     if (e.real) {
       const double rate = e.rate.real();
       for_each_lag(s, [&](double weight, double lag) {
-        sum += weight * (e.split ? exponential_remainder(rate * lag) : std::exp(-rate * lag));
+        const double x = rate * lag;
+        if (e.split) {
+          sum += weight * exponential_remainder(x);
+        } else if (x < kNothing) {
+          sum += weight * std::exp(-x);
+        }
       });
       return sum * e.kernel.real();
     }

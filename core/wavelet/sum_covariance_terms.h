@@ -23,13 +23,12 @@ inline std::complex<double> stable_expm1(std::complex<double> x) {
 template <class Scalar>
 Scalar exponential_remainder(Scalar x) {
   if (std::abs(x) > 1.0) return std::exp(-x) - 1.0 + x * (1.0 - x * (0.5 - x / 6.0));
-  Scalar term = x * x * x * x / 24.0;
-  Scalar sum = term;
-  for (int k = 5; k < 22 && std::abs(term) > 1e-18 * std::abs(sum); ++k) {
-    term *= -x / static_cast<double>(k);
-    sum += term;
-  }
-  return sum;
+  // x⁴/4! (1 - x/5 (1 - x/6 (1 - ...))), to double precision for |x| ≤ 1.
+  constexpr double kInverse[] = {1.0 / 5,  1.0 / 6,  1.0 / 7,  1.0 / 8,  1.0 / 9,  1.0 / 10, 1.0 / 11,
+                                 1.0 / 12, 1.0 / 13, 1.0 / 14, 1.0 / 15, 1.0 / 16, 1.0 / 17, 1.0 / 18};
+  Scalar sum = 1.0;
+  for (int k = 13; k >= 0; --k) sum = 1.0 - x * kInverse[k] * sum;
+  return x * x * x * x / 24.0 * sum;
 }
 
 /// sinh(x) - x = x³/6 + ..., without cancellation for small |x|.

@@ -53,11 +53,34 @@ v1::Observability observability(Observability from) {
   return v1::given;
 }
 
-void add_coefficient(const DerivedEstimate& quantity, Quantity measures, v1::Term& to) {
+// "AR1", or "AR1 (2)" when the model has several.
+std::string label_of(const Model& model, std::size_t term) {
+  const auto same = [&](std::size_t other) {
+    return model.terms[other].process.index() == model.terms[term].process.index();
+  };
+  std::size_t number = 0;
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    if (same(t)) ++count;
+    if (t == term) number = count;
+  }
+  const std::string name(info(model.terms[term].process).name);
+  return count > 1 ? fmt::format("{} ({})", name, number) : name;
+}
+
+// N, B, K, R and Q are known by themselves; what describes a correlated noise needs the noise's name.
+bool stands_alone(Coefficient coefficient) {
+  return coefficient == Coefficient::kQuantisation || coefficient == Coefficient::kRandomWalk ||
+         coefficient == Coefficient::kBiasInstability || coefficient == Coefficient::kRateRandomWalk ||
+         coefficient == Coefficient::kRamp;
+}
+
+void add_coefficient(const DerivedEstimate& quantity, Quantity measures, const std::string& label, v1::Term& to) {
   const CoefficientUnits units = coefficient_units(quantity.coefficient, measures);
   v1::Coefficient& out = *to.add_coefficients();
   out.set_symbol(std::string(units.symbol));
-  out.set_title(std::string(units.title));
+  out.set_title(stands_alone(quantity.coefficient) ? std::string(units.title)
+                                                   : fmt::format("{} of {}", units.title, label));
   out.set_value(quantity.value);
   out.set_lower(quantity.lower);
   out.set_upper(quantity.upper);
@@ -94,7 +117,9 @@ void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured, con
         parameter.set_record_longer(record_longer(fit, measured, t, p));
       }
     }
-    for (const DerivedEstimate& quantity_estimate : fit.derived[t]) add_coefficient(quantity_estimate, quantity, term);
+    for (const DerivedEstimate& derived : fit.derived[t]) {
+      add_coefficient(derived, quantity, label_of(model, t), term);
+    }
     for (const double value : variance(process, m)) term.add_variance(value);
   }
 }
@@ -150,16 +175,25 @@ void add_replicates(const Fit& fit, const Series& series, const std::vector<Wave
   }
 }
 
-// "gyro_x: angle random walk 0.18 °/√h, ...; the model does not fit (p < 0.0001)."
+std::string value_and_unit(const v1::Coefficient& c) {
+  const bool datasheet = !c.datasheet_unit().empty();
+  return fmt::format("{:.3g} {}", datasheet ? c.datasheet_value() : c.value(),
+                     datasheet ? c.datasheet_unit() : c.unit());
+}
+
+// "gyro_x: angle random walk 2.03 °/√h, AR1 (1) 43.2 °/h over 91.7 s; the model does not fit (p < 0.0001)."
 std::string summary_of(const v1::FitReport& report) {
   std::string known;
   for (const v1::Term& term : report.terms()) {
     const bool seen = !term.parameters().empty() && term.parameters(0).observability() == v1::observed;
     if (!seen) continue;
+    bool first = true;
     for (const v1::Coefficient& c : term.coefficients()) {
-      const bool datasheet = !c.datasheet_unit().empty();
-      known += fmt::format("{}{} {:.3g} {}", known.empty() ? "" : ", ", c.title(),
-                           datasheet ? c.datasheet_value() : c.value(), datasheet ? c.datasheet_unit() : c.unit());
+      const std::string name = c.symbol() == "σ" ? c.title().substr(c.title().rfind("of ") + 3) : c.title();
+      const bool continues = !first && c.symbol() == "T";
+      known += continues ? " over " + value_and_unit(c)
+                         : fmt::format("{}{} {}", known.empty() ? "" : ", ", name, value_and_unit(c));
+      first = false;
     }
   }
   const double p = report.p_value();
