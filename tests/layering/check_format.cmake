@@ -16,7 +16,7 @@ foreach(folder IN ITEMS core recording study drivers daemon cli tests bench)
   list(APPEND sources ${found})
 endforeach()
 list(LENGTH sources count)
-if(count LESS 100)
+if(count LESS 50)
   message(FATAL_ERROR "only ${count} sources found under ${SOURCE_DIR}")
 endif()
 
