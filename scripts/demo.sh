@@ -14,7 +14,7 @@ out=build/demo
 bash scripts/install_packages.sh build
 echo "Building imunoise (the first time takes some minutes) ..."
 build_release imunoise
-imunoise=$(find build/release -type f -name imunoise -perm -u+x | head -n 1)
+imunoise=build/release/imunoise
 
 rm -rf "$out"
 mkdir -p "$out"

@@ -11,11 +11,13 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 constexpr double kHour = 3600.0;                      // s
 constexpr double kGravity = 9.80665;                  // m/s^2, standard
+constexpr double kIcePoint = 273.15;                  // K
 
 struct NamedUnit {
   std::string_view symbol;
   Quantity quantity;
   double to_si;
+  double si_offset = 0.0;
 };
 
 // The first symbol of each quantity is its SI unit. Spellings are compared after normalise().
@@ -38,7 +40,7 @@ constexpr std::array kUnits = {
     NamedUnit{"gauss", Quantity::kMagneticFluxDensity, 1e-4},
     NamedUnit{"mgauss", Quantity::kMagneticFluxDensity, 1e-7},
     NamedUnit{"K", Quantity::kTemperature, 1.0},
-    NamedUnit{"degC", Quantity::kTemperature, 1.0},
+    NamedUnit{"degC", Quantity::kTemperature, 1.0, kIcePoint},
     NamedUnit{"V", Quantity::kVoltage, 1.0},
     NamedUnit{"mV", Quantity::kVoltage, 1e-3},
     NamedUnit{"1", Quantity::kUnknown, 1.0},
@@ -57,7 +59,7 @@ std::string normalise(std::string_view text) {
            {" ", ""},       {"°C", "degC"},    {"°", "deg"},    {"µ", "u"},          {"μ", "u"},
            {"²", "^2"},     {"**", "^"},       {"s-2", "/s^2"}, {"s^-2", "/s^2"},    {"//", "/"},
            {"degrees", "deg"}, {"/sec", "/s"}, {"/hour", "/h"}, {"/hr", "/h"},       {"·", ""},
-           {"m/s/s", "m/s^2"}, {"m/s2", "m/s^2"}, {"s-1", "/s"}, {"celsius", "degC"}}) {
+           {"m/s/s", "m/s^2"}, {"m/s2", "m/s^2"}, {"s-1", "/s"}, {"s^-1", "/s"}, {"celsius", "degC"}}) {
     replace_all(out, from, to);
   }
   return out;
@@ -69,7 +71,7 @@ Result<Unit> parse_unit(std::string_view text) {
   const std::string wanted = normalise(text);
   for (const NamedUnit& unit : kUnits) {
     if (unit.symbol == wanted) {
-      return Unit{std::string(unit.symbol), unit.quantity, unit.to_si};
+      return Unit{std::string(unit.symbol), unit.quantity, unit.to_si, unit.si_offset};
     }
   }
   std::string known;

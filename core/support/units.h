@@ -27,11 +27,12 @@ enum class Quantity {
   kVoltage,
 };
 
-/// A unit of measurement: value in SI = value · to_si.
+/// A unit of measurement: value in SI = value · to_si + si_offset.
 struct Unit {
   std::string symbol;  ///< As people write it, e.g. "deg/s".
   Quantity quantity = Quantity::kUnknown;
   double to_si = 1.0;
+  double si_offset = 0.0;  ///< SI; 273.15 K for degC, else 0. Invisible to the wavelet variance.
 };
 
 /// The unit that `text` names ("deg/s", "°/h", "mg", "m/s^2", ...). Error: unknown unit, with the known ones listed.

@@ -6,7 +6,7 @@ namespace imunoise {
 namespace {
 
 TEST(Units, ParsesTheSpellingsPeopleUse) {
-  for (const char* text : {"deg/s", "°/s", "dps", "degrees/sec", "deg s-1"}) {
+  for (const char* text : {"deg/s", "°/s", "dps", "degrees/sec", "deg s-1", "deg s^-1"}) {
     const Result<Unit> unit = parse_unit(text);
     ASSERT_TRUE(unit) << text << ": " << unit.error().message;
     EXPECT_EQ(unit->quantity, Quantity::kAngularRate) << text;
@@ -18,6 +18,14 @@ TEST(Units, ParsesTheSpellingsPeopleUse) {
     EXPECT_EQ(unit->quantity, Quantity::kAcceleration) << text;
     EXPECT_EQ(unit->to_si, 1.0) << text;
   }
+}
+
+TEST(Units, DegreesCelsiusStartAtTheIcePoint) {
+  const Result<Unit> celsius = parse_unit("°C");
+  ASSERT_TRUE(celsius);
+  EXPECT_EQ(celsius->to_si, 1.0);
+  EXPECT_EQ(celsius->si_offset, 273.15);
+  EXPECT_EQ(parse_unit("K")->si_offset, 0.0);
 }
 
 TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {

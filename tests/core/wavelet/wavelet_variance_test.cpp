@@ -91,8 +91,9 @@ TEST(WaveletVariance, FarLagsAndWideSumsAreExact) {
     }
     std::vector<double> numbers(counts.begin(), counts.end());
     const WaveletVariance as_doubles = wavelet_variance(Signal{std::span<const double>(numbers), Hertz{100}}, scales);
+    // Doubles lose the digits that a steep ramp takes from the prefix sums; counts never do.
     for (Eigen::Index i = 0; i < wv.variance.size(); ++i) {
-      EXPECT_NEAR(as_doubles.variance(i) / wv.variance(i), 1.0, 1e-12);
+      EXPECT_NEAR(as_doubles.variance(i) / wv.variance(i), 1.0, wide ? 1e-9 : 1e-12);
     }
   }
 }

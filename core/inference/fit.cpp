@@ -1,0 +1,138 @@
+#include "core/inference/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/inference/goodness.h"
+#include "core/inference/intervals.h"
+#include "core/inference/parameter_covariance.h"
+#include "core/support/distributions.h"
+
+namespace imunoise {
+namespace {
+
+// Standard error that a power at zero would have if it were free as well.
+double error_at_zero(const Model& model, std::span<const WaveletVariance> replicates,
+                     const std::vector<Eigen::MatrixXd>& weight_roots, const PerReplicate& covariances,
+                     std::vector<Eigen::Index> interior, Eigen::Index column) {
+  interior.push_back(column);
+  const ParameterCovariance c = parameter_covariance(model, replicates, weight_roots, covariances, interior);
+  const Eigen::Index last = c.matrix.rows() - 1;
+  if (c.null_share(last) > 0.2) return std::numeric_limits<double>::infinity();
+  return std::sqrt(c.matrix(last, last));
+}
+
+std::vector<double> errors_at_zero(const Model& model, std::span<const WaveletVariance> replicates,
+                                   const std::vector<Eigen::MatrixXd>& weight_roots,
+                                   const PerReplicate& covariances, const ParameterSets& sets) {
+  std::vector<double> out;
+  for (const Eigen::Index column : sets.at_zero) {
+    out.push_back(error_at_zero(model, replicates, weight_roots, covariances, sets.interior, column));
+  }
+  return out;
+}
+
+void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates) {
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const Eigen::ArrayXd nu = variance(fit.estimate.model, replicates[k].scales.half_widths());
+    fit.residuals.emplace_back((replicates[k].variance - nu) / fit.covariances[k].diagonal().array().sqrt());
+    fit.tested.push_back(tested_scales(fit.estimate.model, replicates[k], fit.covariances[k]));
+  }
+}
+
+}  // namespace
+
+Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double confidence) {
+  Fit fit;
+  fit.confidence = confidence;
+  fit.estimate = std::move(estimate);
+  const Model& model = fit.estimate.model;
+  fit.covariances = moment_covariances(model, replicates);
+  fill_residuals(fit, replicates);
+  const ParameterSets sets = parameter_sets(model);
+  const auto& roots = fit.estimate.weight_roots;
+  const ParameterCovariance covariance =
+      parameter_covariance(model, replicates, roots, fit.covariances, sets.interior);
+  fill_intervals(fit, sets, covariance, errors_at_zero(model, replicates, roots, fit.covariances, sets),
+                 replicates[0].rate);
+  fit.goodness = goodness_of_fit(model, replicates, fit.covariances, fit.tested);
+  return fit;
+}
+
+Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> replicates, double confidence) {
+  Fit fit;
+  fit.confidence = confidence;
+  fit.estimate = average.average;
+  const Model& model = fit.estimate.model;
+  fit.covariances = moment_covariances(model, replicates);
+  fill_residuals(fit, replicates);
+  const ParameterSets sets = parameter_sets(model);
+  const auto size = static_cast<Eigen::Index>(sets.interior.size());
+  ParameterCovariance mean{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  std::vector<double> zero_errors(sets.at_zero.size(), 0.0);
+  const auto count = static_cast<double>(replicates.size());
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const auto one = replicates.subspan(k, 1);
+    const std::vector<Eigen::MatrixXd> root = {fit.estimate.weight_roots[k]};
+    const PerReplicate covariances = moment_covariances(model, one);
+    const ParameterCovariance c = parameter_covariance(model, one, root, covariances, sets.interior);
+    mean.matrix += c.matrix / (count * count);
+    mean.null_share = mean.null_share.cwiseMax(c.null_share);
+    const std::vector<double> errors = errors_at_zero(model, one, root, covariances, sets);
+    for (std::size_t i = 0; i < errors.size(); ++i) zero_errors[i] += errors[i] / (count * std::sqrt(count));
+    const Fit separate = infer(average.separate[k], one, confidence);
+    fit.goodness.statistic += separate.goodness.statistic;
+    fit.goodness.degrees_of_freedom += separate.goodness.degrees_of_freedom;
+  }
+  fill_intervals(fit, sets, mean, zero_errors, replicates[0].rate);
+  fit.goodness.p_value = chi_square_tail(fit.goodness.statistic, fit.goodness.degrees_of_freedom);
+  return fit;
+}
+
+double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates, std::size_t term,
+                     std::size_t parameter) {
+  const ParameterEstimate& estimate = fit.parameters[term][parameter];
+  if (estimate.observability == Observability::kObserved) return 1.0;
+  if (estimate.value <= 0.0 || parameter != 0) return 0.0;
+  const Model& model = fit.estimate.model;
+  Eigen::Index column = 0;
+  for (std::size_t t = 0; t < term; ++t) column += static_cast<Eigen::Index>(model.terms[t].given.size());
+  const ParameterSets sets = parameter_sets(model);
+  const auto found = std::find(sets.interior.begin(), sets.interior.end(), column);
+  if (found == sets.interior.end()) return 0.0;
+  const double z = normal_quantile(0.5 + 0.5 * fit.confidence);
+  double before = z * estimate.standard_error;  // what must fall to the value
+  double factor_before = 1.0;
+  for (const double factor : {4.0, 16.0, 64.0, 256.0}) {
+    std::vector<WaveletVariance> longer(replicates.begin(), replicates.end());
+    for (WaveletVariance& wv : longer) {
+      const auto times = static_cast<std::int64_t>(factor);
+      std::vector<std::int64_t> scales(wv.scales.begin(), wv.scales.end());
+      const std::int64_t top = wv.scales.largest();
+      for (std::int64_t octave = 2; octave <= times; octave *= 2) {
+        for (const std::int64_t m : wv.scales) {
+          if (2 * m > top) scales.push_back(m * octave);
+        }
+      }
+      wv.scales = Scales(std::move(scales));
+      wv.samples *= static_cast<std::size_t>(times);
+    }
+    const PerReplicate covariances = moment_covariances(model, longer);
+    std::vector<Eigen::MatrixXd> roots;
+    for (std::size_t k = 0; k < longer.size(); ++k) roots.push_back(whiten(covariances[k]).matrix);
+    const ParameterCovariance c = parameter_covariance(model, longer, roots, covariances, sets.interior);
+    const auto at = static_cast<Eigen::Index>(found - sets.interior.begin());
+    if (c.null_share(at) > 0.2) return 0.0;
+    const double now = z * std::sqrt(c.matrix(at, at));
+    if (now < estimate.value) {  // between the two, on logarithmic scales
+      const double share = std::log(before / estimate.value) / std::log(before / now);
+      return factor_before * std::pow(factor / factor_before, std::isfinite(share) ? share : 1.0);
+    }
+    before = now;
+    factor_before = factor;
+  }
+  return 0.0;
+}
+
+}  // namespace imunoise

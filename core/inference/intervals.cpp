@@ -1,0 +1,152 @@
+#include "core/inference/intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/support/distributions.h"
+
+namespace imunoise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Derived quantities of a process with one parameter moved.
+std::vector<DerivedQuantity> derived_with(const Process& process, std::size_t parameter, double value, Hertz rate) {
+  Process moved = process;
+  std::vector<double> v = values(process);
+  v[parameter] = value;
+  set_values(moved, v);
+  return derived(moved, rate);
+}
+
+// The same coefficient among moved quantities (a process may lose one, as AR1 its time when φ < 0).
+double find(const std::vector<DerivedQuantity>& all, Coefficient coefficient, double otherwise) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& q) { return q.coefficient == coefficient; });
+  return found == all.end() ? otherwise : found->value;
+}
+
+// Interval of a derived quantity: mapped end to end when it depends on one parameter, else by the delta
+// method on the logarithm.
+DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEstimate>& estimates,
+                                 const Eigen::MatrixXd& covariance, const DerivedQuantity& quantity,
+                                 Hertz rate, double z) {
+  const std::vector<double> v = values(term.process);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(v.size()));
+  std::vector<std::size_t> moves;
+  for (std::size_t p = 0; p < v.size(); ++p) {
+    if (estimates[p].observability == Observability::kGiven) continue;
+    double step = 1e-4 * std::abs(v[p]);
+    if (std::isfinite(estimates[p].standard_error)) step = std::min(step, 1e-3 * estimates[p].standard_error);
+    if (p > 0) step = std::min(step, 1e-3 * (1.0 - std::min(std::abs(v[p]), 1.0 - 1e-12)) + (std::abs(v[p]) > 1.0 ? step : 0.0));
+    if (step == 0.0) {
+      moves.push_back(p);
+      continue;
+    }
+    const double up = find(derived_with(term.process, p, v[p] + step, rate), quantity.coefficient, quantity.value);
+    const double down = find(derived_with(term.process, p, v[p] - step, rate), quantity.coefficient, quantity.value);
+    slope(static_cast<Eigen::Index>(p)) = (up - down) / (2.0 * step);
+    if (up != down) moves.push_back(p);
+  }
+  DerivedEstimate out{quantity.coefficient, quantity.value, quantity.value, quantity.value};
+  if (moves.empty()) return out;
+  const auto seen = [&](std::size_t p) { return estimates[p].observability == Observability::kObserved; };
+  if (moves.size() == 1 || !std::all_of(moves.begin(), moves.end(), seen)) {
+    const auto worst = std::find_if_not(moves.begin(), moves.end(), seen);
+    const std::size_t p = worst == moves.end() ? moves.front() : *worst;
+    const auto end = [&](double value) {
+      if (!std::isfinite(value)) return kInfinity;
+      return find(derived_with(term.process, p, value, rate), quantity.coefficient, 0.0);
+    };
+    const double a = end(estimates[p].lower);
+    const double b = end(estimates[p].upper);
+    out.lower = std::min(a, b);
+    out.upper = std::max(a, b);
+    return out;
+  }
+  const double relative = std::sqrt(std::max(0.0, slope.dot(covariance * slope))) / quantity.value;
+  out.lower = quantity.value * std::exp(-z * relative);
+  out.upper = quantity.value * std::exp(z * relative);
+  return out;
+}
+
+}  // namespace
+
+ParameterEstimate interval(const ParameterInfo& info, bool power, double value, double standard_error,
+                           double confidence) {
+  const double z = normal_quantile(0.5 + 0.5 * confidence);
+  ParameterEstimate out{value, standard_error, 0.0, 0.0, Observability::kObserved};
+  if (power || info.logarithmic) {
+    if (value - z * standard_error > 0.0) {
+      out.lower = value * std::exp(-z * standard_error / value);
+      out.upper = value * std::exp(z * standard_error / value);
+    } else {
+      out.lower = 0.0;
+      out.upper = value + z * standard_error;
+      out.observability = Observability::kUpperBound;
+    }
+    return out;
+  }
+  // Logit between the bounds.
+  const double below = value - info.lower;
+  const double above = info.upper - value;
+  const double width = info.upper - info.lower;
+  const double error = standard_error * width / (below * above);
+  const auto back = [&](double logit) { return info.lower + width / (1.0 + std::exp(-logit)); };
+  const double centre = std::log(below / above);
+  out.lower = back(centre - z * error);
+  out.upper = back(centre + z * error);
+  if (z * error > 8.0) out.observability = Observability::kIndistinguishable;  // spans almost all there is
+  return out;
+}
+
+void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
+                    const std::vector<double>& zero_errors, Hertz rate) {
+  const auto place = [](const std::vector<Eigen::Index>& set, Eigen::Index column) {
+    return std::find(set.begin(), set.end(), column) - set.begin();
+  };
+  fit.parameters.clear();
+  fit.derived.clear();
+  const double z = normal_quantile(0.5 + 0.5 * fit.confidence);
+  Eigen::Index first = 0;
+  for (const Term& term : fit.estimate.model.terms) {
+    const std::vector<ParameterInfo> about = parameters(term.process);
+    const std::vector<double> v = values(term.process);
+    const auto size = static_cast<Eigen::Index>(v.size());
+    std::vector<ParameterEstimate> row;
+    Eigen::MatrixXd local = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index p = 0; p < size; ++p) {
+      const auto index = static_cast<std::size_t>(p);
+      const auto inside = static_cast<std::size_t>(place(sets.interior, first + p));
+      const auto zero = static_cast<std::size_t>(place(sets.at_zero, first + p));
+      if (term.given[index]) {
+        row.push_back({v[index], 0.0, v[index], v[index], Observability::kGiven});
+      } else if (inside < sets.interior.size()) {
+        const auto at = static_cast<Eigen::Index>(inside);
+        if (covariance.null_share(at) > 0.2) {
+          row.push_back({v[index], kInfinity, p == 0 ? 0.0 : about[index].lower,
+                         p == 0 ? kInfinity : about[index].upper, Observability::kIndistinguishable});
+        } else {
+          row.push_back(interval(about[index], p == 0, v[index], std::sqrt(covariance.matrix(at, at)), fit.confidence));
+        }
+        for (Eigen::Index q = 0; q < size; ++q) {
+          const auto other = static_cast<std::size_t>(place(sets.interior, first + q));
+          if (other < sets.interior.size()) local(p, q) = covariance.matrix(at, static_cast<Eigen::Index>(other));
+        }
+      } else if (zero < sets.at_zero.size()) {
+        row.push_back({0.0, zero_errors[zero], 0.0, z * zero_errors[zero], Observability::kUpperBound});
+      } else {  // a shape whose power is zero, or that ran into its bound
+        row.push_back({v[index], kInfinity, about[index].lower, about[index].upper, Observability::kIndistinguishable});
+      }
+    }
+    std::vector<DerivedEstimate> quantities;
+    for (const DerivedQuantity& quantity : derived(term.process, rate)) {
+      quantities.push_back(derived_interval(term, row, local, quantity, rate, z));
+    }
+    fit.parameters.push_back(std::move(row));
+    fit.derived.push_back(std::move(quantities));
+    first += size;
+  }
+}
+
+}  // namespace imunoise

@@ -1,0 +1,49 @@
+#include "core/inference/parameter_covariance.h"
+
+namespace imunoise {
+
+ParameterSets parameter_sets(const Model& model) {
+  ParameterSets out;
+  Eigen::Index column = 0;
+  for (const Term& term : model.terms) {
+    const std::vector<double> v = values(term.process);
+    const std::vector<ParameterInfo> about = parameters(term.process);
+    for (std::size_t p = 0; p < v.size(); ++p, ++column) {
+      if (term.given[p]) continue;
+      if (p == 0) {
+        (v[0] > 0.0 ? out.interior : out.at_zero).push_back(column);
+        continue;
+      }
+      const bool at_bound = v[p] <= about[p].lower * (1.0 + 1e-9) || v[p] >= about[p].upper * (1.0 - 1e-13);
+      if (v[0] > 0.0 && !at_bound) out.interior.push_back(column);
+    }
+  }
+  return out;
+}
+
+Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix, const std::vector<Eigen::Index>& columns) {
+  Eigen::MatrixXd out(matrix.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = matrix.col(columns[i]);
+  return out;
+}
+
+ParameterCovariance parameter_covariance(const Model& model, std::span<const WaveletVariance> replicates,
+                                         const std::vector<Eigen::MatrixXd>& weight_roots,
+                                         const PerReplicate& covariances,
+                                         const std::vector<Eigen::Index>& set) {
+  const auto n = static_cast<Eigen::Index>(set.size());
+  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const Eigen::MatrixXd& root = weight_roots[k];
+    const Eigen::MatrixXd slope =
+        root * pick_columns(jacobian(model, replicates[k].scales.half_widths()), set);
+    const Eigen::MatrixXd spread = root * covariances[k] * root.transpose();
+    bread += slope.transpose() * slope;
+    meat += slope.transpose() * spread * slope;
+  }
+  const PseudoInverse inverse = pseudo_inverse(bread);
+  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+}
+
+}  // namespace imunoise

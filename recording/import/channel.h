@@ -1,0 +1,57 @@
+#pragma once
+
+// What an import yields: replicates, each a set of channels that share one rate and one length.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/signal/signal.h"
+#include "core/support/units.h"
+
+namespace imunoise::recording {
+
+/// Numbers as the file stores them: counts stay integers, every float becomes a double.
+using Samples =
+    std::variant<std::vector<double>, std::vector<std::int16_t>, std::vector<std::int32_t>>;
+
+/// How many numbers there are.
+inline std::size_t size(const Samples& samples) {
+  return std::visit([](const auto& values) { return values.size(); }, samples);
+}
+
+/// One measured axis. Copies and parts of a recording share the samples. Thread-safe to read.
+struct Channel {
+  std::string name;
+  std::shared_ptr<const Samples> samples;  ///< Of the whole file; never null after an import.
+  std::size_t begin = 0;                   ///< First sample of this channel in `samples`.
+  std::size_t count = 0;                   ///< Samples of this channel.
+  double scale = 1.0;                      ///< SI units per stored number.
+  double offset = 0.0;                     ///< SI units: value_SI = offset + scale · sample.
+  Unit unit;                               ///< As the file (or the user) states it.
+  Hertz rate;
+
+  /// The channel as the mathematics sees it. Borrows: keep this channel (or a copy) alive.
+  Signal signal() const {
+    return std::visit(
+        [this](const auto& values) {
+          const auto whole = std::span(values);
+          return Signal(whole.subspan(begin, count), rate, unit.quantity, scale, offset);
+        },
+        *samples);
+  }
+};
+
+/// One uninterrupted static recording of a sensor.
+struct Replicate {
+  std::string name;  ///< For messages and plots; unique within an import.
+  std::filesystem::path source;
+  Hertz rate;
+  std::vector<Channel> channels;  ///< All of the same length.
+};
+
+}  // namespace imunoise::recording

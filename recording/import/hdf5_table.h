@@ -1,0 +1,19 @@
+#pragma once
+
+// HDF5 files whose root holds one 1-D dataset a channel (h5py, xarray, MATLAB v7.3, our own
+// export).
+
+#include <filesystem>
+
+#include "recording/import/import.h"
+#include "recording/import/table.h"
+
+namespace imunoise::recording {
+
+/// Reads the wanted channels. Attributes of a dataset: scale_factor, add_offset, units (CF names);
+/// of the root: rate_hz. Without rate_hz a dataset named as a time column gives the rate.
+/// Errors: see import_files.
+Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOptions& options,
+                              FileProgress& progress);
+
+}  // namespace imunoise::recording

@@ -1,0 +1,196 @@
+#include "recording/import/import.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <utility>
+
+#include "core/support/parallel.h"
+#include "recording/import/format.h"
+#include "recording/import/hdf5_table.h"
+#include "recording/import/npy.h"
+#include "recording/import/raw.h"
+#include "recording/import/table.h"
+#include "recording/import/text_table.h"
+
+namespace imunoise::recording {
+namespace {
+
+// Clocks of one kind of device differ by less; a wrong rate differs by more.
+constexpr double kRateTolerance = 1e-3;
+
+Result<Table> read_table(const std::filesystem::path& path, const ImportOptions& options,
+                         FileProgress& progress) {
+  const Result<Format> format = detect_format(path);
+  if (!format) return tl::make_unexpected(format.error());
+  switch (*format) {
+    case Format::kHdf5:
+      return read_hdf5_table(path, options, progress);
+    case Format::kNpy:
+      return read_npy(path, options, progress);
+    case Format::kRaw:
+      return read_raw(path, options, progress);
+    case Format::kText:
+      break;
+  }
+  return read_text_table(path, options, progress);
+}
+
+// The edge where exceptions of libraries (no memory above all) become errors.
+Result<Table> read_table_safely(const std::filesystem::path& path, const ImportOptions& options,
+                                FileProgress& progress) {
+  try {
+    Result<Table> table = read_table(path, options, progress);
+    progress.report(1.0);
+    return table;
+  } catch (const std::exception& error) {
+    return fail(fmt::format("{}: cannot be read: {}", path.string(), error.what()));
+  }
+}
+
+Result<void> check_length(const std::string& file, const Table& table, std::size_t split_into) {
+  const Column& first = table.columns.front();
+  for (const Column& column : table.columns) {
+    if (size(column.samples) != size(first.samples)) {
+      return fail(
+          fmt::format("{}: channel {} has {} samples where {} has {}; read them apart with "
+                      "--channel",
+                      file, column.name, size(column.samples), first.name, size(first.samples)));
+    }
+  }
+  const std::size_t each = size(first.samples) / split_into;
+  if (each >= kMinimumSamples) return {};
+  return fail(
+      fmt::format("{}: {} samples{} are too few: a replicate needs at least {}; record longer{}",
+                  file, each, split_into > 1 ? fmt::format(" in each of {} parts", split_into) : "",
+                  kMinimumSamples, split_into > 1 ? " or split into fewer" : ""));
+}
+
+// Files are replicates of one another only when they measure the same.
+Result<void> check_agreement(const std::string& first_file, const Table& first,
+                             const std::string& file, const Table& table) {
+  if (std::abs(table.rate.value / first.rate.value - 1.0) > kRateTolerance) {
+    return fail(
+        fmt::format("{}: sampled at {} Hz, but {} at {} Hz; import them apart, or state the "
+                    "true rate with --rate HZ",
+                    file, table.rate.value, first_file, first.rate.value));
+  }
+  const auto named = [](const std::string& name) {
+    return [&name](const Column& column) { return column.name == name; };
+  };
+  for (const Column& column : first.columns) {
+    const auto found = std::find_if(table.columns.begin(), table.columns.end(), named(column.name));
+    if (found == table.columns.end()) {
+      return fail(
+          fmt::format("{}: no channel '{}', which {} has; choose common ones with --channel", file,
+                      column.name, first_file));
+    }
+    if (found->unit.symbol != column.unit.symbol) {
+      return fail(
+          fmt::format("{}: channel {} is in {}, but in {} it is in {}; import them apart, or state "
+                      "the true unit with --unit",
+                      file, column.name, found->unit.symbol, first_file, column.unit.symbol));
+    }
+  }
+  for (const Column& column : table.columns) {
+    if (std::any_of(first.columns.begin(), first.columns.end(), named(column.name))) continue;
+    return fail(
+        fmt::format("{}: has channel '{}', which {} has not; choose common ones with --channel",
+                    file, column.name, first_file));
+  }
+  return {};
+}
+
+// "run1"; with its folder where two files share a name.
+std::vector<std::string> replicate_names(std::span<const std::filesystem::path> paths) {
+  std::map<std::string, int> stems;
+  for (const auto& path : paths) ++stems[path.stem().string()];
+  std::map<std::string, int> seen;
+  std::vector<std::string> names;
+  for (const auto& path : paths) {
+    std::string name = path.stem().string();
+    if (stems[name] > 1) name = (path.parent_path().filename() / path.filename()).string();
+    const int repeat = ++seen[name];
+    names.push_back(repeat > 1 ? fmt::format("{} ({})", name, repeat) : name);
+  }
+  return names;
+}
+
+// Cuts a table into replicates that share its samples.
+void add_replicates(const std::filesystem::path& path, const std::string& name, Hertz rate,
+                    Table table, std::size_t split_into, std::vector<Replicate>& out) {
+  const std::size_t count = size(table.columns.front().samples) / split_into;
+  const std::size_t first = out.size();
+  for (std::size_t part = 0; part < split_into; ++part) {
+    out.push_back({split_into > 1 ? fmt::format("{}#{}", name, part + 1) : name, path, rate, {}});
+  }
+  for (Column& column : table.columns) {
+    const auto samples = std::make_shared<const Samples>(std::move(column.samples));
+    for (std::size_t part = 0; part < split_into; ++part) {
+      out[first + part].channels.push_back(
+          {column.name, samples, part * count, count, column.scale * column.unit.to_si,
+           column.offset * column.unit.to_si + column.unit.si_offset, column.unit, rate});
+    }
+  }
+}
+
+Result<void> check_options(std::span<const std::filesystem::path> paths,
+                           const ImportOptions& options) {
+  if (paths.empty()) return fail("no file is named; name at least one");
+  if (options.split_into == 0)
+    return fail("cannot split into 0 replicates; --split-into starts at 1");
+  if (options.rate && (!std::isfinite(options.rate->value) || options.rate->value <= 0.0)) {
+    return fail(fmt::format("--rate {} is not a sampling rate; it must be positive, in Hz",
+                            options.rate->value));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::path> paths,
+                                            const ImportOptions& options,
+                                            const Progress& progress) {
+  if (const Result<void> sound = check_options(paths, options); !sound) {
+    return tl::make_unexpected(sound.error());
+  }
+  std::atomic<double> done = 0.0;
+  std::vector<Result<Table>> tables(paths.size());
+  for_each_index(paths.size(), [&](std::size_t i) {
+    FileProgress own(progress, done, paths.size());
+    tables[i] = read_table_safely(paths[i], options, own);
+  });
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (!tables[i]) return tl::make_unexpected(tables[i].error());
+    const std::string file = paths[i].string();
+    const Result<void> long_enough = check_length(file, *tables[i], options.split_into);
+    if (!long_enough) return tl::make_unexpected(long_enough.error());
+    const Result<void> same =
+        check_agreement(paths.front().string(), *tables.front(), file, *tables[i]);
+    if (!same) return tl::make_unexpected(same.error());
+  }
+  // Every file's channels in the first file's order.
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    const std::vector<Column>& order = tables.front()->columns;
+    for (std::size_t c = 0; c < order.size(); ++c) {
+      auto& columns = tables[i]->columns;
+      const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
+        return column.name == order[c].name;
+      });
+      std::swap(columns[c], *found);
+    }
+  }
+  const std::vector<std::string> names = replicate_names(paths);
+  const Hertz rate = tables.front()->rate;
+  std::vector<Replicate> out;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    add_replicates(paths[i], names[i], rate, std::move(*tables[i]), options.split_into, out);
+  }
+  return out;
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,53 @@
+#pragma once
+
+// Reads recordings that others made: HDF5, CSV and its kin, NumPy, raw numbers with a sidecar.
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/support/progress.h"
+#include "core/support/result.h"
+#include "recording/import/channel.h"
+
+namespace imunoise::recording {
+
+/// A replicate with fewer samples has nothing to say about noise.
+inline constexpr std::size_t kMinimumSamples = 16;
+
+/// What the user states about the files. Everything left out is taken from the files.
+struct ImportOptions {
+  /// Names of the channels wanted, in this order. Empty: every channel of the first file.
+  std::vector<std::string> channels;
+  /// Sampling rate. Wins over what a file states; a time column is then ignored, gaps included.
+  std::optional<Hertz> rate;
+  /// Unit of every channel read. Wins over what a file states.
+  std::optional<Unit> unit;
+  /// What separates the values of a text file; ' ' stands for any run of blanks. Unset: detected.
+  std::optional<char> delimiter;
+  /// Whether the first row of a text file names its columns. Unset: detected.
+  std::optional<bool> header;
+  /// Cuts every file into this many replicates of equal length, in order; the remainder at the end
+  /// of the file (fewer than split_into samples) is left out. At least 1.
+  std::size_t split_into = 1;
+};
+
+/// Reads each file as one replicate (or `split_into` of them), in the order given. The format is
+/// told by content first, then by extension. Files are read in parallel; the result does not depend
+/// on it.
+///
+/// Replicates of several files hold the same channels in the same units, and one rate: rates that
+/// files state may differ by 0.1 % (clocks do), all replicates then carry the first file's.
+///
+/// Errors name the file, the row (line of a text file, sample otherwise) and the way out: a value
+/// that is missing or not finite, a ragged row, a gap in time, an unknown unit, a missing channel,
+/// a truncated file, fewer than kMinimumSamples in a replicate, files that disagree, a stop
+/// request. Never throws. Thread-safe.
+Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::path> paths,
+                                            const ImportOptions& options = {},
+                                            const Progress& progress = {});
+
+}  // namespace imunoise::recording

@@ -1,0 +1,40 @@
+#pragma once
+
+// Which columns of a file are wanted, and what the file or the user says their unit is.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/support/result.h"
+#include "core/support/units.h"
+#include "recording/import/import.h"
+
+namespace imunoise::recording {
+
+/// A table with more columns is a transposed one.
+inline constexpr std::size_t kMaximumColumns = 4096;
+
+/// A column that a file offers.
+struct Offer {
+  std::string name;
+  bool by_default = true;  ///< Taken when the user names no channel.
+};
+
+/// Indices of the wanted columns in the order wanted. Error: a channel that the file has not (those
+/// that exist are listed), two columns of one wanted name, no channel at all. `file` is for
+/// messages.
+Result<std::vector<std::size_t>> select_columns(std::string_view file,
+                                                const std::vector<Offer>& offers,
+                                                const std::vector<std::string>& wanted);
+
+/// The unit of a channel: the user's, else what the file writes ("" and "-" state none).
+/// Error: a spelling nobody knows.
+Result<Unit> resolve_unit(std::string_view file, std::string_view channel, std::string_view text,
+                          const ImportOptions& options);
+
+/// A rate that a file states. Error unless it is finite and positive. `where` says who states it.
+Result<Hertz> checked_rate(std::string_view file, std::string_view where, double hertz);
+
+}  // namespace imunoise::recording

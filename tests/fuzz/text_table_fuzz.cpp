@@ -1,0 +1,38 @@
+// Any bytes as a text table: no crash, no number that is not finite, and the size of the blocks in
+// which the file is read changes nothing.
+
+#include <cstdint>
+
+#include "recording/import/text_table.h"
+#include "tests/fuzz/memory_file.h"
+
+using namespace imunoise;
+using namespace imunoise::recording;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 2) return 0;
+  const std::uint8_t choice = data[0];
+  ImportOptions options;
+  if ((choice & 1U) != 0) options.rate = Hertz{100.0};
+  if ((choice & 2U) != 0) options.header = (choice & 4U) != 0;
+  if ((choice & 8U) != 0) options.delimiter = ",; \t"[choice >> 4U & 3U];
+  if ((choice & 64U) != 0) options.channels = {"x"};
+  const MemoryFile file({static_cast<const char*>(static_cast<const void*>(data + 2)), size - 2});
+  const Progress progress;
+  std::atomic<double> done = 0.0;
+  FileProgress first(progress, done, 1);
+  FileProgress second(progress, done, 1);
+  const auto whole = read_text_table(file.path(), options, first);
+  const auto pieces = read_text_table(file.path(), options, second, 1 + data[1] % 64U);
+  if (whole.has_value() != pieces.has_value()) std::abort();
+  if (!whole) {
+    if (whole.error().message != pieces.error().message) std::abort();
+    return 0;
+  }
+  if (!(whole->rate == pieces->rate) || !(whole->rate.value > 0.0)) std::abort();
+  for (std::size_t c = 0; c < whole->columns.size(); ++c) {
+    require_finite(whole->columns[c].samples);
+    if (whole->columns[c].samples != pieces->columns[c].samples) std::abort();
+  }
+  return 0;
+}

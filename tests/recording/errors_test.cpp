@@ -1,0 +1,98 @@
+// What is refused, and that the message names the file, the place and the way out.
+
+#include <gtest/gtest.h>
+
+#include "tests/recording/files.h"
+
+namespace imunoise::recording {
+namespace {
+
+class Refused : public FileTest {};
+
+const std::string kRows = "x,y\n" + repeated("1,2\n");
+
+TEST_F(Refused, FlawsInRowsOfText) {
+  const auto flaw = [&](const std::string& row) {
+    return error_of(write("run3.csv", kRows + row + "\n" + repeated("1,2\n")), at_rate(10));
+  };
+  expect_parts(flaw("1,abc"),
+               {"run3.csv: row 22: 'abc' is not a number in column y", "delete the row", "split"});
+  expect_parts(flaw("nan,1"), {"run3.csv: row 22", "'nan' is not a finite number", "column x"});
+  expect_parts(flaw("1,-inf"), {"row 22", "'-inf' is not a finite number", "column y"});
+  expect_parts(flaw("1,1e999"), {"row 22", "'1e999' is not a finite number"});
+  expect_parts(flaw("1,"), {"row 22", "there is no value", "column y"});
+  expect_parts(flaw("1"), {"row 22", "1 values where the table has 2 columns", "delete"});
+  expect_parts(flaw("1,2,3"), {"row 22", "3 values where the table has 2 columns"});
+  expect_parts(flaw("1,2x"), {"row 22", "'2x' is not a number"});
+  expect_parts(flaw("1,+-2"), {"row 22", "'+-2' is not a number"});
+  expect_parts(flaw("1,0x10"), {"row 22", "'0x10' is not a number"});
+  expect_parts(flaw("1,\x01\x02"), {"row 22",
+                                    "'?"
+                                    "?' is not a number"});
+}
+
+TEST_F(Refused, DecimalCommas) {
+  const std::string header = "t;x [deg/s]\n";
+  expect_parts(error_of(write("a.csv", header + repeated("0,1;1,5\n")), at_rate(10)),
+               {"a.csv: row 2", "'1,5' has a decimal comma", "column x", "decimal point"});
+  expect_parts(error_of(write("a.csv", repeated("0,1;1,5\n")), at_rate(10)),
+               {"a.csv: row 1", "'0,1' has a decimal comma"});
+  expect_parts(error_of(write("a.tsv", repeated("0,1\t1,5\n")), at_rate(10)), {"decimal comma"});
+}
+
+TEST_F(Refused, HeadersThatSayTooLittle) {
+  expect_parts(error_of(write("a.csv", kRows)), {"a.csv", "no time column", "--rate HZ"});
+  expect_parts(error_of(write("a.csv", "x [furlong]\n" + repeated("1\n")), at_rate(1)),
+               {"a.csv: channel x", "unknown unit 'furlong'", "rad/s", "--unit"});
+  expect_parts(error_of(write("a.csv", "t [weeks],x\n" + repeated("1,2\n"))),
+               {"a.csv: column t", "'weeks'", "--rate"});
+  expect_parts(error_of(write("a.csv", "x,y\ndeg/s,stone\n" + repeated("1,2\n")), at_rate(1)),
+               {"a.csv: row 2", "'stone'", "column y"});
+  expect_parts(error_of(write("a.csv", "1,abc\n" + repeated("1,2\n")), at_rate(1)),
+               {"a.csv: row 1", "'abc' is not a number", "--header"});
+  expect_parts(error_of(write("a.csv", "x,x\n" + repeated("1,2\n")), at_rate(1)),
+               {"a.csv", "two columns are named 'x'"});
+  expect_parts(error_of(write("a.csv", "t\n" + repeated("1\n")), at_rate(1)), {"no channel"});
+  expect_parts(error_of(write("a.csv", "# rate_hz: -5\n" + kRows)), {"a.csv", "-5 Hz", "--rate"});
+}
+
+TEST_F(Refused, AChannelThatIsNotThere) {
+  ImportOptions options = at_rate(1);
+  options.channels = {"z"};
+  expect_parts(error_of(write("a.csv", kRows), options),
+               {"a.csv: no channel 'z'", "x, y", "--channel"});
+}
+
+TEST_F(Refused, FilesWithNothingInThem) {
+  expect_parts(error_of(write("a.csv", "")), {"a.csv", "is empty"});
+  expect_parts(error_of(write("a.csv", "# nothing\n\n")), {"a.csv", "no rows"});
+  expect_parts(error_of(write("a.csv", "x,y\n"), at_rate(1)),
+               {"a.csv", "0 samples", "at least 16"});
+  expect_parts(error_of(write("a.csv", repeated("1\n", 15)), at_rate(1)),
+               {"a.csv", "15 samples", "at least 16"});
+  EXPECT_EQ(error_of(write("a.csv", repeated("1\n", 16)), at_rate(1)), "no error");
+  expect_parts(error_of(path("missing.csv")), {"missing.csv", "No such file"});
+  expect_parts(error_of(path(".")), {"is a folder"});
+  expect_parts(error_of(write("a.csv", std::string("\xff\xfe") + "1"), at_rate(1)),
+               {"UTF-16", "UTF-8"});
+}
+
+TEST_F(Refused, NamesThatPromiseSomethingElse) {
+  expect_parts(error_of(write("a.h5", "1,2\n")), {"a.h5", "not an HDF5 file"});
+  expect_parts(error_of(write("a.npy", "1,2\n")), {"a.npy", "not a NumPy file"});
+  expect_parts(error_of(write("a.xyz", std::string("\0\1\2", 3))),
+               {"a.xyz", ".npy", ".csv", ".f64"});
+  expect_parts(error_of(write("a.h5", "\x89HDF\r\n\x1a\nrest")), {"a.h5", "HDF5 cannot open"});
+}
+
+TEST_F(Refused, OptionsThatMakeNoSense) {
+  ImportOptions options = at_rate(-1);
+  expect_parts(error_of(write("a.csv", kRows), options), {"--rate -1", "positive"});
+  options = at_rate(1);
+  options.split_into = 0;
+  expect_parts(error_of(write("a.csv", kRows), options), {"--split-into"});
+  expect_parts(import_files({}).error().message, {"no file"});
+}
+
+}  // namespace
+}  // namespace imunoise::recording

@@ -1,0 +1,194 @@
+// HDF5 files as other programs write them, and those that must be refused.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+
+#include "recording/hdf5/attributes.h"
+#include "tests/recording/files.h"
+
+namespace imunoise::recording {
+namespace {
+
+// An HDF5 file under construction.
+class Hdf5File {
+ public:
+  explicit Hdf5File(const std::filesystem::path& path)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {}
+
+  hid_t id() const { return file_.get(); }
+  template <class Number>
+  Hdf5Handle dataset(const char* name, const std::vector<Number>& values, hid_t stored,
+                     hid_t memory, std::vector<hsize_t> shape = {}) {
+    if (shape.empty()) shape = {values.size()};
+    const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                           H5Sclose);
+    Hdf5Handle out(
+        H5Dcreate2(id(), name, stored, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose);
+    EXPECT_GE(H5Dwrite(out.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    return out;
+  }
+
+ private:
+  Hdf5Handle file_;
+};
+
+class Hdf5 : public FileTest {
+ protected:
+  std::vector<std::int16_t> counts_ = std::vector<std::int16_t>(20, 7);
+};
+
+TEST_F(Hdf5, CountsStayCountsAndFloatsBecomeDoubles) {
+  {
+    Hdf5File file(path("a.h5"));
+    ASSERT_TRUE(write_attribute(file.id(), "rate_hz", 12.5));
+    const auto a = file.dataset("a", counts_, H5T_STD_I16BE, H5T_NATIVE_INT16);
+    ASSERT_TRUE(write_attribute(a.get(), "scale_factor", 0.5));
+    ASSERT_TRUE(write_attribute(a.get(), "add_offset", 3.0));
+    ASSERT_TRUE(write_attribute(a.get(), "units", std::string_view("m s-2")));
+    file.dataset("b", std::vector<std::int32_t>(20, -100000), H5T_STD_I32LE, H5T_NATIVE_INT32);
+    file.dataset("c", std::vector<float>(20, 0.1F), H5T_IEEE_F32LE, H5T_NATIVE_FLOAT);
+    file.dataset("d", std::vector<double>(20, 0.1), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+    const Hdf5Handle group(H5Gcreate2(file.id(), "e", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Gclose);
+  }
+  const auto got = import_one(path("a.h5"));
+  ASSERT_TRUE(got) << got.error().message;
+  const std::vector<Channel>& channels = got->front().channels;
+  EXPECT_EQ(got->front().rate.value, 12.5);
+  ASSERT_EQ(channels.size(), 4U);
+  EXPECT_EQ(std::get<std::vector<std::int16_t>>(*channels[0].samples), counts_);
+  EXPECT_DOUBLE_EQ(channels[0].signal().value(2), 6.5);
+  EXPECT_EQ(channels[0].unit.symbol, "m/s^2");
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(*channels[1].samples)[5], -100000);
+  EXPECT_EQ(stored_doubles(channels[2])[5], static_cast<double>(0.1F));
+  EXPECT_EQ(stored_doubles(channels[3])[5], 0.1);
+  EXPECT_EQ(channels[3].unit.quantity, Quantity::kUnknown);
+}
+
+TEST_F(Hdf5, ATimeDatasetGivesTheRateAndIsNoChannel) {
+  std::vector<std::int32_t> times(20);
+  std::iota(times.begin(), times.end(), 1000);
+  const auto make = [&] {
+    Hdf5File file(path("a.h5"));
+    file.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+    const auto t = file.dataset("time", times, H5T_STD_I32LE, H5T_NATIVE_INT32);
+    EXPECT_TRUE(write_attribute(t.get(), "units", std::string_view("ms")));
+  };
+  make();
+  const auto got = import_one(path("a.h5"));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->front().rate.value, 1000.0);
+  EXPECT_EQ(got->front().channels.size(), 1U);
+  for (std::size_t i = 9; i < 20; ++i) times[i] += 5;
+  make();
+  expect_parts(error_of(path("a.h5")), {"a.h5: dataset time: sample 9", "gap", "split"});
+}
+
+TEST_F(Hdf5, DatasetsOfTheWrongKind) {
+  const auto message = [&](auto&& fill) {
+    {
+      Hdf5File file(path("a.h5"));
+      EXPECT_TRUE(write_attribute(file.id(), "rate_hz", 100.0));
+      fill(file);
+    }
+    return error_of(path("a.h5"));
+  };
+  expect_parts(message([](Hdf5File&) {}), {"a.h5", "no channel"});
+  expect_parts(
+      message([](Hdf5File& f) {
+        f.dataset("x", std::vector<double>(40), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {20, 2});
+      }),
+      {"a.h5: dataset x: has 2 dimensions", "--channel"});
+  expect_parts(message([](Hdf5File& f) {
+                 f.dataset("x", std::vector<std::int64_t>(20), H5T_STD_I64LE, H5T_NATIVE_INT64);
+               }),
+               {"a.h5: dataset x", "int16, int32, float32 or float64"});
+  expect_parts(message([](Hdf5File& f) {
+                 f.dataset("x", std::vector<std::uint16_t>(20), H5T_STD_U16LE, H5T_NATIVE_UINT16);
+               }),
+               {"a.h5: dataset x", "int16, int32, float32 or float64"});
+  expect_parts(message([](Hdf5File& f) {
+                 std::vector<double> values(20, 1.0);
+                 values[11] = std::numeric_limits<double>::quiet_NaN();
+                 f.dataset("x", values, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+               }),
+               {"a.h5: dataset x: sample 11 is not finite", "split"});
+  expect_parts(message([&](Hdf5File& f) {
+                 std::vector<std::int16_t> counts = counts_;
+                 counts[3] = -32768;
+                 const auto x = f.dataset("x", counts, H5T_STD_I16LE, H5T_NATIVE_INT16);
+                 EXPECT_TRUE(write_attribute(x.get(), "_FillValue", -32768.0));
+               }),
+               {"a.h5: dataset x: sample 3 is missing", "_FillValue"});
+  expect_parts(message([&](Hdf5File& f) {
+                 f.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+                 f.dataset("y", std::vector<std::int16_t>(17), H5T_STD_I16LE, H5T_NATIVE_INT16);
+               }),
+               {"a.h5: channel y has 17 samples where x has 20", "--channel"});
+  expect_parts(message([&](Hdf5File& f) {
+                 const auto x = f.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+                 EXPECT_TRUE(write_attribute(x.get(), "units", std::string_view("cubit")));
+               }),
+               {"a.h5: channel x", "'cubit'", "--unit"});
+  expect_parts(message([&](Hdf5File& f) {
+                 const auto x = f.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+                 EXPECT_TRUE(write_attribute(x.get(), "scale_factor", 0.0));
+               }),
+               {"a.h5: dataset x", "scale_factor 0"});
+  expect_parts(message([&](Hdf5File& f) {
+                 const auto x = f.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+                 EXPECT_TRUE(write_attribute(x.get(), "scale_factor", std::string_view("two")));
+               }),
+               {"a.h5: dataset x", "scale_factor must be a number"});
+  expect_parts(message([&](Hdf5File& f) {
+                 const auto x = f.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+                 EXPECT_TRUE(write_attribute(x.get(), "units", 3.0));
+               }),
+               {"a.h5: dataset x", "units must be a string"});
+}
+
+TEST_F(Hdf5, NoRateAnywhere) {
+  { Hdf5File(path("a.h5")).dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16); }
+  expect_parts(error_of(path("a.h5")), {"a.h5", "rate_hz", "--rate HZ"});
+  EXPECT_EQ(error_of(path("a.h5"), at_rate(1)), "no error");
+}
+
+// A dataset that was created and never written asks for 8 TB and holds nothing.
+TEST_F(Hdf5, AClaimThatTheFileCannotHoldAllocatesNothing) {
+  {
+    Hdf5File file(path("a.h5"));
+    const hsize_t size = hsize_t{1} << 40U;
+    const hsize_t chunk = 1024;
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    ASSERT_GE(H5Pset_chunk(properties.get(), 1, &chunk), 0);
+    const Hdf5Handle x(H5Dcreate2(file.id(), "x", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT,
+                                  properties.get(), H5P_DEFAULT),
+                       H5Dclose);
+    ASSERT_TRUE(x);
+  }
+  expect_parts(error_of(path("a.h5"), at_rate(1)),
+               {"a.h5: dataset x: claims 1099511627776 samples"});
+}
+
+TEST_F(Hdf5, NumbersInAnotherFileAreNotFollowed) {
+  write("secret", std::string(160, 's'));
+  {
+    Hdf5File file(path("a.h5"));
+    const hsize_t size = 20;
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    ASSERT_GE(H5Pset_external(properties.get(), path("secret").c_str(), 0, 160), 0);
+    const Hdf5Handle x(H5Dcreate2(file.id(), "x", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT,
+                                  properties.get(), H5P_DEFAULT),
+                       H5Dclose);
+    ASSERT_TRUE(x);
+  }
+  expect_parts(error_of(path("a.h5"), at_rate(1)), {"a.h5: dataset x", "in another file"});
+}
+
+}  // namespace
+}  // namespace imunoise::recording
