@@ -2,14 +2,18 @@
 #   awk -v truth="WN(sigma2=1e-7) + RW(gamma2=1e-15)" -f fit_against_truth.awk fit.json
 # Reads the JSON as imunoise prints it: one "key": value a line. Each process stands once in the model.
 
+function short(number) { return number == "" ? "-" : sprintf("%.5g", number) }
+
 function finish() {
   if (parameter != "") {
     known = (term " " parameter) in true_value
     if (!known) missing = missing " " term "." parameter
     real = true_value[term " " parameter] + 0
-    inside = lower != "" && upper != "" && lower + 0 <= real && real <= upper + 0
-    printf "  %-5s %-8s %12.5g %12.5g   [%.5g, %.5g]   %s\n", term, parameter, real, value, lower, upper,
-           inside ? "covered" : "NOT covered"
+    # An end that is absent is not known: the interval is open there.
+    inside = (lower == "" || lower + 0 <= real) && (upper == "" || real <= upper + 0)
+    judged = lower == "" && upper == "" ? "no interval" : inside ? "covered" : "NOT covered"
+    printf "  %-5s %-8s %12.5g %12.5g   [%s, %s]   %s\n", term, parameter, real, value, short(lower),
+           short(upper), judged
     rows++
   }
   parameter = value = lower = upper = ""
