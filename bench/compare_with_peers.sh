@@ -60,4 +60,4 @@ row "fit 3*AR1+WN to 6 x 1e6 samples" "mgmwm" 29.4 "" "$(cpu_seconds 'mugmwm/3*A
 echo
 echo "All benchmarks (processor time of all threads):"
 awk -F, 'NR > 1 { gsub(/"/, "", $1); printf "  %-72s %12.4g %s\n", $1, $4, $5 }' "$out/all.csv"
-echo "Their memory counts R itself; ours counts the samples (8 bytes each as doubles)."
+echo "Memory is the peak of the whole process, samples included."
