@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# From a fresh Debian 12 to a noise model with its intervals, on simulated gyro recordings whose true
+# noise is known. Needs no sensor. The report is left in build/demo/.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+# A MEMS gyro: angle random walk 0.17 °/√h, a bias that wanders by 20 °/h with a memory of 5 s, and
+# slowly without bound. Six static recordings of one hour at 100 Hz show all four parameters.
+truth="WN(sigma2=2.5e-7) + AR1(sigma2=4e-11, phi=0.998) + RW(gamma2=5e-14)"
+model="WN + AR1 + RW"
+out=build/demo
+
+bash scripts/install_packages.sh build
+echo "Building imunoise (the first time takes some minutes) ..."
+build_release imunoise
+imunoise=build/release/imunoise
+
+rm -rf "$out"
+mkdir -p "$out"
+echo "Simulating six replicates: $truth"
+"$imunoise" simulate --model "$truth" --rate 100 --samples 360000 --replicates 6 --seed 42 \
+  --unit rad/s --out "$out/gyro.h5" > "$out/simulate.txt"
+recordings=("$out"/gyro_{1..6}.h5)
+
+echo
+echo "imunoise fit $out/gyro_*.h5 --model \"$model\""
+echo
+"$imunoise" fit "${recordings[@]}" --model "$model" --report "$out/report.html"
+"$imunoise" fit "${recordings[@]}" --model "$model" --json > "$out/fit.json"
+
+echo
+echo "Fitted against true (of 95 % intervals, one in twenty misses the truth):"
+awk -v truth="$truth" -f scripts/fit_against_truth.awk "$out/fit.json"
+
+echo
+echo "The report: file://$PWD/$out/report.html"
+echo "The same as JSON: $out/fit.json"

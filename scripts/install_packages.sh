@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Installs what imunoise needs from Debian 12's own packages, and nothing that is there already.
+#
+#   bash scripts/install_packages.sh build   to build the program
+#   bash scripts/install_packages.sh test    to build and run every test as well
+#   bash scripts/install_packages.sh bench   to build and run the benchmarks
+set -euo pipefail
+
+build_packages=(
+  g++ cmake ninja-build ccache
+  libeigen3-dev    # matrices
+  libnlopt-dev     # search of the nonlinear parameters
+  libboost-dev     # headers only: distributions, random numbers
+  libtbb-dev       # threads
+  libfmt-dev libexpected-dev
+  libprotobuf-dev protobuf-compiler
+  libhdf5-dev      # recordings
+  libcli11-dev     # the command line
+)
+test_packages=(
+  libgtest-dev nlohmann-json3-dev
+  clang libclang-rt-14-dev       # fuzzing
+  clang-format clang-tidy
+)
+bench_packages=(libbenchmark-dev time)
+
+case "${1-}" in
+  build) wanted=("${build_packages[@]}") ;;
+  test) wanted=("${build_packages[@]}" "${test_packages[@]}") ;;
+  bench) wanted=("${build_packages[@]}" "${bench_packages[@]}") ;;
+  *)
+    echo "usage: $0 build|test|bench" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+  echo "This is not a Debian system. Provide what these packages hold: ${wanted[*]}" >&2
+  exit 0 # they may be there; CMake says what is not
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2> /dev/null || true)
+  [[ $status == installed* ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo > /dev/null; then
+    echo "Missing packages, and neither root nor sudo to install them: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq ||
+  echo "apt-get update failed; trying with the package lists at hand" >&2
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null

@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+
+#include "tests/layering/include_rules.h"
+
+namespace imunoise::testing {
+namespace {
+
+std::string lines(const std::vector<std::string>& found) {
+  std::string out;
+  for (const std::string& line : found) out += "\n  " + line;
+  return out;
+}
+
+const Tree& house() {
+  static const Tree kHouse = read_tree(IMUNOISE_SOURCE_DIR);
+  return kHouse;
+}
+
+// What the rules say about one file with this text, in a tree that holds a header of every kind of
+// room.
+std::vector<std::string> judge(const std::string& path, const std::string& text) {
+  Tree tree;
+  for (const char* const header :
+       {"core/support/result.h", "core/signal/signal.h", "core/wavelet/scales.h",
+        "core/process/ar1.h", "core/model/model.h", "core/estimate/problem.h",
+        "core/diagnosis/effect.h", "core/simulate/steps.h", "recording/chunk.h", "study/study.h",
+        "drivers/driver.h", "daemon/app/options.h", "tests/support/golden.h", "cli/options.h"}) {
+    tree[header] = "#pragma once\n";
+  }
+  tree["core/model/model.h"] = "#pragma once\n#include \"core/process/ar1.h\"\n";
+  tree["tests/hidden_effects/bench.h"] = "#pragma once\n";
+  tree[path] = text;
+  return layering_violations(tree);
+}
+
+std::vector<std::string> judge_include(const std::string& path, const std::string& header) {
+  return judge(path, "#include " + (header.front() == '<' ? header : '"' + header + '"') + "\n");
+}
+
+TEST(Layering, HoldsInEveryFile) {
+  ASSERT_GT(house().size(), 50U) << "the sources were not found under " IMUNOISE_SOURCE_DIR;
+  const std::vector<std::string> found = layering_violations(house());
+  EXPECT_TRUE(found.empty()) << found.size() << " violations:" << lines(found);
+}
+
+TEST(Layering, EveryHeaderHasPragmaOnce) {
+  const std::vector<std::string> found = unguarded_headers(house());
+  EXPECT_TRUE(found.empty()) << "no #pragma once in:" << lines(found);
+}
+
+TEST(Layering, NoFileIsLong) {
+  const std::vector<std::string> found = long_files(house());
+  EXPECT_TRUE(found.empty()) << "longer than 400 lines:" << lines(found);
+}
+
+// The rules themselves: a rule that finds nothing in bad code is no rule.
+
+struct Case {
+  const char* path;
+  const char* header;
+};
+
+TEST(LayeringRules, RefuseAForbiddenInclude) {
+  for (const Case& bad : std::vector<Case>{
+           {"core/support/units.cpp", "core/signal/signal.h"},
+           {"core/signal/gap.h", "core/wavelet/scales.h"},
+           {"core/wavelet/scales.cpp", "core/process/ar1.h"},
+           {"core/process/ar1.cpp", "core/model/model.h"},
+           {"core/estimate/problem.cpp", "core/diagnosis/effect.h"},
+           {"core/estimate/problem.cpp", "core/simulate/steps.h"},
+           {"core/estimate/problem.cpp", "recording/chunk.h"},
+           {"core/model/model.cpp", "imunoise/v1/noise.pb.h"},
+           {"core/support/units.cpp", "<iostream>"},
+           {"core/support/units.cpp", "<fstream>"},
+           {"core/support/units.cpp", "<filesystem>"},
+           {"core/support/units.cpp", "<cstdio>"},
+           {"core/support/units.cpp", "<spdlog/spdlog.h>"},
+           {"core/support/units.cpp", "<google/protobuf/message.h>"},
+           {"core/support/units.cpp", "<Eigen/Dense>"},
+           {"core/estimate/problem.cpp", "<Eigen/Cholesky>"},
+           {"study/study.cpp", "<Eigen/SVD>"},
+           {"core/wavelet/scales.cpp", "<boost/math/distributions/normal.hpp>"},
+           {"core/wavelet/scales.cpp", "<tbb/parallel_for.h>"},
+           {"core/model/model.cpp", "<nlopt.h>"},
+           {"study/study.cpp", "<hdf5.h>"},
+           {"study/study.cpp", "<CLI/CLI.hpp>"},
+           {"study/study.cpp", "drivers/driver.h"},
+           {"study/study.cpp", "cli/options.h"},
+           {"recording/chunk.cpp", "study/study.h"},
+           {"recording/chunk.cpp", "<spdlog/spdlog.h>"},
+           {"drivers/adis/device.cpp", "core/wavelet/scales.h"},
+           {"drivers/adis/device.cpp", "recording/chunk.h"},
+           {"daemon/service/api.cpp", "cli/options.h"},
+           {"daemon/acquire/recorder.cpp", "daemon/app/options.h"},
+           {"tests/hidden_effects/trial.cpp", "core/process/ar1.h"},
+           {"tests/hidden_effects/trial.cpp", "core/diagnosis/effect.h"},
+           {"tests/hidden_effects/generator/walk.cpp", "core/model/model.h"},
+           {"core/wavelet/scales.cpp", "scales.h"},
+           {"core/wavelet/scales.cpp", "core/wavelet/absent.h"},
+           {"attic/old.cpp", "<vector>"},
+       }) {
+    EXPECT_FALSE(judge_include(bad.path, bad.header).empty())
+        << bad.path << " includes " << bad.header;
+  }
+}
+
+TEST(LayeringRules, AcceptWhatTheTableAllows) {
+  for (const Case& good : std::vector<Case>{
+           {"core/support/linear_algebra.cpp", "<Eigen/Cholesky>"},
+           {"core/support/distributions.cpp", "<boost/math/distributions/normal.hpp>"},
+           {"core/support/random.h", "<boost/random/normal_distribution.hpp>"},
+           {"core/support/units.cpp", "core/support/result.h"},
+           {"core/process/ar1.cpp", "core/wavelet/scales.h"},
+           {"core/estimate/minimise.cpp", "<nlopt.h>"},
+           {"core/simulate/steps.cpp", "core/model/model.h"},
+           {"recording/chunk.cpp", "core/wavelet/scales.h"},
+           {"recording/chunk.cpp", "<hdf5.h>"},
+           {"recording/manifest.cpp", "imunoise/v1/noise.pb.h"},
+           {"study/report/html.cpp", "imunoise/v1/noise.pb.h"},
+           {"study/study.cpp", "recording/chunk.h"},
+           {"drivers/adis/device.cpp", "core/signal/signal.h"},
+           {"drivers/replay/samples.cpp", "recording/chunk.h"},
+           {"drivers/emulator/adis.cpp", "core/simulate/steps.h"},
+           {"daemon/service/api.cpp", "study/study.h"},
+           {"daemon/app/main.cpp", "<spdlog/spdlog.h>"},
+           {"cli/main.cpp", "<CLI/CLI.hpp>"},
+           {"cli/main.cpp", "daemon/app/options.h"},
+           {"tests/core/model/model_test.cpp", "core/model/model.h"},
+           {"tests/hidden_effects/generator/walk.cpp", "core/support/result.h"},
+           {"tests/hidden_effects/trial.cpp", "study/study.h"},
+           {"bench/wavelet_bench.cpp", "core/wavelet/scales.h"},
+       }) {
+    EXPECT_EQ(lines(judge_include(good.path, good.header)), "") << good.path << " " << good.header;
+  }
+}
+
+TEST(LayeringRules, NameTheFileTheLineAndTheWayOut) {
+  const auto found =
+      judge("core/wavelet/scales.cpp", "\n// why\n#include \"core/process/ar1.h\"\n");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front(),
+            "core/wavelet/scales.cpp:3: includes core/process/ar1.h; core/wavelet may include "
+            "core/support, core/signal");
+}
+
+TEST(LayeringRules, FollowTheGeneratorsIncludesThroughOtherHeaders) {
+  Tree tree;
+  tree["core/support/result.h"] = "#pragma once\n#include \"core/process/ar1.h\"\n";
+  tree["core/process/ar1.h"] = "#pragma once\n";
+  tree["tests/hidden_effects/generator/walk.cpp"] = "#include \"core/support/result.h\"\n";
+  const std::string found = lines(layering_violations(tree));
+  EXPECT_NE(found.find("walk.cpp: reaches core/process/ar1.h through core/support/result.h"),
+            std::string::npos)
+      << found;
+}
+
+TEST(LayeringRules, ReadCodeNotCommentsOrLiterals) {
+  const char* const kCore = "core/support/units.cpp";
+  EXPECT_FALSE(judge(kCore, "void f() { std::printf(\"x\"); }\n").empty());
+  EXPECT_FALSE(judge(kCore, "void f() { std::cout << 1; }\n").empty());
+  EXPECT_FALSE(judge(kCore, "auto t = std::chrono::steady_clock::now();\n").empty());
+  EXPECT_FALSE(judge("recording/a.cpp", "std::random_device seed;\n").empty());
+  EXPECT_FALSE(
+      judge(kCore, "const int n = 1'000'000; int c = '\"'; void g() { puts(a); }\n").empty());
+  EXPECT_FALSE(judge(kCore, "#include /* now */ <iostream>  // why\n").empty());
+  EXPECT_EQ(lines(judge(kCore, "// printf(\"x\") and #include <iostream>\n")), "");
+  EXPECT_EQ(lines(judge(kCore, "/* std::cout\n #include <iostream>\n */\n")), "");
+  EXPECT_EQ(lines(judge(kCore, "auto s = \"printf( \\\" std::cout\"; char c = '\"';\n")), "");
+  EXPECT_EQ(lines(judge(kCore, "auto s = R\"x(\n#include <iostream>\n\" puts(1) )x\";\n")), "");
+}
+
+TEST(LayeringRules, FindHeadersWithoutGuardAndLongFiles) {
+  const Tree tree = {{"core/a.h", "#pragma once\nint a;\n"},
+                     {"core/b.h", "// about\n\n#pragma once\n"},
+                     {"core/c.h", "// #pragma once\nint c;\n"},
+                     {"core/d.cpp", std::string(401, '\n')},
+                     {"core/e.cpp", std::string(400, '\n')}};
+  EXPECT_EQ(unguarded_headers(tree), std::vector<std::string>{"core/c.h"});
+  EXPECT_EQ(long_files(tree), std::vector<std::string>{"core/d.cpp: 401 lines"});
+}
+
+TEST(LayeringRules, TheLongestPathNamesTheRoom) {
+  EXPECT_EQ(room_of("drivers/replay/samples.cpp"), "drivers/replay");
+  EXPECT_EQ(room_of("drivers/replayer/samples.cpp"), "drivers");
+  EXPECT_EQ(room_of("imunoise/v1/noise.pb.h"), "proto");
+  EXPECT_EQ(room_of("attic/old.cpp"), "");
+}
+
+}  // namespace
+}  // namespace imunoise::testing
