@@ -17,7 +17,9 @@ constexpr std::size_t kSamples = 1'000'000;
 const std::vector<std::vector<double>>& replicates() {
   static const std::vector<std::vector<double>> kReplicates = [] {
     const Model model = *parse_model(
-        "WN(sigma2=1) + AR1(sigma2=0.05,phi=0.9) + AR1(sigma2=1e-4,phi=0.999) + AR1(sigma2=1e-7,phi=0.99998)", kRate);
+        "WN(sigma2=1) + AR1(sigma2=0.05,phi=0.9) + AR1(sigma2=1e-4,phi=0.999) + "
+        "AR1(sigma2=1e-7,phi=0.99998)",
+        kRate);
     std::vector<std::vector<double>> out;
     for (std::uint32_t k = 0; k < 6; ++k) out.push_back(simulate(model, kSamples, 1, k));
     return out;
@@ -28,7 +30,8 @@ const std::vector<std::vector<double>>& replicates() {
 std::vector<WaveletVariance> measure() {
   std::vector<WaveletVariance> out;
   for (const std::vector<double>& x : replicates()) {
-    out.push_back(wavelet_variance(Signal{std::span<const double>(x), kRate}, Scales::for_samples(x.size())));
+    out.push_back(
+        wavelet_variance(Signal{std::span<const double>(x), kRate}, Scales::for_samples(x.size())));
   }
   return out;
 }
@@ -38,27 +41,43 @@ void mugmwm_from_arrays(benchmark::State& state, const char* text, Weighting wei
   replicates();
   for (auto _ : state) {
     const std::vector<WaveletVariance> measured = measure();
-    benchmark::DoNotOptimize(infer(mugmwm(model, measured, weighting), measured).goodness.statistic);
+    benchmark::DoNotOptimize(
+        infer(mugmwm(model, measured, weighting), measured).goodness.statistic);
   }
 }
-BENCHMARK_CAPTURE(mugmwm_from_arrays, AR1+WN+RW/full, "AR1 + WN + RW", Weighting::kFull)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK_CAPTURE(mugmwm_from_arrays, 3*AR1+WN/full, "3*AR1 + WN", Weighting::kFull)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK_CAPTURE(mugmwm_from_arrays, AR1+WN+RW/diag, "AR1 + WN + RW", Weighting::kDiagonal)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK_CAPTURE(mugmwm_from_arrays, 3*AR1+WN/diag, "3*AR1 + WN", Weighting::kDiagonal)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK_CAPTURE(mugmwm_from_arrays, AR1 + WN + RW / full, "AR1 + WN + RW", Weighting::kFull)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(mugmwm_from_arrays, 3 * AR1 + WN / full, "3*AR1 + WN", Weighting::kFull)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(mugmwm_from_arrays, AR1 + WN + RW / diag, "AR1 + WN + RW", Weighting::kDiagonal)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(mugmwm_from_arrays, 3 * AR1 + WN / diag, "3*AR1 + WN", Weighting::kDiagonal)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 void covariance(benchmark::State& state) {
-  const Model model = *parse_model("WN(sigma2=1) + AR1(sigma2=1e-4,phi=0.999) + RW(gamma2=1e-9)", kRate);
+  const Model model =
+      *parse_model("WN(sigma2=1) + AR1(sigma2=1e-4,phi=0.999) + RW(gamma2=1e-9)", kRate);
   const Scales scales = Scales::for_samples(kSamples, static_cast<int>(state.range(0)));
   for (auto _ : state) {
     benchmark::DoNotOptimize(moment_covariance(sum_covariance(model), scales, kSamples).sum());
   }
 }
-BENCHMARK(covariance)->ArgName("per_octave")->Arg(1)->Arg(2)->Arg(4)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(covariance)
+    ->ArgName("per_octave")
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace imunoise

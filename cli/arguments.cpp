@@ -55,22 +55,33 @@ struct Raw {
 };
 
 void add_input(CLI::App& app, Raw& raw) {
-  app.add_option("FILES", raw.files, "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar")
+  app.add_option("FILES", raw.files,
+                 "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")->delimiter(',');
-  app.add_option("--rate", raw.rate, "Sampling rate in Hz, where the file does not say")->check(CLI::PositiveNumber);
-  app.add_option("--unit", raw.unit, "Unit of the channels, e.g. deg/s; wins over what the file says");
-  app.add_option("--delimiter", raw.delimiter, "Separator of a text file, one character or 'tab' (default: detected)");
-  auto* const header = app.add_flag("--header", raw.header, "The first row of a text file names its columns");
-  app.add_flag("--no-header", raw.no_header, "The first row of a text file holds numbers")->excludes(header);
+  app.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")
+      ->delimiter(',');
+  app.add_option("--rate", raw.rate, "Sampling rate in Hz, where the file does not say")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--unit", raw.unit,
+                 "Unit of the channels, e.g. deg/s; wins over what the file says");
+  app.add_option("--delimiter", raw.delimiter,
+                 "Separator of a text file, one character or 'tab' (default: detected)");
+  auto* const header =
+      app.add_flag("--header", raw.header, "The first row of a text file names its columns");
+  app.add_flag("--no-header", raw.no_header, "The first row of a text file holds numbers")
+      ->excludes(header);
   app.add_option("--split-into", raw.split_into, "Cut each file into K replicates of equal length")
       ->check(CLI::Range(1, 100000))
       ->type_name("K");
-  app.add_option("--per-octave", raw.per_octave, "Scales an octave")->check(CLI::IsMember({1, 2, 4}))->capture_default_str();
+  app.add_option("--per-octave", raw.per_octave, "Scales an octave")
+      ->check(CLI::IsMember({1, 2, 4}))
+      ->capture_default_str();
   app.add_option("--robust", raw.robust, "Robust estimator, by its nominal efficiency")
       ->check(CLI::IsMember({"0.6", "0.8", "0.9"}));
-  app.add_option("--confidence", raw.confidence, "Of the intervals")->check(CLI::Range(0.5, 0.9999))->capture_default_str();
+  app.add_option("--confidence", raw.confidence, "Of the intervals")
+      ->check(CLI::Range(0.5, 0.9999))
+      ->capture_default_str();
 }
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why) {
@@ -118,11 +129,14 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.require_subcommand(1);
   app.fallthrough();
   std::size_t threads = 0;
-  app.add_option("--threads", threads, "Threads to use (results do not depend on it)")->check(CLI::Range(1, 1024));
+  app.add_option("--threads", threads, "Threads to use (results do not depend on it)")
+      ->check(CLI::Range(1, 1024));
 
   Raw raw;
   bool json = false;
-  const auto add_json = [&](CLI::App* command) { command->add_flag("--json", json, "Print the result as JSON"); };
+  const auto add_json = [&](CLI::App* command) {
+    command->add_flag("--json", json, "Print the result as JSON");
+  };
 
   CLI::App* const wv = app.add_subcommand("wv", "Wavelet variance of recordings");
   wv->footer(kWvExamples);
@@ -139,14 +153,17 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   std::string report;
   std::string svg;
   fit->add_option("--model", model, fmt::format("The model (default: {})", study::kDefaultModel));
-  fit->add_option("--estimator", estimator, "mugmwm: one model for all replicates; agmwm: average of one each")
+  fit->add_option("--estimator", estimator,
+                  "mugmwm: one model for all replicates; agmwm: average of one each")
       ->check(CLI::IsMember({"mugmwm", "agmwm"}))
       ->capture_default_str();
-  fit->add_option("--weights", weights, "full: exact covariance of the moments; diag: as the R packages")
+  fit->add_option("--weights", weights,
+                  "full: exact covariance of the moments; diag: as the R packages")
       ->check(CLI::IsMember({"full", "diag"}))
       ->capture_default_str();
   fit->add_option("--report", report, "Write one self-contained HTML page")->type_name("OUT.html");
-  fit->add_option("--svg", svg, "Write the noise budget as a picture for papers")->type_name("OUT.svg");
+  fit->add_option("--svg", svg, "Write the noise budget as a picture for papers")
+      ->type_name("OUT.svg");
 
   CLI::App* const simulate = app.add_subcommand("simulate", "Write recordings of a known model");
   simulate->footer(kSimulateExamples);
@@ -155,17 +172,23 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   std::string unit = "1";
   std::string out;
   simulate->add_option("--model", simulation.model, "The model, with all its values")->required();
-  simulate->add_option("--rate", rate, "Sampling rate in Hz")->required()->check(CLI::PositiveNumber);
+  simulate->add_option("--rate", rate, "Sampling rate in Hz")
+      ->required()
+      ->check(CLI::PositiveNumber);
   simulate->add_option("--samples", simulation.samples, "Samples of each replicate")
       ->required()
       ->check(CLI::Range(std::size_t{16}, std::size_t{1} << 32U));
   simulate->add_option("--replicates", simulation.replicates, "Number of replicates")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  simulate->add_option("--seed", simulation.seed, "Seed of the random numbers")->capture_default_str();
-  simulate->add_option("--unit", unit, "Unit in which the values are written, e.g. deg/s")->capture_default_str();
-  simulate->add_option("--channel", simulation.channel, "Name of the channel")->capture_default_str();
-  simulate->add_option("--out", out, "File to write (.h5, .csv, .npy); replicates get _1, _2, ..")->required();
+  simulate->add_option("--seed", simulation.seed, "Seed of the random numbers")
+      ->capture_default_str();
+  simulate->add_option("--unit", unit, "Unit in which the values are written, e.g. deg/s")
+      ->capture_default_str();
+  simulate->add_option("--channel", simulation.channel, "Name of the channel")
+      ->capture_default_str();
+  simulate->add_option("--out", out, "File to write (.h5, .csv, .npy); replicates get _1, _2, ..")
+      ->required();
   add_json(simulate);
 
   try {
@@ -178,7 +201,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       FitArguments command;
       command.input = input_from(raw);
       if (!model.empty()) command.fit.model = model;
-      command.fit.estimator = estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
+      command.fit.estimator =
+          estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
       command.fit.weighting = weights == "diag" ? Weighting::kDiagonal : Weighting::kFull;
       command.fit.measure = measure_from(raw);
       command.json = json;

@@ -37,18 +37,21 @@ int run(const FitArguments& arguments) {
     *reports.add_channels() = *fitted;
   }
   if (arguments.report) {
-    if (auto done = write_file(*arguments.report, report::html_page(reports)); !done) return print_error(done.error());
+    if (auto done = write_file(*arguments.report, report::html_page(reports)); !done)
+      return print_error(done.error());
     fmt::print(stderr, "wrote {}\n", arguments.report->string());
   }
   if (arguments.svg) {
-    if (auto done = write_pictures(reports, *arguments.svg); !done) return print_error(done.error());
+    if (auto done = write_pictures(reports, *arguments.svg); !done)
+      return print_error(done.error());
   }
   if (arguments.json) {
     const bool single = reports.channels_size() == 1;
     print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));
     return 0;
   }
-  for (const v1::FitReport& one : reports.channels()) print(report::fit_text(one, terminal_style()));
+  for (const v1::FitReport& one : reports.channels())
+    print(report::fit_text(one, terminal_style()));
   return 0;
 }
 

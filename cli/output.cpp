@@ -18,7 +18,8 @@ bool utf8_locale() {
     const char* const value = std::getenv(name);
     if (value == nullptr || *value == '\0') continue;
     const std::string_view text(value);
-    return text.find("UTF-8") != std::string_view::npos || text.find("utf8") != std::string_view::npos;
+    return text.find("UTF-8") != std::string_view::npos ||
+           text.find("utf8") != std::string_view::npos;
   }
   return false;
 }
@@ -51,7 +52,8 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view cont
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.flush();
     if (!file) {
-      return fail(fmt::format("{}: cannot be written; is the folder there, and is there room?", path.string()));
+      return fail(fmt::format("{}: cannot be written; is the folder there, and is there room?",
+                              path.string()));
     }
   }
   std::error_code code;

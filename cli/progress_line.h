@@ -8,8 +8,8 @@
 
 namespace imunoise::cli {
 
-/// Tells on standard error how far the work is and how long it will take, from the second second on: one
-/// line that is rewritten on a terminal, a line every ten seconds elsewhere. Thread-safe.
+/// Tells on standard error how far the work is and how long it will take, from the second second
+/// on: one line that is rewritten on a terminal, a line every ten seconds elsewhere. Thread-safe.
 class ProgressLine {
  public:
   explicit ProgressLine(std::string what);

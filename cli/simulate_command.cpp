@@ -22,7 +22,8 @@ int run(const SimulateArguments& arguments) {
   const Result<Model> model = parse_model(arguments.model, arguments.rate);
   if (!model) return print_error(model.error());
   if (!complete(*model)) {
-    return print_error({fmt::format("model: {} leaves values open; give each, as in WN(sigma2=1e-6)", print(*model))});
+    return print_error({fmt::format(
+        "model: {} leaves values open; give each, as in WN(sigma2=1e-6)", print(*model))});
   }
   v1::SimulationReport report;
   report.set_model(print(*model));

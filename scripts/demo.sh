@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to a noise model with its intervals, on simulated gyro recordings whose true
-# noise is known. Needs no sensor. The report is left in build/demo/.
+# noise is known. Needs no sensor. The report is left in build/demo-output/.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -9,12 +9,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 # slowly without bound. Six static recordings of one hour at 100 Hz show all four parameters.
 truth="WN(sigma2=2.5e-7) + AR1(sigma2=4e-11, phi=0.998) + RW(gamma2=5e-14)"
 model="WN + AR1 + RW"
-out=build/demo
+out=build/demo-output
 
 bash scripts/install_packages.sh build
 echo "Building imunoise (the first time takes some minutes) ..."
-build_release imunoise
-imunoise=build/release/imunoise
+quietly build/log/demo-configure.txt cmake --preset demo
+quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise
+imunoise=build/demo/imunoise
 
 rm -rf "$out"
 mkdir -p "$out"

@@ -19,7 +19,8 @@ std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> rep
   return out;
 }
 
-std::vector<Eigen::MatrixXd> full_roots(const Model& model, std::span<const WaveletVariance> replicates) {
+std::vector<Eigen::MatrixXd> full_roots(const Model& model,
+                                        std::span<const WaveletVariance> replicates) {
   const PerReplicate covariances = moment_covariances(model, replicates);
   const PerReplicate roots = PerReplicate::of(replicates, [&](const WaveletVariance& wv) {
     const auto at = static_cast<std::size_t>(&wv - replicates.data());
@@ -59,8 +60,8 @@ PerReplicate moment_covariances(const Model& model, std::span<const WaveletVaria
   });
 }
 
-Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates, Weighting weighting,
-                const Progress& progress) {
+Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
+                Weighting weighting, const Progress& progress) {
   Estimate out;
   out.weighting = weighting;
   out.weight_roots = diagonal_roots(replicates);
@@ -70,7 +71,8 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
     const Eigen::ArrayXd before = variance(found.model, replicates[0].scales.half_widths());
     out.weight_roots = full_roots(found.model, replicates);
     const Problem problem = tied_problem(model, replicates, out.weight_roots);
-    // New weights may favour another minimum: scan once more with the first of them, then follow it.
+    // New weights may favour another minimum: scan once more with the first of them, then follow
+    // it.
     found = round == 0 ? minimise(problem, progress) : minimise(problem, progress, &found.model);
     const Eigen::ArrayXd after = variance(found.model, replicates[0].scales.half_widths());
     if (((after - before).abs() <= 1e-7 * after).all()) break;
@@ -92,7 +94,8 @@ AverageEstimate agmwm(const Model& model, std::span<const WaveletVariance> repli
   const auto count = static_cast<double>(replicates.size());
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const auto at = static_cast<double>(k);
-    Estimate one = mugmwm(model, replicates.subspan(k, 1), weighting, progress.part(at / count, (at + 1) / count));
+    Estimate one = mugmwm(model, replicates.subspan(k, 1), weighting,
+                          progress.part(at / count, (at + 1) / count));
     average.objective += one.objective;
     if (one.termination != Termination::kConverged) average.termination = one.termination;
     average.weight_roots.push_back(one.weight_roots[0]);

@@ -52,7 +52,8 @@ Profile::Profile(const Problem& problem) : problem_(problem) {
   }
 }
 
-Eigen::VectorXd Profile::whitened(std::size_t term, const std::vector<Eigen::ArrayXd>& per_grid) const {
+Eigen::VectorXd Profile::whitened(std::size_t term,
+                                  const std::vector<Eigen::ArrayXd>& per_grid) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(rows_);
   Eigen::Index row = 0;
   for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
@@ -115,7 +116,8 @@ Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gr
     set_values(process, v);
   }
 
-  // By the envelope theorem only the direct dependence on the shapes counts: dQ/dη = -2 rᵀ W power dshape.
+  // By the envelope theorem only the direct dependence on the shapes counts: dQ/dη = -2 rᵀ W power
+  // dshape.
   if (gradient != nullptr) {
     for (std::size_t i = 0; i < coordinates_.size(); ++i) {
       const Coordinate& c = coordinates_[i];
@@ -125,7 +127,8 @@ Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gr
       if (power == 0.0) continue;
       std::vector<Eigen::ArrayXd> per_grid;
       for (const Eigen::ArrayXd& grid : grids_) {
-        per_grid.emplace_back(shape_jacobian(process, grid).col(static_cast<Eigen::Index>(c.parameter - 1)));
+        per_grid.emplace_back(
+            shape_jacobian(process, grid).col(static_cast<Eigen::Index>(c.parameter - 1)));
       }
       (*gradient)[i] = -2.0 * power * slopes[i] * residual.dot(whitened(c.term, per_grid));
     }

@@ -4,9 +4,9 @@
 
 namespace imunoise {
 
-/// The objective as a function of the free shape parameters only, in unbounded coordinates; powers are
-/// solved inside (variable projection). Coordinates: logit between the bounds of the parameter, or
-/// its logarithm.
+/// The objective as a function of the free shape parameters only, in unbounded coordinates; powers
+/// are solved inside (variable projection). Coordinates: logit between the bounds of the parameter,
+/// or its logarithm.
 class Profile {
  public:
   explicit Profile(const Problem& problem);
@@ -48,9 +48,9 @@ class Profile {
   const Problem& problem_;
   std::vector<Coordinate> coordinates_;
   std::vector<std::size_t> free_powers_;
-  Eigen::VectorXd measured_;                 // whitened
+  Eigen::VectorXd measured_;  // whitened
   Eigen::Index rows_ = 0;
-  std::vector<Eigen::ArrayXd> grids_;        // distinct half-widths
+  std::vector<Eigen::ArrayXd> grids_;  // distinct half-widths
   std::vector<std::size_t> grid_of_block_;
 };
 

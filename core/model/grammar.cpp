@@ -1,8 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "core/model/model.h"
@@ -83,7 +84,8 @@ class Parser {
     bool first = true;
     do {
       skip_space();
-      const bool number = at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0;
+      const bool number =
+          at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0;
       Result<void> done = first && number ? structure(out) : assignment(out);
       if (!done) return tl::unexpected(done.error());
       first = false;
@@ -102,7 +104,9 @@ class Parser {
     const Result<int> number = whole_number();
     if (!number) return tl::unexpected(number.error());
     const std::optional<Process> made = with_structure(term.process, *number);
-    if (!made) return error(begin, fmt::format("{} is out of range for {} ({})", *number, about.name, about.structure));
+    if (!made)
+      return error(begin, fmt::format("{} is out of range for {} ({})", *number, about.name,
+                                      about.structure));
     term = Term(*made);
     return {};
   }
@@ -115,8 +119,9 @@ class Parser {
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const ParameterInfo& p) { return p.name == name; });
     if (found == known.end()) {
-      return error(begin, fmt::format("{} has no parameter '{}' (it has: {})", info(term.process).name,
-                                      name, parameter_names(term.process)));
+      return error(
+          begin, fmt::format("{} has no parameter '{}' (it has: {})", info(term.process).name, name,
+                             parameter_names(term.process)));
     }
     const auto index = static_cast<std::size_t>(found - known.begin());
     if (term.given[index]) return error(begin, fmt::format("'{}' is given twice", name));
@@ -131,7 +136,8 @@ class Parser {
     const bool power = index == 0;
     if (power && value < 0.0) return error(value_at, fmt::format("{} cannot be negative", name));
     if (!power && !(value >= found->lower && value <= found->upper)) {
-      return error(value_at, fmt::format("{} must lie between {:.6g} and {:.16g}", name, found->lower, found->upper));
+      return error(value_at, fmt::format("{} must lie between {:.6g} and {:.16g}", name,
+                                         found->lower, found->upper));
     }
     std::vector<double> all = values(term.process);
     all[index] = value;
@@ -157,7 +163,8 @@ class Parser {
 
   std::string_view word() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
+    while (at_ < text_.size() &&
+           (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
       ++at_;
     }
     return text_.substr(begin, at_ - begin);
@@ -192,7 +199,8 @@ std::string print_term(const Term& term, bool all) {
   const std::vector<double> at = values(term.process);
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (!all && !term.given[i]) continue;
-    inside += fmt::format("{}{}={}", inside.empty() ? "" : ", ", about[i].name, at[i]);  // shortest exact form
+    inside += fmt::format("{}{}={}", inside.empty() ? "" : ", ", about[i].name,
+                          at[i]);  // shortest exact form
   }
   const std::string name(info(term.process).name);
   return inside.empty() ? name : name + "(" + inside + ")";
@@ -203,7 +211,8 @@ std::string print(const Model& model, bool all) {
   for (std::size_t i = 0; i < model.terms.size();) {
     std::size_t count = 1;
     const std::string term = print_term(model.terms[i], all);
-    while (i + count < model.terms.size() && print_term(model.terms[i + count], all) == term) ++count;
+    while (i + count < model.terms.size() && print_term(model.terms[i + count], all) == term)
+      ++count;
     out += (out.empty() ? "" : " + ") + (count > 1 ? std::to_string(count) + "*" : "") + term;
     i += count;
   }

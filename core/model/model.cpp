@@ -51,7 +51,8 @@ Model sorted(Model model) {
     for (std::size_t k = i + 1; k < model.terms.size(); ++k) {
       Term& a = model.terms[i];
       Term& b = model.terms[k];
-      if (a.process.index() == b.process.index() && a.given == b.given && shape_of(a) < shape_of(b)) {
+      if (a.process.index() == b.process.index() && a.given == b.given &&
+          shape_of(a) < shape_of(b)) {
         std::swap(a, b);
       }
     }

@@ -10,7 +10,8 @@
 
 namespace imunoise {
 
-/// One term of a model: a process, and which of its parameters the user gave (they stay as they are).
+/// One term of a model: a process, and which of its parameters the user gave (they stay as they
+/// are).
 struct Term {
   Process process;
   std::vector<bool> given;  ///< one entry a parameter
@@ -25,10 +26,12 @@ struct Model {
   friend bool operator==(const Model&, const Model&) = default;
 };
 
-/// Reads a model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`, `MA(2) + RW`.
-///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value } ')' ]
-/// Parameters are per sample, in SI units; GM's tc is in seconds (hence the rate). Names ignore case.
-/// Error: what is wrong, with the text and a caret under the character.
+/// Reads a model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`, `MA(2) +
+/// RW`.
+///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value }
+///   ')' ]
+/// Parameters are per sample, in SI units; GM's tc is in seconds (hence the rate). Names ignore
+/// case. Error: what is wrong, with the text and a caret under the character.
 Result<Model> parse_model(std::string_view text, Hertz rate);
 
 /// The model in the grammar, with the values that were given: parse_model(print(m)) == m.

@@ -39,7 +39,8 @@ ShapeAndSlope at_scale(double phi, double m) {
 
 std::vector<ParameterInfo> Ar1::parameters() const {
   return {{"sigma2", "variance of the innovations"},
-          {"phi", "correlation of neighbouring samples", Dimension::kPurePerSample, -1.0 + 1e-6, 1.0 - 1e-12}};
+          {"phi", "correlation of neighbouring samples", Dimension::kPurePerSample, -1.0 + 1e-6,
+           1.0 - 1e-12}};
 }
 
 Eigen::ArrayXd Ar1::shape(HalfWidths m) const {
@@ -65,7 +66,8 @@ SumCovariance Ar1::sum_covariance() const {
 std::vector<DerivedQuantity> Ar1::derived(Hertz rate) const {
   std::vector<DerivedQuantity> out = {
       {Coefficient::kAmplitude, std::sqrt(sigma2 / ((1.0 - phi) * (1.0 + phi)))}};
-  if (phi > 0.0) out.push_back({Coefficient::kCorrelationTime, -1.0 / (std::log(phi) * rate.value)});
+  if (phi > 0.0)
+    out.push_back({Coefficient::kCorrelationTime, -1.0 / (std::log(phi) * rate.value)});
   return out;
 }
 

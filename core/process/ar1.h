@@ -10,10 +10,10 @@ struct Ar1 {
   double sigma2 = 1.0;  ///< s², of the innovations
   double phi = 0.5;
 
-  static constexpr ProcessInfo kInfo{
-      "AR1", "first-order Markov noise",
-      "Noise with a memory: sensor bandwidth when the time is short, bias instability or temperature "
-      "when it is long."};
+  static constexpr ProcessInfo kInfo{"AR1", "first-order Markov noise",
+                                     "Noise with a memory: sensor bandwidth when the time is "
+                                     "short, bias instability or temperature "
+                                     "when it is long."};
   friend bool operator==(const Ar1&, const Ar1&) = default;
 
   std::vector<ParameterInfo> parameters() const;
@@ -31,7 +31,8 @@ struct Ar1 {
   void add_samples(RandomStream& rng, std::span<double> out) const;
 };
 
-/// Correlation times, in samples, spread over what `scales` can show: where to look for Markov noise.
+/// Correlation times, in samples, spread over what `scales` can show: where to look for Markov
+/// noise.
 std::vector<double> scanned_correlation_times(const Scales& scales);
 
 }  // namespace imunoise

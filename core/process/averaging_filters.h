@@ -10,7 +10,8 @@ namespace imunoise {
 std::vector<double> boxcar_taps(int n);
 std::vector<double> bartlett_taps(int n);
 
-/// White noise of variance σ² through a filter of unit gain whose length is known: the device's own.
+/// White noise of variance σ² through a filter of unit gain whose length is known: the device's
+/// own.
 template <class Form>
 struct AveragingFilter {
   double sigma2 = 1.0;  ///< of the noise before the filter

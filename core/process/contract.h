@@ -1,7 +1,8 @@
 #pragma once
 
-// What every noise process of the house provides. A process is a small value: copied, compared, printed.
-// Its wavelet variance is linear in its first parameter, the power: ν(m) = power · shape(m).
+// What every noise process of the house provides. A process is a small value: copied, compared,
+// printed. Its wavelet variance is linear in its first parameter, the power: ν(m) = power ·
+// shape(m).
 
 #include <Eigen/Core>
 #include <concepts>
@@ -19,10 +20,11 @@ namespace imunoise {
 
 /// What a process is called and what it means.
 struct ProcessInfo {
-  std::string_view name;      ///< in the grammar: "AR1"
-  std::string_view title;     ///< plain: "first-order Markov noise"
-  std::string_view meaning;   ///< its physical meaning, one sentence
-  std::string_view structure = "";  ///< what the whole number in NAME(3) counts; empty when there is none
+  std::string_view name;     ///< in the grammar: "AR1"
+  std::string_view title;    ///< plain: "first-order Markov noise"
+  std::string_view meaning;  ///< its physical meaning, one sentence
+  std::string_view structure =
+      "";  ///< what the whole number in NAME(3) counts; empty when there is none
 };
 
 /// The dimension of a parameter, from which its unit is printed.
@@ -33,12 +35,12 @@ enum class Dimension {
 };
 
 struct ParameterInfo {
-  std::string name;           ///< in the grammar: "phi"
-  std::string_view meaning;   ///< one phrase
+  std::string name;          ///< in the grammar: "phi"
+  std::string_view meaning;  ///< one phrase
   Dimension dimension = Dimension::kPower;
-  double lower = 0.0;         ///< the search keeps to [lower, upper]; a power is only bounded by zero
+  double lower = 0.0;  ///< the search keeps to [lower, upper]; a power is only bounded by zero
   double upper = 0.0;
-  bool logarithmic = false;   ///< positive parameter, searched on a logarithmic scale
+  bool logarithmic = false;  ///< positive parameter, searched on a logarithmic scale
 };
 
 /// A quantity people know the process by, derived from its parameters.
@@ -51,19 +53,21 @@ struct DerivedQuantity {
 using HalfWidths = Eigen::Ref<const Eigen::ArrayXd>;
 
 template <class P>
-concept NoiseProcess = std::regular<P> && requires(P p, const P c, HalfWidths m, RandomStream& rng,
-                                                   std::span<double> out) {
+concept NoiseProcess = std::regular<P> &&
+    requires(P p, const P c, HalfWidths m, RandomStream& rng, std::span<double> out) {
   { P::kInfo } -> std::convertible_to<ProcessInfo>;
   { c.parameters() } -> std::same_as<std::vector<ParameterInfo>>;  ///< the power first
   { c.values() } -> std::same_as<std::vector<double>>;             ///< in the same order
   p.set_values(std::span<const double>{});
-  { c.shape(m) } -> std::same_as<Eigen::ArrayXd>;             ///< ν(m) / power
-  { c.shape_jacobian(m) } -> std::same_as<Eigen::ArrayXXd>;   ///< d shape / d the other parameters
+  { c.shape(m) } -> std::same_as<Eigen::ArrayXd>;            ///< ν(m) / power
+  { c.shape_jacobian(m) } -> std::same_as<Eigen::ArrayXXd>;  ///< d shape / d the other parameters
   { c.spectrum(0.1) } -> std::same_as<double>;  ///< two-sided, unit² per cycle/sample, 0 < f ≤ 1/2
   { c.sum_covariance() } -> std::same_as<SumCovariance>;
   { c.derived(Hertz{}) } -> std::same_as<std::vector<DerivedQuantity>>;
-  { c.scan(Scales{}) } -> std::same_as<std::vector<std::vector<double>>>;  ///< where to look for the shape
-  c.add_samples(rng, out);                      ///< adds one realisation, from its stationary start
+  {
+    c.scan(Scales{})
+    } -> std::same_as<std::vector<std::vector<double>>>;  ///< where to look for the shape
+  c.add_samples(rng, out);  ///< adds one realisation, from its stationary start
 };
 
 /// For processes without shape parameters.

@@ -11,10 +11,13 @@ struct Drift {
   double omega2 = 1.0;
 
   static constexpr ProcessInfo kInfo{
-      "DR", "drift", "A bias that moves steadily: slow temperature or ageing seen as a straight line."};
+      "DR", "drift",
+      "A bias that moves steadily: slow temperature or ageing seen as a straight line."};
   friend bool operator==(const Drift&, const Drift&) = default;
 
-  std::vector<ParameterInfo> parameters() const { return {{"omega2", "square of the slope per sample"}}; }
+  std::vector<ParameterInfo> parameters() const {
+    return {{"omega2", "square of the slope per sample"}};
+  }
   std::vector<double> values() const { return {omega2}; }
   void set_values(std::span<const double> v) { omega2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const { return 0.25 * m.square(); }

@@ -42,7 +42,8 @@ ExponentialShape<Scalar> exponential_shape(Scalar rate, double m) {
   const Scalar numerator = 2.0 * m * sinh_minus_argument(rate) + wavelet_remainder(m * rate);
   const Scalar once = stable_expm1(-m * rate);
   const Scalar slope = 4.0 * m * half * half + 2.0 * m * once * once;
-  return {numerator / (8.0 * m * m * half * half), slope / numerator - std::cosh(0.5 * rate) / half};
+  return {numerator / (8.0 * m * m * half * half),
+          slope / numerator - std::cosh(0.5 * rate) / half};
 }
 
 }  // namespace imunoise

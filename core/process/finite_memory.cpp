@@ -22,7 +22,8 @@ Eigen::ArrayXd variance_of(const std::vector<double>& gamma, HalfWidths m) {
 
 }  // namespace
 
-FiniteMemory::FiniteMemory(std::vector<double> taps) : taps_(std::move(taps)), gamma_(taps_.size()) {
+FiniteMemory::FiniteMemory(std::vector<double> taps)
+    : taps_(std::move(taps)), gamma_(taps_.size()) {
   for (std::size_t h = 0; h < taps_.size(); ++h) {
     for (std::size_t i = 0; i + h < taps_.size(); ++i) gamma_[h] += taps_[i] * taps_[i + h];
   }

@@ -4,8 +4,8 @@
 
 namespace imunoise {
 
-/// White noise through a filter with finitely many taps w: x_t = Σ_i w_i e_{t-i}, var e = 1. Shared by
-/// MA(q) and the averaging filters. Shapes as in the contract.
+/// White noise through a filter with finitely many taps w: x_t = Σ_i w_i e_{t-i}, var e = 1. Shared
+/// by MA(q) and the averaging filters. Shapes as in the contract.
 class FiniteMemory {
  public:
   explicit FiniteMemory(std::vector<double> taps);

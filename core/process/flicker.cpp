@@ -24,8 +24,8 @@ std::vector<DerivedQuantity> Flicker::derived(Hertz) const {
   return {{Coefficient::kBiasInstability, std::sqrt(b2)}};
 }
 
-// The increments are stationary with autocovariance (4B²/π)/(1 - 4h²): simulated exactly by embedding
-// it in a circulant (Davies & Harte 1987), then summed.
+// The increments are stationary with autocovariance (4B²/π)/(1 - 4h²): simulated exactly by
+// embedding it in a circulant (Davies & Harte 1987), then summed.
 void Flicker::add_samples(RandomStream& rng, std::span<double> out) const {
   const std::size_t size = 2 * std::bit_ceil(out.size() + 1);
   std::vector<std::complex<double>> row(size);
@@ -37,7 +37,8 @@ void Flicker::add_samples(RandomStream& rng, std::span<double> out) const {
   std::vector<std::complex<double>> eigenvalues;
   fft.fwd(eigenvalues, row);
   for (std::size_t i = 0; i < size; ++i) {
-    const double amplitude = std::sqrt(std::max(0.0, eigenvalues[i].real()) / static_cast<double>(size));
+    const double amplitude =
+        std::sqrt(std::max(0.0, eigenvalues[i].real()) / static_cast<double>(size));
     const double real = rng.normal();
     row[i] = amplitude * std::complex<double>(real, rng.normal());
   }

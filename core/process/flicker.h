@@ -5,8 +5,8 @@
 namespace imunoise {
 
 /// Flicker noise as white noise half-integrated in discrete time (Kasdin 1995): two-sided spectrum
-/// B²/(2 sin πf), which is B²/(2πf) at low frequency. Compared with the flat B² ln2/π of ideal 1/f noise
-/// its wavelet variance is 1.443, 1.154, 1.080, 1.050 times at m = 1..4, and 1 in the limit.
+/// B²/(2 sin πf), which is B²/(2πf) at low frequency. Compared with the flat B² ln2/π of ideal 1/f
+/// noise its wavelet variance is 1.443, 1.154, 1.080, 1.050 times at m = 1..4, and 1 in the limit.
 struct Flicker {
   double b2 = 1.0;  ///< B²
 
@@ -15,7 +15,9 @@ struct Flicker {
       "1/f noise of the electronics: the floor that averaging cannot beat, the bias instability."};
   friend bool operator==(const Flicker&, const Flicker&) = default;
 
-  std::vector<ParameterInfo> parameters() const { return {{"b2", "square of the flicker coefficient B"}}; }
+  std::vector<ParameterInfo> parameters() const {
+    return {{"b2", "square of the flicker coefficient B"}};
+  }
   std::vector<double> values() const { return {b2}; }
   void set_values(std::span<const double> v) { b2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const;

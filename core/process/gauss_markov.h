@@ -13,9 +13,9 @@ struct GaussMarkov {
   double tc = 1.0;      ///< s
   Hertz rate;
 
-  static constexpr ProcessInfo kInfo{
-      "GM", "Gauss-Markov noise",
-      "Noise with a memory, in continuous time: bias instability, temperature or sensor bandwidth."};
+  static constexpr ProcessInfo kInfo{"GM", "Gauss-Markov noise",
+                                     "Noise with a memory, in continuous time: bias instability, "
+                                     "temperature or sensor bandwidth."};
   friend bool operator==(const GaussMarkov&, const GaussMarkov&) = default;
 
   /// The same noise in discrete time.
@@ -26,7 +26,8 @@ struct GaussMarkov {
 
   std::vector<ParameterInfo> parameters() const {
     return {{"sigma2", "variance of the noise"},
-            {"tc", "correlation time", Dimension::kSeconds, 0.02 / rate.value, 1e12 / rate.value, true}};
+            {"tc", "correlation time", Dimension::kSeconds, 0.02 / rate.value, 1e12 / rate.value,
+             true}};
   }
   std::vector<double> values() const { return {sigma2, tc}; }
   void set_values(std::span<const double> v) {
@@ -51,7 +52,9 @@ struct GaussMarkov {
     for (const double time : scanned_correlation_times(scales)) out.push_back({time / rate.value});
     return out;
   }
-  void add_samples(RandomStream& rng, std::span<double> out) const { discrete().add_samples(rng, out); }
+  void add_samples(RandomStream& rng, std::span<double> out) const {
+    discrete().add_samples(rng, out);
+  }
 };
 
 }  // namespace imunoise

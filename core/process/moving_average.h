@@ -6,8 +6,8 @@
 
 namespace imunoise {
 
-/// MA(q): x_t = e_t + θ_1 e_{t-1} + .. + θ_q e_{t-q}, var e = σ². For q > 1 the search covers all θ whose
-/// polynomial may be invertible; another θ with the same autocovariance may exist outside.
+/// MA(q): x_t = e_t + θ_1 e_{t-1} + .. + θ_q e_{t-q}, var e = σ². For q > 1 the search covers all θ
+/// whose polynomial may be invertible; another θ with the same autocovariance may exist outside.
 struct MovingAverage {
   double sigma2 = 1.0;
   std::vector<double> theta = {0.0};
@@ -28,7 +28,8 @@ struct MovingAverage {
     double bound = 1.0;  // of an invertible polynomial: binomial(q, k)
     for (std::size_t k = 1; k <= theta.size(); ++k) {
       bound *= static_cast<double>(theta.size() - k + 1) / static_cast<double>(k);
-      out.push_back({"theta" + std::to_string(k), "coefficient", Dimension::kPurePerSample, -bound, bound});
+      out.push_back(
+          {"theta" + std::to_string(k), "coefficient", Dimension::kPurePerSample, -bound, bound});
     }
     return out;
   }

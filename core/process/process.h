@@ -22,8 +22,9 @@ namespace imunoise {
 template <NoiseProcess... P>
 using ProcessVariant = std::variant<P...>;
 
-using Process = ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, Drift, Ar1, GaussMarkov,
-                               Resonance, MovingAverage, MovingAverageFilter, BartlettFilter, Flicker>;
+using Process =
+    ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, Drift, Ar1, GaussMarkov, Resonance,
+                   MovingAverage, MovingAverageFilter, BartlettFilter, Flicker>;
 
 // The contract, on the variant.
 const ProcessInfo& info(const Process& process);
@@ -48,7 +49,8 @@ Eigen::ArrayXXd jacobian(const Process& process, HalfWidths m);
 
 /// Every process once, with unit power: what the grammar knows.
 const std::vector<Process>& known_processes();
-/// `process` with the given structure number; nothing when it has none or the number is out of range.
+/// `process` with the given structure number; nothing when it has none or the number is out of
+/// range.
 std::optional<Process> with_structure(const Process& process, int number);
 
 }  // namespace imunoise

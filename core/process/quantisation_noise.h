@@ -11,9 +11,9 @@ namespace imunoise {
 struct QuantisationNoise {
   double q2 = 1.0;
 
-  static constexpr ProcessInfo kInfo{
-      "QN", "quantisation noise",
-      "Rounding of an accumulated angle or velocity: the error of one interval is given back in the next."};
+  static constexpr ProcessInfo kInfo{"QN", "quantisation noise",
+                                     "Rounding of an accumulated angle or velocity: the error of "
+                                     "one interval is given back in the next."};
   friend bool operator==(const QuantisationNoise&, const QuantisationNoise&) = default;
 
   std::vector<ParameterInfo> parameters() const {

@@ -16,7 +16,9 @@ struct RandomWalk {
       "A bias that wanders without bound: slow ageing and everything slower than the recording."};
   friend bool operator==(const RandomWalk&, const RandomWalk&) = default;
 
-  std::vector<ParameterInfo> parameters() const { return {{"gamma2", "variance of the increments"}}; }
+  std::vector<ParameterInfo> parameters() const {
+    return {{"gamma2", "variance of the increments"}};
+  }
   std::vector<double> values() const { return {gamma2}; }
   void set_values(std::span<const double> v) { gamma2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const { return (2.0 * m.square() + 1.0) / (12.0 * m); }
@@ -25,7 +27,9 @@ struct RandomWalk {
     const double s = 2.0 * std::sin(std::numbers::pi * f);
     return gamma2 / (s * s);
   }
-  SumCovariance sum_covariance() const { return {.linear = -gamma2 / 12.0, .cubic = gamma2 / 12.0}; }
+  SumCovariance sum_covariance() const {
+    return {.linear = -gamma2 / 12.0, .cubic = gamma2 / 12.0};
+  }
   std::vector<DerivedQuantity> derived(Hertz rate) const {
     return {{Coefficient::kRateRandomWalk, std::sqrt(gamma2 * rate.value)}};
   }

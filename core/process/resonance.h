@@ -4,16 +4,17 @@
 
 namespace imunoise {
 
-/// A damped oscillation driven by white noise: x_t = 2r cos ω x_{t-1} - r² x_{t-2} + e_t, var e = s².
-/// Autocovariance γ(h) = Re(C z^h), z = re^{iω}, C = s²[(1+r²)/(1-r²) - i cot ω] / [(1-r²)² + 4r² sin² ω].
+/// A damped oscillation driven by white noise: x_t = 2r cos ω x_{t-1} - r² x_{t-2} + e_t, var e =
+/// s². Autocovariance γ(h) = Re(C z^h), z = re^{iω}, C = s²[(1+r²)/(1-r²) - i cot ω] / [(1-r²)² +
+/// 4r² sin² ω].
 struct Resonance {
   double sigma2 = 1.0;  ///< s², of the driving noise
   double r = 0.9;       ///< decay per sample, 0 < r < 1
   double omega = 1.0;   ///< damped frequency, rad per sample, 0 < ω < π
 
-  static constexpr ProcessInfo kInfo{
-      "RES", "resonance",
-      "A mechanical or electronic resonance that noise keeps ringing: sensing element, mount, bench."};
+  static constexpr ProcessInfo kInfo{"RES", "resonance",
+                                     "A mechanical or electronic resonance that noise keeps "
+                                     "ringing: sensing element, mount, bench."};
   friend bool operator==(const Resonance&, const Resonance&) = default;
 
   std::vector<ParameterInfo> parameters() const;

@@ -10,10 +10,10 @@ namespace imunoise {
 struct WhiteNoise {
   double sigma2 = 1.0;
 
-  static constexpr ProcessInfo kInfo{
-      "WN", "white noise",
-      "Thermal and electronic noise, the same at all frequencies: integrated, it becomes the angle or "
-      "velocity random walk."};
+  static constexpr ProcessInfo kInfo{"WN", "white noise",
+                                     "Thermal and electronic noise, the same at all frequencies: "
+                                     "integrated, it becomes the angle or "
+                                     "velocity random walk."};
   friend bool operator==(const WhiteNoise&, const WhiteNoise&) = default;
 
   std::vector<ParameterInfo> parameters() const { return {{"sigma2", "variance of each sample"}}; }

@@ -33,7 +33,8 @@ class Signal {
   }
   /// Sample i in SI units.
   double value(std::size_t i) const {
-    return offset_ + scale_ * std::visit([i](auto s) { return static_cast<double>(s[i]); }, samples_);
+    return offset_ +
+           scale_ * std::visit([i](auto s) { return static_cast<double>(s[i]); }, samples_);
   }
   /// The contiguous part [begin, begin + count).
   Signal part(std::size_t begin, std::size_t count) const {

@@ -1,10 +1,12 @@
 #pragma once
 
-// The few distribution functions the house needs. Boost.Math is slow to compile: it stays behind this door.
+// The few distribution functions the house needs. Boost.Math is slow to compile: it stays behind
+// this door.
 
 namespace imunoise {
 
-/// Quantile of the χ² law with `dof` > 0 degrees of freedom (need not be whole), 0 < probability < 1.
+/// Quantile of the χ² law with `dof` > 0 degrees of freedom (need not be whole), 0 < probability
+/// < 1.
 double chi_square_quantile(double probability, double dof);
 
 /// P(χ²_dof > value); 1 when dof is zero.

@@ -11,7 +11,8 @@ namespace imunoise {
 namespace {
 
 constexpr int kMostColumns = 24;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
+using SmallMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;
 
 // Eigenvectors and values of D S D, D = diag(S)^-1/2 (zero rows keep a zero scale).
@@ -23,8 +24,8 @@ struct ScaledEigen {
 
 ScaledEigen scaled_eigen(const MatrixRef& symmetric) {
   ScaledEigen out;
-  out.scale = symmetric.diagonal().unaryExpr(
-      [](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  out.scale =
+      symmetric.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   const Eigen::MatrixXd scaled = out.scale.asDiagonal() * symmetric * out.scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   out.values = solver.eigenvalues();
@@ -116,7 +117,9 @@ Eigen::VectorXd nonnegative_least_squares(const MatrixRef& gram, const VectorRef
   PassiveSet passive(gram, moment);
   enum class Column : char { kOpen, kInUse, kDependent };
   std::array<Column, kMostColumns> state{};
-  const auto state_of = [&](Eigen::Index j) -> Column& { return state[static_cast<std::size_t>(j)]; };
+  const auto state_of = [&](Eigen::Index j) -> Column& {
+    return state[static_cast<std::size_t>(j)];
+  };
   const double tolerance = 1e-14 * moment.cwiseAbs().maxCoeff();
   SmallVector solution;
 
@@ -130,7 +133,8 @@ Eigen::VectorXd nonnegative_least_squares(const MatrixRef& gram, const VectorRef
     if (best < 0) break;
     passive.add(best);
     state_of(best) = Column::kInUse;
-    // A column that depends on those in use, or would enter with the wrong sign by rounding, stays out.
+    // A column that depends on those in use, or would enter with the wrong sign by rounding, stays
+    // out.
     if (!passive.solve(solution) || solution(passive.size() - 1) <= 0.0) {
       passive.drop(passive.size() - 1);
       state_of(best) = Column::kDependent;

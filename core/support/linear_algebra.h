@@ -1,6 +1,7 @@
 #pragma once
 
-// Every dense decomposition of the house. Eigen's are slow to compile, so they live behind this door.
+// Every dense decomposition of the house. Eigen's are slow to compile, so they live behind this
+// door.
 
 #include <Eigen/Core>
 
@@ -16,18 +17,21 @@ struct Whitening {
 };
 
 /// Whitens by the eigenvectors of the correlation matrix, so that badly scaled moments do no harm.
-/// Directions whose eigenvalue is below 1e-13 of the largest carry only rounding and are dropped (r < n).
+/// Directions whose eigenvalue is below 1e-13 of the largest carry only rounding and are dropped (r
+/// < n).
 Whitening whiten(const MatrixRef& covariance);
 
 /// A symmetric positive semidefinite matrix inverted on the space where it is not zero.
 struct PseudoInverse {
   Eigen::MatrixXd matrix;  ///< p × p
   Eigen::Index rank = 0;
-  /// p: share of each unit vector that lies in the null space; 0 when it can be told apart, 1 when not.
+  /// p: share of each unit vector that lies in the null space; 0 when it can be told apart, 1 when
+  /// not.
   Eigen::VectorXd null_share;
 };
 
-/// Inverts after scaling to a unit diagonal; eigenvalues below `tolerance` (relative) count as zero.
+/// Inverts after scaling to a unit diagonal; eigenvalues below `tolerance` (relative) count as
+/// zero.
 PseudoInverse pseudo_inverse(const MatrixRef& symmetric, double tolerance = 1e-11);
 
 /// Non-negative least squares in normal form: the minimiser of βᵀGβ - 2cᵀβ over β ≥ 0, with G = AᵀA

@@ -8,8 +8,8 @@
 
 namespace imunoise {
 
-/// Handed to everything that can take seconds. Copies share the callback. The callback may be called
-/// from any thread, must be thread-safe, and must not throw.
+/// Handed to everything that can take seconds. Copies share the callback. The callback may be
+/// called from any thread, must be thread-safe, and must not throw.
 class Progress {
  public:
   using Callback = std::function<void(double fraction)>;
@@ -26,7 +26,8 @@ class Progress {
   /// True when the caller wants the work to end early.
   bool stopped() const { return stop_.stop_requested(); }
 
-  /// The same progress, restricted to a part of the whole: fraction f is told as begin + (end - begin)·f.
+  /// The same progress, restricted to a part of the whole: fraction f is told as begin + (end -
+  /// begin)·f.
   Progress part(double begin, double end) const {
     Progress out = *this;
     out.begin_ = begin_ + (end_ - begin_) * begin;

@@ -56,10 +56,11 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 std::string normalise(std::string_view text) {
   std::string out(text);
   for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
-           {" ", ""},       {"°C", "degC"},    {"°", "deg"},    {"µ", "u"},          {"μ", "u"},
-           {"²", "^2"},     {"**", "^"},       {"s-2", "/s^2"}, {"s^-2", "/s^2"},    {"//", "/"},
-           {"degrees", "deg"}, {"/sec", "/s"}, {"/hour", "/h"}, {"/hr", "/h"},       {"·", ""},
-           {"m/s/s", "m/s^2"}, {"m/s2", "m/s^2"}, {"s-1", "/s"}, {"s^-1", "/s"}, {"celsius", "degC"}}) {
+           {" ", ""},         {"°C", "degC"}, {"°", "deg"},       {"µ", "u"},
+           {"μ", "u"},        {"²", "^2"},    {"**", "^"},        {"s-2", "/s^2"},
+           {"s^-2", "/s^2"},  {"//", "/"},    {"degrees", "deg"}, {"/sec", "/s"},
+           {"/hour", "/h"},   {"/hr", "/h"},  {"·", ""},          {"m/s/s", "m/s^2"},
+           {"m/s2", "m/s^2"}, {"s-1", "/s"},  {"s^-1", "/s"},     {"celsius", "degC"}}) {
     replace_all(out, from, to);
   }
   return out;
@@ -83,9 +84,9 @@ Result<Unit> parse_unit(std::string_view text) {
 }
 
 std::string_view si_symbol(Quantity quantity) {
-  const auto* const found =
-      std::find_if(kUnits.begin(), kUnits.end(),
-                   [&](const NamedUnit& unit) { return unit.quantity == quantity; });
+  const auto* const found = std::find_if(kUnits.begin(), kUnits.end(), [&](const NamedUnit& unit) {
+    return unit.quantity == quantity;
+  });
   return found->symbol;
 }
 
@@ -110,7 +111,10 @@ CoefficientUnits coefficient_units(Coefficient coefficient, Quantity quantity) {
   };
   switch (coefficient) {
     case Coefficient::kQuantisation:
-      return pick("Q", "quantisation noise", gyro ? "rad" : accelerometer ? "m/s" : si + "·s",
+      return pick("Q", "quantisation noise",
+                  gyro            ? "rad"
+                  : accelerometer ? "m/s"
+                                  : si + "·s",
                   "arcsec", kHour / kDegree, "µm/s", 1e6);
     case Coefficient::kRandomWalk:
       return pick("N",
@@ -122,12 +126,16 @@ CoefficientUnits coefficient_units(Coefficient coefficient, Quantity quantity) {
       return pick("B", "bias instability", si, "°/h", kHour / kDegree, "µg", 1.0 / micro_g);
     case Coefficient::kRateRandomWalk:
       return pick("K", gyro ? "rate random walk" : "bias random walk",
-                  gyro ? "rad/s²/√Hz" : accelerometer ? "m/s³/√Hz" : si + "/s/√Hz", "(°/h)/√h",
-                  kHour * 60.0 / kDegree, "µg/√h", 60.0 / micro_g);
+                  gyro            ? "rad/s²/√Hz"
+                  : accelerometer ? "m/s³/√Hz"
+                                  : si + "/s/√Hz",
+                  "(°/h)/√h", kHour * 60.0 / kDegree, "µg/√h", 60.0 / micro_g);
     case Coefficient::kRamp:
       return pick("R", gyro ? "rate ramp" : "bias ramp",
-                  gyro ? "rad/s²" : accelerometer ? "m/s³" : si + "/s", "(°/h)/h",
-                  kHour * kHour / kDegree, "µg/h", kHour / micro_g);
+                  gyro            ? "rad/s²"
+                  : accelerometer ? "m/s³"
+                                  : si + "/s",
+                  "(°/h)/h", kHour * kHour / kDegree, "µg/h", kHour / micro_g);
     case Coefficient::kAmplitude:
       return pick("σ", "standard deviation", si, "°/h", kHour / kDegree, "µg", 1.0 / micro_g);
     case Coefficient::kCorrelationTime:

@@ -1,6 +1,7 @@
 #pragma once
 
-// The one home of unit conversion. Inside the library everything is SI; people read datasheet units.
+// The one home of unit conversion. Inside the library everything is SI; people read datasheet
+// units.
 
 #include <optional>
 #include <string>
@@ -11,7 +12,8 @@
 
 namespace imunoise {
 
-/// Sampling rate in hertz. A class of its own because 819.2 Hz has no integer period in nanoseconds.
+/// Sampling rate in hertz. A class of its own because 819.2 Hz has no integer period in
+/// nanoseconds.
 struct Hertz {
   double value = 1.0;
   friend bool operator==(Hertz, Hertz) = default;
@@ -35,14 +37,15 @@ struct Unit {
   double si_offset = 0.0;  ///< SI; 273.15 K for degC, else 0. Invisible to the wavelet variance.
 };
 
-/// The unit that `text` names ("deg/s", "°/h", "mg", "m/s^2", ...). Error: unknown unit, with the known ones listed.
+/// The unit that `text` names ("deg/s", "°/h", "mg", "m/s^2", ...). Error: unknown unit, with the
+/// known ones listed.
 Result<Unit> parse_unit(std::string_view text);
 
 /// Symbol of the SI unit of a quantity, e.g. "rad/s"; "1" when the quantity is unknown.
 std::string_view si_symbol(Quantity quantity);
 
-/// What people know a noise by: the coefficients of IEEE Std 952 / 1554, and the amplitude, time and
-/// frequency of correlated noises.
+/// What people know a noise by: the coefficients of IEEE Std 952 / 1554, and the amplitude, time
+/// and frequency of correlated noises.
 enum class Coefficient {
   kQuantisation,     ///< Q, unit·s
   kRandomWalk,       ///< N, unit/√Hz (angle or velocity random walk)
@@ -57,11 +60,11 @@ enum class Coefficient {
 
 /// How people write a coefficient: symbol, SI unit, and the unit of datasheets with its factor.
 struct CoefficientUnits {
-  std::string_view symbol;     ///< "N", "K", ...
-  std::string_view title;      ///< "angle random walk", ...
-  std::string si;              ///< "rad/s/√Hz"
-  std::string datasheet;       ///< "°/√h"; empty when no customary unit exists
-  double to_datasheet = 1.0;   ///< value in datasheet unit = SI value · to_datasheet
+  std::string_view symbol;    ///< "N", "K", ...
+  std::string_view title;     ///< "angle random walk", ...
+  std::string si;             ///< "rad/s/√Hz"
+  std::string datasheet;      ///< "°/√h"; empty when no customary unit exists
+  double to_datasheet = 1.0;  ///< value in datasheet unit = SI value · to_datasheet
 };
 
 /// Units of a coefficient of a channel that measures `quantity`.

@@ -20,8 +20,8 @@ struct Extent {
 };
 
 struct Kernels {
-  // Σ (a[i] - 2 b[i] + c[i])², i < n ≤ kBlock: the squared Haar coefficients of one block, times 4m².
-  // The integer form needs |a - 2b + c| ≤ 2^26, so that the sum of a block fits.
+  // Σ (a[i] - 2 b[i] + c[i])², i < n ≤ kBlock: the squared Haar coefficients of one block, times
+  // 4m². The integer form needs |a - 2b + c| ≤ 2^26, so that the sum of a block fits.
   double (*squares_double)(const double* a, const double* b, const double* c, std::size_t n);
   std::uint64_t (*squares_int)(const std::int32_t* a, const std::int32_t* b, const std::int32_t* c,
                                std::size_t n);

@@ -1,5 +1,6 @@
 // Body of the kernels, included by kernels_baseline.cpp and kernels_avx2.cpp inside a namespace of
-// their own. Explicit vectors are 16 bytes wide in both; the other loops are left to the vectoriser.
+// their own. Explicit vectors are 16 bytes wide in both; the other loops are left to the
+// vectoriser.
 
 using Doubles2 = double __attribute__((vector_size(16), aligned(8)));
 using Ints4 = std::int32_t __attribute__((vector_size(16), aligned(4)));
@@ -57,12 +58,12 @@ void prefix_double(const double* x, double origin, double start, double* out, st
   for (; i + 5 <= n; i += 4) {
     Doubles2 low = load<Doubles2>(x + i) - origin;
     Doubles2 high = load<Doubles2>(x + i + 2) - origin;
-    low += __builtin_shuffle(low, Doubles2{0.0, 0.0}, Mask2{2, 0});
-    high += __builtin_shuffle(high, Doubles2{0.0, 0.0}, Mask2{2, 0});
-    high += __builtin_shuffle(low, Mask2{1, 1});
+    low += __builtin_shufflevector(low, Doubles2{0.0, 0.0}, 2, 0);
+    high += __builtin_shufflevector(high, Doubles2{0.0, 0.0}, 2, 0);
+    high += __builtin_shufflevector(low, low, 1, 1);
     store(out + i + 1, (low + carry) + start);
     store(out + i + 3, (high + carry) + start);
-    carry += __builtin_shuffle(high, Mask2{1, 1});
+    carry += __builtin_shufflevector(high, high, 1, 1);
   }
   double sum = carry[0];
   for (; i + 1 < n; ++i) {
@@ -80,10 +81,10 @@ inline void prefix_counts(const Sample* x, std::int32_t origin, std::int32_t sta
   for (; i + 5 <= n; i += 4) {
     Ints4 v = {x[i], x[i + 1], x[i + 2], x[i + 3]};
     v -= origin;
-    v += __builtin_shuffle(v, Ints4{}, Mask4{4, 0, 1, 2});
-    v += __builtin_shuffle(v, Ints4{}, Mask4{4, 5, 0, 1});
+    v += __builtin_shufflevector(v, Ints4{}, 4, 0, 1, 2);
+    v += __builtin_shufflevector(v, Ints4{}, 4, 5, 0, 1);
     store(out + i + 1, v + carry);
-    carry += __builtin_shuffle(v, Mask4{3, 3, 3, 3});
+    carry += __builtin_shufflevector(v, v, 3, 3, 3, 3);
   }
   std::int32_t sum = carry[0];
   for (; i + 1 < n; ++i) {

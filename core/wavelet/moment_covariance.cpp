@@ -26,8 +26,11 @@ constexpr double kSmooth = 16.0;     // |log root|·lag below which polynomials 
 class CrossCovariance {
  public:
   CrossCovariance(const SumCovariance& process, std::int64_t mj, std::int64_t mk)
-      : process_(process), mj_(static_cast<double>(mj)), mk_(static_cast<double>(mk)),
-        linear_(process.linear), cubic_(process.cubic) {
+      : process_(process),
+        mj_(static_cast<double>(mj)),
+        mk_(static_cast<double>(mk)),
+        linear_(process.linear),
+        cubic_(process.cubic) {
     for (const ExponentialCovariance& part : process.exponentials) {
       Exponential e{};
       e.rate = -part.log_root;
@@ -70,7 +73,8 @@ class CrossCovariance {
   std::int64_t direct_reach() const {
     double reach = std::max(12.0, static_cast<double>(process_.near.size()));
     for (const Exponential& e : exponentials_) {
-      if (longest_panel(e) < 3.0 * DiscreteRule::kOrder) reach = std::max(reach, kForgotten / e.rate.real());
+      if (longest_panel(e) < 3.0 * DiscreteRule::kOrder)
+        reach = std::max(reach, kForgotten / e.rate.real());
     }
     return static_cast<std::int64_t>(std::min(reach, 1e9));
   }
@@ -98,7 +102,7 @@ class CrossCovariance {
     Complex kernel;  // factor of e^{-L|s|} in Γ
     Complex tail;    // the same after both wavelets, beyond the support
     bool real;
-    bool split;      // polynomials split off, see sum_covariance_terms.h
+    bool split;  // polynomials split off, see sum_covariance_terms.h
   };
 
   template <class Visit>
@@ -147,7 +151,8 @@ class CrossCovariance {
       const double centre = s - mj_ + mk_;
       return -mj_ * mj_ * mk_ * mk_ / (std::numbers::pi * centre * centre);
     }
-    for_each_lag(s, [&](double weight, double lag) { sum += weight * flicker_sum_covariance(lag); });
+    for_each_lag(s,
+                 [&](double weight, double lag) { sum += weight * flicker_sum_covariance(lag); });
     return sum;
   }
 
@@ -159,13 +164,18 @@ class CrossCovariance {
   std::vector<Exponential> exponentials_;
 };
 
-// Σ_s over [begin, end) of c(s)γ(s)² and c(s)γ(s), where γ is smooth inside and may have kinks at the ends.
+// Σ_s over [begin, end) of c(s)γ(s)² and c(s)γ(s), where γ is smooth inside and may have kinks at
+// the ends.
 class LagSums {
  public:
   LagSums(std::int64_t samples, std::int64_t mj, std::int64_t mk, const CrossCovariance& gamma,
           std::map<std::int64_t, DiscreteRule>& rules)
-      : samples_(static_cast<double>(samples)), mj_(static_cast<double>(mj)),
-        mk_(static_cast<double>(mk)), gamma_(gamma), rules_(rules), reach_(gamma.direct_reach()) {}
+      : samples_(static_cast<double>(samples)),
+        mj_(static_cast<double>(mj)),
+        mk_(static_cast<double>(mk)),
+        gamma_(gamma),
+        rules_(rules),
+        reach_(gamma.direct_reach()) {}
 
   void add_interval(std::int64_t begin, std::int64_t end) {
     const std::int64_t middle = begin + (end - begin) / 2;
@@ -183,9 +193,10 @@ class LagSums {
     const std::int64_t total = end - begin;
     while (done < total) {
       const auto distance = static_cast<double>(done);
-      std::int64_t length = done < reach_ ? reach_ - done
-                                          : static_cast<std::int64_t>(std::min(
-                                                3.0 * distance, gamma_.panel_limit(distance)));
+      std::int64_t length =
+          done < reach_
+              ? reach_ - done
+              : static_cast<std::int64_t>(std::min(3.0 * distance, gamma_.panel_limit(distance)));
       if (total - done - length < 3 * DiscreteRule::kOrder) length = total - done;
       const std::int64_t from = direction > 0 ? kink + done : kink - done - length;
       if (done < reach_ || length < 3 * DiscreteRule::kOrder) {
@@ -220,7 +231,8 @@ class LagSums {
 double entry(const SumCovariance& process, std::int64_t mj, std::int64_t mk, std::int64_t samples,
              std::map<std::int64_t, DiscreteRule>& rules) {
   const CrossCovariance gamma(process, mj, mk);
-  const auto tail = static_cast<std::int64_t>(std::min(gamma.tail_reach(), static_cast<double>(samples)));
+  const auto tail =
+      static_cast<std::int64_t>(std::min(gamma.tail_reach(), static_cast<double>(samples)));
   const std::int64_t first = std::max(2 * mj - samples, -2 * mk - tail);
   const std::int64_t last = std::min(samples - 2 * mk, 2 * mj + tail);
   std::vector<std::int64_t> kinks = {first, last + 1};
@@ -256,7 +268,8 @@ Eigen::MatrixXd moment_covariance(const SumCovariance& process, const Scales& sc
     const std::size_t j = scales.size() - 1 - row;
     std::map<std::int64_t, DiscreteRule> rules;
     for (std::size_t k = 0; k <= j; ++k) {
-      const double value = entry(process, scales[j], scales[k], static_cast<std::int64_t>(samples), rules);
+      const double value =
+          entry(process, scales[j], scales[k], static_cast<std::int64_t>(samples), rules);
       out(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = value;
       out(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) = value;
     }

@@ -46,7 +46,8 @@ Sample origin_of(std::span<const Sample> samples) {
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t block = 0; block < blocks; block += stride) {
-    const auto part = samples.subspan(block * kBlock, std::min(kBlock, samples.size() - block * kBlock));
+    const auto part =
+        samples.subspan(block * kBlock, std::min(kBlock, samples.size() - block * kBlock));
     sum += static_cast<double>(block_sum(part));
     count += part.size();
   }

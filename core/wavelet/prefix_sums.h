@@ -15,7 +15,8 @@ __extension__ using Total128 = unsigned __int128;
 /// checkpoints instead of being stored. S_t is the same bits wherever and however often it is asked
 /// for; the origin (a constant, invisible to wavelets) keeps the sums small.
 ///
-/// Sample / Sum: double / double; int16 or int32 / int32 (narrow) or int64 (wide). Integers are exact.
+/// Sample / Sum: double / double; int16 or int32 / int32 (narrow) or int64 (wide). Integers are
+/// exact.
 template <class Sample, class Sum>
 class PrefixSums {
  public:
@@ -48,7 +49,8 @@ void add_squares(const std::int32_t* a, const std::int32_t* b, const std::int32_
 void add_squares(const std::int64_t* a, const std::int64_t* b, const std::int64_t* c, std::size_t n,
                  Total128& total);
 
-/// The largest range of S that the narrow (int32) form may have: |S_t - 2S_{t-m} + S_{t-2m}| ≤ 2^26.
+/// The largest range of S that the narrow (int32) form may have: |S_t - 2S_{t-m} + S_{t-2m}| ≤
+/// 2^26.
 inline constexpr std::int64_t kNarrowRange = std::int64_t{1} << 25U;
 
 extern template class PrefixSums<double, double>;

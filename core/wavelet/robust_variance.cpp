@@ -48,7 +48,8 @@ double solve(std::span<const double> squares, const Biweight& form) {
   for (const double w2 : squares) sum += w2;
   double high = 4.0 * sum / static_cast<double>(squares.size());
   if (high == 0.0) return 0.0;
-  // Go down until the balance turns positive. Data that are mostly zero never do: take what comes nearest.
+  // Go down until the balance turns positive. Data that are mostly zero never do: take what comes
+  // nearest.
   constexpr double kStep = 0.8;
   double low = high;
   double nearest = high;
@@ -67,8 +68,10 @@ double solve(std::span<const double> squares, const Biweight& form) {
   double at_low = best;
   double at_high = balance(squares, high, form);
   int side = 0;
-  for (int step = 0; step < 200 && high - low > 1e-14 * high; ++step) {  // regula falsi, Illinois form
-    const double middle = std::clamp((low * at_high - high * at_low) / (at_high - at_low), low, high);
+  for (int step = 0; step < 200 && high - low > 1e-14 * high;
+       ++step) {  // regula falsi, Illinois form
+    const double middle =
+        std::clamp((low * at_high - high * at_low) / (at_high - at_low), low, high);
     const double value = balance(squares, middle, form);
     if (value == 0.0) return middle;
     if (value > 0.0) {

@@ -27,7 +27,8 @@ Scales Scales::for_samples(std::size_t samples, int per_octave) {
 
 Eigen::ArrayXd Scales::half_widths() const {
   Eigen::ArrayXd out(static_cast<Eigen::Index>(size()));
-  std::transform(begin(), end(), out.begin(), [](std::int64_t m) { return static_cast<double>(m); });
+  std::transform(begin(), end(), out.begin(),
+                 [](std::int64_t m) { return static_cast<double>(m); });
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace imunoise {
 
 /// The last blocks of prefix sums S around a moving point, contiguous in memory: S_{t-lag} for t in
 /// the current block is at(lag). A cursor that follows the current block at a fixed distance is the
-/// same thing with `delay` > 0: it produces its own blocks again rather than keeping the way between.
+/// same thing with `delay` > 0: it produces its own blocks again rather than keeping the way
+/// between.
 template <class Prefix>
 class PrefixWindow {
  public:
@@ -38,7 +39,8 @@ class PrefixWindow {
     for (; next_ <= wanted; ++next_) {
       if ((next_ - first_ + 1) * kBlock > buffer_.size()) {
         const std::size_t keep = history_ * kBlock;
-        std::memmove(buffer_.data(), buffer_.data() + (next_ - first_) * kBlock - keep, keep * sizeof(Sum));
+        std::memmove(buffer_.data(), buffer_.data() + (next_ - first_) * kBlock - keep,
+                     keep * sizeof(Sum));
         first_ = next_ - history_;
       }
       prefix_->fill(next_, buffer_.data() + (next_ - first_) * kBlock);
@@ -58,10 +60,10 @@ class PrefixWindow {
   bool started_ = false;
 };
 
-/// Σ_t (S_t - 2 S_{t-m} + S_{t-2m})² for each scale m, over t = 2m .. T: M·4m² times the wavelet variance.
-/// One pass in blocks of kBlock samples with all scales in each; near lags come from a window that fits
-/// the cache, far lags from cursors of their own. Segments of fixed length run in parallel and are
-/// added in order. Memory: well under a tenth of the signal's for long signals.
+/// Σ_t (S_t - 2 S_{t-m} + S_{t-2m})² for each scale m, over t = 2m .. T: M·4m² times the wavelet
+/// variance. One pass in blocks of kBlock samples with all scales in each; near lags come from a
+/// window that fits the cache, far lags from cursors of their own. Segments of fixed length run in
+/// parallel and are added in order. Memory: well under a tenth of the signal's for long signals.
 template <class Prefix>
 std::vector<typename Prefix::Total> squared_coefficients(const Prefix& prefix, const Scales& scales,
                                                          const Progress& progress) {

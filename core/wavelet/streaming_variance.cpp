@@ -7,8 +7,12 @@
 namespace imunoise {
 
 template <class Sample>
-StreamingVariance<Sample>::StreamingVariance(Scales scales, Hertz rate, Quantity quantity, double scale)
-    : scales_(std::move(scales)), rate_(rate), quantity_(quantity), scale_(scale),
+StreamingVariance<Sample>::StreamingVariance(Scales scales, Hertz rate, Quantity quantity,
+                                             double scale)
+    : scales_(std::move(scales)),
+      rate_(rate),
+      quantity_(quantity),
+      scale_(scale),
       reach_(scales_.empty() ? 0 : static_cast<std::size_t>(2 * scales_.largest())),
       window_{Sum{}},
       totals_(scales_.size()) {}
@@ -18,7 +22,8 @@ void StreamingVariance<Sample>::push(std::span<const Sample> samples) {
   if (samples_ == 0 && !samples.empty()) origin_ = samples.front();
   while (!samples.empty()) {
     const std::size_t unused = first_ + window_.size() - used_;
-    const auto piece = samples.first(std::min(samples.size(), kBlock - std::min(unused, kBlock - 1)));
+    const auto piece =
+        samples.first(std::min(samples.size(), kBlock - std::min(unused, kBlock - 1)));
     for (const Sample x : piece) {
       window_.push_back(window_.back() + (static_cast<Sum>(x) - static_cast<Sum>(origin_)));
     }
@@ -45,7 +50,8 @@ void StreamingVariance<Sample>::add_new_sums(std::vector<Total>& totals) const {
   }
 }
 
-// Drops sums that no later coefficient needs; brings the rest back near zero, which wavelets ignore.
+// Drops sums that no later coefficient needs; brings the rest back near zero, which wavelets
+// ignore.
 template <class Sample>
 void StreamingVariance<Sample>::make_room() {
   const std::size_t keep = reach_ + 1;

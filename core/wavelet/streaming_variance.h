@@ -16,7 +16,8 @@ template <class Sample>
 class StreamingVariance {
  public:
   /// Values in SI units are scale · sample.
-  StreamingVariance(Scales scales, Hertz rate, Quantity quantity = Quantity::kUnknown, double scale = 1.0);
+  StreamingVariance(Scales scales, Hertz rate, Quantity quantity = Quantity::kUnknown,
+                    double scale = 1.0);
 
   void push(std::span<const Sample> samples);
 
@@ -36,11 +37,11 @@ class StreamingVariance {
   Hertz rate_;
   Quantity quantity_;
   double scale_;
-  std::size_t reach_;           // 2m of the largest scale
-  std::vector<Sum> window_;     // S_t for t = first_ .. , at least reach_ sums before the unused ones
-  std::vector<Total> totals_;   // Σ (2m W)² up to S_used_
-  std::size_t first_ = 0;       // t of window_[0]
-  std::size_t used_ = 0;        // sums S_t with t < used_ are in totals_
+  std::size_t reach_;        // 2m of the largest scale
+  std::vector<Sum> window_;  // S_t for t = first_ .. , at least reach_ sums before the unused ones
+  std::vector<Total> totals_;  // Σ (2m W)² up to S_used_
+  std::size_t first_ = 0;      // t of window_[0]
+  std::size_t used_ = 0;       // sums S_t with t < used_ are in totals_
   std::size_t samples_ = 0;
   Sample origin_{};
 };

@@ -46,9 +46,9 @@ WaveletVariance wavelet_variance(const Signal& signal, const Scales& scales, dou
   out.samples = signal.size();
   out.rate = signal.rate();
   out.quantity = signal.quantity();
-  out.variance =
-      signal.scale() * signal.scale() *
-      std::visit([&](auto samples) { return mean_squares(samples, scales, progress); }, signal.samples());
+  out.variance = signal.scale() * signal.scale() *
+                 std::visit([&](auto samples) { return mean_squares(samples, scales, progress); },
+                            signal.samples());
   set_chi_square_interval(out);
   return out;
 }

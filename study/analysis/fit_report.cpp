@@ -68,14 +68,16 @@ std::string label_of(const Model& model, std::size_t term) {
   return count > 1 ? fmt::format("{} ({})", name, number) : name;
 }
 
-// N, B, K, R and Q are known by themselves; what describes a correlated noise needs the noise's name.
+// N, B, K, R and Q are known by themselves; what describes a correlated noise needs the noise's
+// name.
 bool stands_alone(Coefficient coefficient) {
   return coefficient == Coefficient::kQuantisation || coefficient == Coefficient::kRandomWalk ||
-         coefficient == Coefficient::kBiasInstability || coefficient == Coefficient::kRateRandomWalk ||
-         coefficient == Coefficient::kRamp;
+         coefficient == Coefficient::kBiasInstability ||
+         coefficient == Coefficient::kRateRandomWalk || coefficient == Coefficient::kRamp;
 }
 
-void add_coefficient(const DerivedEstimate& quantity, Quantity measures, const std::string& label, v1::Term& to) {
+void add_coefficient(const DerivedEstimate& quantity, Quantity measures, const std::string& label,
+                     v1::Term& to) {
   const CoefficientUnits units = coefficient_units(quantity.coefficient, measures);
   v1::Coefficient& out = *to.add_coefficients();
   out.set_symbol(std::string(units.symbol));
@@ -92,8 +94,8 @@ void add_coefficient(const DerivedEstimate& quantity, Quantity measures, const s
   out.set_datasheet_unit(units.datasheet);
 }
 
-void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured, const Eigen::ArrayXd& m,
-               v1::FitReport& out) {
+void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured,
+               const Eigen::ArrayXd& m, v1::FitReport& out) {
   const Model& model = fit.estimate.model;
   const Quantity quantity = measured.front().quantity;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
@@ -124,9 +126,10 @@ void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured, con
   }
 }
 
-// The pooled curve against the model. Its spread follows from the exact covariance of each replicate.
-void add_budget(const Fit& fit, const std::vector<WaveletVariance>& measured, const WaveletVariance& total,
-                v1::FitReport& out) {
+// The pooled curve against the model. Its spread follows from the exact covariance of each
+// replicate.
+void add_budget(const Fit& fit, const std::vector<WaveletVariance>& measured,
+                const WaveletVariance& total, v1::FitReport& out) {
   const Eigen::ArrayXd m = total.scales.half_widths();
   const Eigen::ArrayXd nu = variance(fit.estimate.model, m);
   v1::NoiseBudget& budget = *out.mutable_budget();
@@ -159,8 +162,8 @@ void add_budget(const Fit& fit, const std::vector<WaveletVariance>& measured, co
   }
 }
 
-void add_replicates(const Fit& fit, const Series& series, const std::vector<WaveletVariance>& measured,
-                    v1::FitReport& out) {
+void add_replicates(const Fit& fit, const Series& series,
+                    const std::vector<WaveletVariance>& measured, v1::FitReport& out) {
   for (std::size_t k = 0; k < measured.size(); ++k) {
     v1::ReplicateResidual& one = *out.add_replicates();
     one.set_name(series.names[k]);
@@ -181,18 +184,22 @@ std::string value_and_unit(const v1::Coefficient& c) {
                      datasheet ? c.datasheet_unit() : c.unit());
 }
 
-// "gyro_x: angle random walk 2.03 °/√h, AR1 (1) 43.2 °/h over 91.7 s; the model does not fit (p < 0.0001)."
+// "gyro_x: angle random walk 2.03 °/√h, AR1 (1) 43.2 °/h over 91.7 s; the model does not fit (p <
+// 0.0001)."
 std::string summary_of(const v1::FitReport& report) {
   std::string known;
   for (const v1::Term& term : report.terms()) {
-    const bool seen = !term.parameters().empty() && term.parameters(0).observability() == v1::observed;
+    const bool seen =
+        !term.parameters().empty() && term.parameters(0).observability() == v1::observed;
     if (!seen) continue;
     bool first = true;
     for (const v1::Coefficient& c : term.coefficients()) {
-      const std::string name = c.symbol() == "σ" ? c.title().substr(c.title().rfind("of ") + 3) : c.title();
+      const std::string name =
+          c.symbol() == "σ" ? c.title().substr(c.title().rfind("of ") + 3) : c.title();
       const bool continues = !first && c.symbol() == "T";
-      known += continues ? " over " + value_and_unit(c)
-                         : fmt::format("{}{} {}", known.empty() ? "" : ", ", name, value_and_unit(c));
+      known += continues
+                   ? " over " + value_and_unit(c)
+                   : fmt::format("{}{} {}", known.empty() ? "" : ", ", name, value_and_unit(c));
       first = false;
     }
   }
@@ -210,7 +217,8 @@ std::string summary_of(const v1::FitReport& report) {
 
 }  // namespace
 
-v1::FitReport fit_report(const Fit& fit, const Series& series, const std::vector<WaveletVariance>& measured) {
+v1::FitReport fit_report(const Fit& fit, const Series& series,
+                         const std::vector<WaveletVariance>& measured) {
   const WaveletVariance total = pooled(measured);
   v1::FitReport out;
   out.set_channel(series.channel);
@@ -231,7 +239,9 @@ v1::FitReport fit_report(const Fit& fit, const Series& series, const std::vector
   add_replicates(fit, series, measured, out);
   out.set_summary(summary_of(out));
   if (total.quantity == Quantity::kUnknown) {
-    out.add_notes("The recording states no unit: numbers are in its own. Name it with --unit, e.g. --unit deg/s.");
+    out.add_notes(
+        "The recording states no unit: numbers are in its own. Name it with --unit, e.g. --unit "
+        "deg/s.");
   }
   return out;
 }

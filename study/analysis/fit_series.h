@@ -23,11 +23,13 @@ struct FitOptions {
   MeasureOptions measure;
 };
 
-/// Measures the replicates, fits the model and says everything about it. Error: a model that cannot be
-/// read (with the place), more free parameters than moments, or the caller stopped it.
-Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options, const Progress& progress = {});
+/// Measures the replicates, fits the model and says everything about it. Error: a model that cannot
+/// be read (with the place), more free parameters than moments, or the caller stopped it.
+Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
+                                 const Progress& progress = {});
 
 /// A fit as a message. `measured` are the replicates it was made from.
-v1::FitReport fit_report(const Fit& fit, const Series& series, const std::vector<WaveletVariance>& measured);
+v1::FitReport fit_report(const Fit& fit, const Series& series,
+                         const std::vector<WaveletVariance>& measured);
 
 }  // namespace imunoise::study

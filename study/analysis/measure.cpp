@@ -30,10 +30,11 @@ Result<std::vector<WaveletVariance>> measure(const Series& series, const Measure
   for (std::size_t k = 0; k < series.replicates.size(); ++k) {
     const Signal& signal = series.replicates[k];
     const Scales scales = Scales::for_samples(signal.size(), options.per_octave);
-    const Progress part = progress.part(static_cast<double>(k) / count, static_cast<double>(k + 1) / count);
-    out.push_back(options.robust
-                      ? robust_wavelet_variance(signal, scales, *options.robust, options.confidence, part)
-                      : wavelet_variance(signal, scales, options.confidence, part));
+    const Progress part =
+        progress.part(static_cast<double>(k) / count, static_cast<double>(k + 1) / count);
+    out.push_back(options.robust ? robust_wavelet_variance(signal, scales, *options.robust,
+                                                           options.confidence, part)
+                                 : wavelet_variance(signal, scales, options.confidence, part));
     if (progress.stopped()) return fail("stopped");
   }
   return out;
@@ -55,7 +56,8 @@ WaveletVariance pooled(const std::vector<WaveletVariance>& replicates) {
     out.samples += wv.samples;
     for (std::size_t i = 0; i < wv.scales.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      const double weight = static_cast<double>(wv.samples) - 2.0 * static_cast<double>(wv.scales[i]) + 1.0;
+      const double weight =
+          static_cast<double>(wv.samples) - 2.0 * static_cast<double>(wv.scales[i]) + 1.0;
       Sum& sum = sums[wv.scales[i]];
       sum.weight += weight;
       sum.variance += weight * wv.variance(at);
@@ -76,7 +78,8 @@ WaveletVariance pooled(const std::vector<WaveletVariance>& replicates) {
   return out;
 }
 
-v1::WaveletVarianceReport wavelet_report(const Series& series, const std::vector<WaveletVariance>& measured) {
+v1::WaveletVarianceReport wavelet_report(const Series& series,
+                                         const std::vector<WaveletVariance>& measured) {
   v1::WaveletVarianceReport out;
   const WaveletVariance total = pooled(measured);
   out.set_channel(series.channel);

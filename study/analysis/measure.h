@@ -13,9 +13,9 @@
 namespace imunoise::study {
 
 struct MeasureOptions {
-  int per_octave = 1;                           ///< scales an octave: 1, 2 or 4
-  std::optional<RobustEfficiency> robust;       ///< unset: the classical estimator
-  double confidence = 0.95;                     ///< of the intervals
+  int per_octave = 1;                      ///< scales an octave: 1, 2 or 4
+  std::optional<RobustEfficiency> robust;  ///< unset: the classical estimator
+  double confidence = 0.95;                ///< of the intervals
 };
 
 /// Wavelet variance of every replicate. Error: the caller stopped it.
@@ -27,6 +27,7 @@ Result<std::vector<WaveletVariance>> measure(const Series& series, const Measure
 WaveletVariance pooled(const std::vector<WaveletVariance>& replicates);
 
 /// The measured curves as a message.
-v1::WaveletVarianceReport wavelet_report(const Series& series, const std::vector<WaveletVariance>& measured);
+v1::WaveletVarianceReport wavelet_report(const Series& series,
+                                         const std::vector<WaveletVariance>& measured);
 
 }  // namespace imunoise::study

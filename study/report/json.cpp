@@ -38,7 +38,8 @@ void clean(Message& m, const Reflection& r, const FieldDescriptor* f) {
       return;
     case FieldDescriptor::CPPTYPE_STRING:
       if (!f->is_repeated()) r.SetString(&m, f, clean_text(r.GetString(m, f)));
-      for (int i = 0; i < size; ++i) r.SetRepeatedString(&m, f, i, clean_text(r.GetRepeatedString(m, f, i)));
+      for (int i = 0; i < size; ++i)
+        r.SetRepeatedString(&m, f, i, clean_text(r.GetRepeatedString(m, f, i)));
       return;
     case FieldDescriptor::CPPTYPE_MESSAGE:
       if (!f->is_repeated()) clean(*r.MutableMessage(&m, f));

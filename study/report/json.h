@@ -7,9 +7,9 @@
 namespace imunoise::report {
 
 /// A message in protobuf's own JSON mapping as the house writes it: proto field names, zeros and
-/// empty lists printed, enums as words, 64-bit integers as strings. NaN and infinity never appear: an
-/// `optional` field that is not finite is left out, and any other is a programming error (asserts).
-/// Text that is not UTF-8 is repaired. Thread-safe.
+/// empty lists printed, enums as words, 64-bit integers as strings. NaN and infinity never appear:
+/// an `optional` field that is not finite is left out, and any other is a programming error
+/// (asserts). Text that is not UTF-8 is repaired. Thread-safe.
 std::string to_json(const google::protobuf::Message& message);
 
 }  // namespace imunoise::report

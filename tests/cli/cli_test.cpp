@@ -25,14 +25,17 @@ struct Outcome {
 
 class Cli : public ::testing::Test {
  protected:
-  Cli() : folder_(std::filesystem::temp_directory_path() / ("imunoise_cli_" + std::to_string(getpid()))) {
+  Cli()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("imunoise_cli_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(folder_);
   }
   ~Cli() override { std::filesystem::remove_all(folder_); }
 
   Outcome run(const std::string& arguments) const {
     const std::string errors = (folder_ / "stderr").string();
-    const std::string command = "cd '" + folder_.string() + "' && '" IMUNOISE_BINARY "' " + arguments + " 2>" + errors;
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" IMUNOISE_BINARY "' " + arguments + " 2>" + errors;
     std::FILE* const pipe = popen(command.c_str(), "r");
     Outcome out{};
     std::array<char, 4096> buffer{};
@@ -50,8 +53,10 @@ class Cli : public ::testing::Test {
   }
 
   void simulate(const std::string& out, const std::string& more = "") const {
-    const Outcome done = run("simulate --model 'WN(sigma2=4e-6) + RW(gamma2=1e-12)' --rate 100 --samples 20000 "
-                             "--replicates 3 --seed 5 --unit rad/s --out " + out + " " + more);
+    const Outcome done =
+        run("simulate --model 'WN(sigma2=4e-6) + RW(gamma2=1e-12)' --rate 100 --samples 20000 "
+            "--replicates 3 --seed 5 --unit rad/s --out " +
+            out + " " + more);
     ASSERT_EQ(done.status, 0) << done.errors;
   }
 
@@ -63,7 +68,8 @@ TEST_F(Cli, FitsWhatItSimulated) {
   const Outcome done = run("fit run_?.h5 --model 'WN + RW' --json --report out.html --svg out.svg");
   ASSERT_EQ(done.status, 0) << done.errors;
   const auto json = nlohmann::json::parse(done.out);
-  for (const char* key : {"objective", "j_statistic", "p_value", "terms", "budget", "fitted_model"}) {
+  for (const char* key :
+       {"objective", "j_statistic", "p_value", "terms", "budget", "fitted_model"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["estimator"], "MuGMWM");
@@ -78,7 +84,8 @@ TEST_F(Cli, FitsWhatItSimulated) {
   EXPECT_GT(sigma2["upper"].get<double>(), sigma2["value"].get<double>());
   // N = σ/√f
   const auto& density = json["terms"][0]["coefficients"][0];
-  EXPECT_NEAR(density["value"].get<double>(), std::sqrt(sigma2["value"].get<double>() / 100.0), 1e-12);
+  EXPECT_NEAR(density["value"].get<double>(), std::sqrt(sigma2["value"].get<double>() / 100.0),
+              1e-12);
   EXPECT_EQ(density["datasheet_unit"], "°/√h");
   const std::string page = read("out.html");
   EXPECT_NE(page.find("<svg"), std::string::npos);
@@ -107,15 +114,18 @@ TEST_F(Cli, FittedModelCanBeSimulated) {
 TEST_F(Cli, WaveletVarianceOfOneFileAndOfSeveral) {
   simulate("run.h5");
   const auto one = nlohmann::json::parse(run("wv run_1.h5 --json").out);
-  const auto all = nlohmann::json::parse(run("wv run_1.h5 run_2.h5 run_3.h5 --json --per-octave 2").out);
+  const auto all =
+      nlohmann::json::parse(run("wv run_1.h5 run_2.h5 run_3.h5 --json --per-octave 2").out);
   ASSERT_EQ(one["scales"].size(), 13U);  // floor(log2 20000) - 1
   EXPECT_EQ(one["scales"][0], 2);
   EXPECT_EQ(one["scales_s"][0], 0.02);
-  for (const char* key : {"variance", "lower", "upper"}) EXPECT_EQ(one[key].size(), one["scales"].size());
+  for (const char* key : {"variance", "lower", "upper"})
+    EXPECT_EQ(one[key].size(), one["scales"].size());
   EXPECT_EQ(all["replicates"].size(), 3U);
   EXPECT_EQ(all["replicates"][0]["variance"][0], one["variance"][0]);
   double mean = 0.0;
-  for (const auto& replicate : all["replicates"]) mean += replicate["variance"][0].get<double>() / 3.0;
+  for (const auto& replicate : all["replicates"])
+    mean += replicate["variance"][0].get<double>() / 3.0;
   EXPECT_NEAR(all["variance"][0].get<double>() / mean, 1.0, 1e-12);
 }
 
@@ -158,14 +168,18 @@ TEST_F(Cli, RealRecordingsAsThePeerMeasuresThem) {
       const auto& mine = ours["channels"][axis]["replicates"][k];
       const auto& theirs = golden["data"]["adis_16405_imu" + std::to_string(k + 1)][name];
       ASSERT_EQ(mine["variance"].size(), theirs["variance"].size());
-      // Exact integer arithmetic on the counts of replicate 4, axis x, differs from the peer by up to 3e-10
-      // at every scale, and from this program by nothing: the peer's input was not quite those counts.
+      // Exact integer arithmetic on the counts of replicate 4, axis x, differs from the peer by up
+      // to 3e-10 at every scale, and from this program by nothing: the peer's input was not quite
+      // those counts.
       const double tolerance = k == 3 && axis == 0 ? 5e-10 : 1e-12;
       for (std::size_t j = 0; j < theirs["variance"].size(); ++j) {
         const double unit = degree * degree;
-        EXPECT_NEAR(mine["variance"][j].get<double>() / unit / theirs["variance"][j].get<double>(), 1.0, tolerance);
-        EXPECT_NEAR(mine["lower"][j].get<double>() / unit / theirs["ci_low"][j].get<double>(), 1.0, tolerance);
-        EXPECT_NEAR(mine["upper"][j].get<double>() / unit / theirs["ci_high"][j].get<double>(), 1.0, tolerance);
+        EXPECT_NEAR(mine["variance"][j].get<double>() / unit / theirs["variance"][j].get<double>(),
+                    1.0, tolerance);
+        EXPECT_NEAR(mine["lower"][j].get<double>() / unit / theirs["ci_low"][j].get<double>(), 1.0,
+                    tolerance);
+        EXPECT_NEAR(mine["upper"][j].get<double>() / unit / theirs["ci_high"][j].get<double>(), 1.0,
+                    tolerance);
       }
     }
   }

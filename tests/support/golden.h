@@ -1,7 +1,7 @@
 #pragma once
 
-// Reference numbers and recordings that live beside the project, not in it. Tests that use them skip,
-// loudly, when they are absent.
+// Reference numbers and recordings that live beside the project, not in it. Tests that use them
+// skip, loudly, when they are absent.
 
 #include <filesystem>
 #include <fstream>
@@ -24,14 +24,15 @@ inline std::vector<double> read_doubles(const std::string& name) {
   std::ifstream file(shared(name), std::ios::binary | std::ios::ate);
   std::vector<double> out(static_cast<std::size_t>(file.tellg()) / sizeof(double));
   file.seekg(0);
-  file.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size() * sizeof(double)));
+  file.read(reinterpret_cast<char*>(out.data()),
+            static_cast<std::streamsize>(out.size() * sizeof(double)));
   return out;
 }
 
 }  // namespace imunoise::testing
 
 /// Ends the test as skipped, naming what is missing.
-#define IMUNOISE_NEEDS(name)                                                       \
-  if (!std::filesystem::exists(imunoise::testing::shared(name))) {                 \
+#define IMUNOISE_NEEDS(name)                                                        \
+  if (!std::filesystem::exists(imunoise::testing::shared(name))) {                  \
     GTEST_SKIP() << "SKIPPED: " << imunoise::testing::shared(name) << " is absent"; \
   }

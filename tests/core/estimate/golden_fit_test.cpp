@@ -1,4 +1,5 @@
-// MuGMWM against the best minima known for the real recordings (multi-start search by the peers' side).
+// MuGMWM against the best minima known for the real recordings (multi-start search by the peers'
+// side).
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,8 @@ std::vector<WaveletVariance> golden_moments(const std::string& axis) {
     wv.rate = Hertz{100};
     const auto n = static_cast<Eigen::Index>(wv.scales.size());
     wv.variance.resize(n);
-    for (Eigen::Index j = 0; j < n; ++j) wv.variance(j) = one["variance"][static_cast<std::size_t>(j)].get<double>();
+    for (Eigen::Index j = 0; j < n; ++j)
+      wv.variance(j) = one["variance"][static_cast<std::size_t>(j)].get<double>();
     set_chi_square_interval(wv);
     out.push_back(std::move(wv));
   }
@@ -49,7 +51,8 @@ TEST_P(GoldenFit, IsNeverWorseThanTheBestMinimumKnown) {
     ASSERT_TRUE(model) << model.error().message;
     const Estimate estimate = mugmwm(*model, moments, Weighting::kDiagonal);
     const double best = fit["polished"]["obj"].get<double>();
-    EXPECT_LE(estimate.objective, best * (1.0 + 1e-6)) << name << ": " << print_with_values(estimate.model);
+    EXPECT_LE(estimate.objective, best * (1.0 + 1e-6))
+        << name << ": " << print_with_values(estimate.model);
     RecordProperty(name, std::to_string(estimate.objective / best - 1.0));
     std::printf("%-20s ours %.9f  best known %.9f  %s\n", name.c_str(), estimate.objective, best,
                 print_with_values(estimate.model).c_str());

@@ -46,7 +46,8 @@ TEST(Grammar, PointsAtTheCharacter) {
     ASSERT_FALSE(model) << c.text;
     const std::string& message = model.error().message;
     EXPECT_NE(message.find(c.says), std::string::npos) << message;
-    EXPECT_EQ(message.size() - message.rfind('\n') - 1, c.column + 3) << message;  // two blanks and the caret
+    EXPECT_EQ(message.size() - message.rfind('\n') - 1, c.column + 3)
+        << message;  // two blanks and the caret
   }
 }
 
@@ -58,7 +59,8 @@ TEST(Grammar, PrintsBackWhatItParsed) {
     const std::size_t size = 1 + engine() % 5;
     for (std::size_t i = 0; i < size; ++i) {
       Process process = known_processes()[engine() % known_processes().size()];
-      if (structure(process) > 0) process = *with_structure(process, 1 + static_cast<int>(engine() % 5));
+      if (structure(process) > 0)
+        process = *with_structure(process, 1 + static_cast<int>(engine() % 5));
       if (auto* markov = std::get_if<GaussMarkov>(&process)) markov->rate = kRate;
       Term term(process);
       std::vector<double> v = values(process);
@@ -80,7 +82,8 @@ TEST(Model, AddsUpItsTerms) {
   const Model model = *parse_model("WN(sigma2=2) + AR1(sigma2=1,phi=0.9) + RW(gamma2=0.1)", kRate);
   const Eigen::Array3d m(1, 5, 100);
   const Eigen::ArrayXd expected = variance(Process(WhiteNoise{2}), m) +
-                                  variance(Process(Ar1{1, 0.9}), m) + variance(Process(RandomWalk{0.1}), m);
+                                  variance(Process(Ar1{1, 0.9}), m) +
+                                  variance(Process(RandomWalk{0.1}), m);
   EXPECT_TRUE(variance(model, m).isApprox(expected, 1e-15));
   EXPECT_EQ(jacobian(model, m).cols(), 4);
   EXPECT_TRUE(complete(model));
@@ -96,7 +99,8 @@ TEST(Model, SimulatesEachTermFromAStreamOfItsOwn) {
 }
 
 TEST(Model, SortsEqualProcessesByCorrelationTime) {
-  const Model model = *parse_model("AR1(sigma2=1,phi=0.1)+WN(sigma2=1)+AR1(sigma2=2,phi=0.9)", kRate);
+  const Model model =
+      *parse_model("AR1(sigma2=1,phi=0.1)+WN(sigma2=1)+AR1(sigma2=2,phi=0.9)", kRate);
   EXPECT_EQ(std::get<Ar1>(sorted(model).terms[0].process).phi, 0.9);
   EXPECT_EQ(std::get<Ar1>(sorted(model).terms[2].process).phi, 0.1);
 }

@@ -1,4 +1,5 @@
-// Processes against arithmetic of 120 digits, and against the peers' theory where the peers are right.
+// Processes against arithmetic of 120 digits, and against the peers' theory where the peers are
+// right.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,8 @@ TEST(GoldenProcess, Ar1InEveryRow) {
   const auto reference = read_json("golden/reference.json");
   for (const auto& row : reference["ar1"]) {
     const Ar1 process{row["s2"].get<double>(), row["phi"].get<double>()};
-    EXPECT_NEAR(at(process, row["m"].get<double>()) / row["nu"].get<double>(), 1.0, 1e-10) << row.dump();
+    EXPECT_NEAR(at(process, row["m"].get<double>()) / row["nu"].get<double>(), 1.0, 1e-10)
+        << row.dump();
     ++rows;
   }
   EXPECT_GE(rows, 70 + 81);
@@ -42,12 +44,15 @@ TEST(GoldenProcess, ResonanceAndFlicker) {
   IMUNOISE_NEEDS("golden/reference.json");
   const auto golden = read_json("golden/reference.json");
   for (const auto& row : golden["ar2"]) {
-    const Resonance process{row["s2"].get<double>(), row["r"].get<double>(), row["omega"].get<double>()};
-    EXPECT_NEAR(at(process, row["m"].get<double>()) / row["nu"].get<double>(), 1.0, 1e-8) << row.dump();
+    const Resonance process{row["s2"].get<double>(), row["r"].get<double>(),
+                            row["omega"].get<double>()};
+    EXPECT_NEAR(at(process, row["m"].get<double>()) / row["nu"].get<double>(), 1.0, 1e-8)
+        << row.dump();
   }
   for (const auto& row : golden["fn"]) {
     const double b = row["B"].get<double>();
-    EXPECT_NEAR(at(Flicker{b * b}, row["m"].get<double>()) / row["kasdin"].get<double>(), 1.0, 1e-8) << row.dump();
+    EXPECT_NEAR(at(Flicker{b * b}, row["m"].get<double>()) / row["kasdin"].get<double>(), 1.0, 1e-8)
+        << row.dump();
   }
 }
 
@@ -55,8 +60,12 @@ TEST(GoldenProcess, PeersTheoryWhereItHolds) {
   IMUNOISE_NEEDS("golden/wv_small_and_theory.json");
   const auto theory = read_json("golden/wv_small_and_theory.json")["theory"];
   const std::vector<std::pair<std::string, Process>> pairs = {
-      {"wn_1", WhiteNoise{1.0}}, {"qn_1", QuantisationNoise{1.0}}, {"rw_1", RandomWalk{1.0}},
-      {"dr_1", Drift{1.0}},      {"ar1_0.5", Ar1{1.0, 0.5}},       {"ar1_neg0.5", Ar1{1.0, -0.5}},
+      {"wn_1", WhiteNoise{1.0}},
+      {"qn_1", QuantisationNoise{1.0}},
+      {"rw_1", RandomWalk{1.0}},
+      {"dr_1", Drift{1.0}},
+      {"ar1_0.5", Ar1{1.0, 0.5}},
+      {"ar1_neg0.5", Ar1{1.0, -0.5}},
       {"ma1_0.5", MovingAverage{1.0, {0.5}}}};
   for (const auto& [name, process] : pairs) {
     for (std::size_t i = 0; i < theory["tau"].size(); ++i) {

@@ -47,7 +47,8 @@ bool deterministic(const Process& process) { return std::holds_alternative<Drift
 TEST(ProcessLaws, TheListIsComplete) {
   for (const Process& known : known_processes()) {
     const auto all = examples();
-    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Process& p) { return p.index() == known.index(); }))
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                            [&](const Process& p) { return p.index() == known.index(); }))
         << info(known).name << " has no example: every law below skips it";
   }
 }
@@ -59,7 +60,8 @@ TEST(ProcessLaws, JacobianIsTheDerivative) {
     ASSERT_EQ(slope.cols(), static_cast<Eigen::Index>(at.size()));
     for (std::size_t k = 0; k < at.size(); ++k) {
       // Richardson: fourth-order central differences.
-      const double step = 1e-4 * std::min(1.0, std::abs(at[k]) + 1e-3) * (1.0 - 0.9 * (std::abs(at[k]) > 0.98));
+      const double step =
+          1e-4 * std::min(1.0, std::abs(at[k]) + 1e-3) * (1.0 - 0.9 * (std::abs(at[k]) > 0.98));
       const auto moved = [&](double by) {
         std::vector<double> v = at;
         v[k] += by;
@@ -68,9 +70,11 @@ TEST(ProcessLaws, JacobianIsTheDerivative) {
         return variance(other, kWidths);
       };
       const Eigen::ArrayXd numeric =
-          (8.0 * (moved(step) - moved(-step)) - (moved(2 * step) - moved(-2 * step))) / (12.0 * step);
+          (8.0 * (moved(step) - moved(-step)) - (moved(2 * step) - moved(-2 * step))) /
+          (12.0 * step);
       for (Eigen::Index i = 0; i < kWidths.size(); ++i) {
-        const double scale = std::abs(numeric(i)) + 1e-6 * variance(process, kWidths)(i) / std::abs(at[k] + 1e-3);
+        const double scale =
+            std::abs(numeric(i)) + 1e-6 * variance(process, kWidths)(i) / std::abs(at[k] + 1e-3);
         EXPECT_NEAR(slope(i, static_cast<Eigen::Index>(k)), numeric(i), 2e-6 * scale)
             << print(process) << ", parameter " << k << ", m = " << kWidths(i);
       }
@@ -98,8 +102,9 @@ TEST(ProcessLaws, VarianceIsTheSpectrumSeenThroughTheWavelet) {
   }
 }
 
-// ν(m) = [6Γ(0) - 8Γ(m) + 2Γ(2m)]/4m² ties the two descriptions a process gives of itself; here through
-// the covariance of moments of the shortest signal, where V = 2ν² exactly (one coefficient).
+// ν(m) = [6Γ(0) - 8Γ(m) + 2Γ(2m)]/4m² ties the two descriptions a process gives of itself; here
+// through the covariance of moments of the shortest signal, where V = 2ν² exactly (one
+// coefficient).
 TEST(ProcessLaws, SumCovarianceAgreesWithTheVariance) {
   for (const Process& process : examples()) {
     for (const std::int64_t m : {1, 2, 5, 16, 100}) {

@@ -13,7 +13,8 @@ Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(engine); });
 }
 
-// The optimum of a convex problem is told by its Karush-Kuhn-Tucker conditions, whatever the solver did.
+// The optimum of a convex problem is told by its Karush-Kuhn-Tucker conditions, whatever the solver
+// did.
 void expect_optimal(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment, const char* what) {
   const Eigen::VectorXd beta = nonnegative_least_squares(gram, moment);
   const Eigen::VectorXd slope = moment - gram * beta;

@@ -37,7 +37,9 @@ TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {
 
 // SCIENCE: the conversions that people get wrong, from first principles.
 TEST(Units, DatasheetUnitsOfTheCoefficients) {
-  const auto si_per_unit = [](Coefficient c, Quantity q) { return 1.0 / coefficient_units(c, q).to_datasheet; };
+  const auto si_per_unit = [](Coefficient c, Quantity q) {
+    return 1.0 / coefficient_units(c, q).to_datasheet;
+  };
   EXPECT_NEAR(si_per_unit(Coefficient::kRandomWalk, Quantity::kAngularRate), 2.9089e-4, 1e-8);
   EXPECT_NEAR(si_per_unit(Coefficient::kBiasInstability, Quantity::kAngularRate), 4.8481e-6, 1e-10);
   EXPECT_NEAR(si_per_unit(Coefficient::kRateRandomWalk, Quantity::kAngularRate), 8.0802e-8, 1e-12);

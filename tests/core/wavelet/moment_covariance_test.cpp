@@ -18,7 +18,8 @@ Eigen::MatrixXd covariance_by_definition(const std::vector<double>& gamma, const
   const auto n = static_cast<Eigen::Index>(samples);
   Dense cov(n, n);
   for (Eigen::Index a = 0; a < n; ++a) {
-    for (Eigen::Index b = 0; b < n; ++b) cov(a, b) = gamma[static_cast<std::size_t>(std::abs(a - b))];
+    for (Eigen::Index b = 0; b < n; ++b)
+      cov(a, b) = gamma[static_cast<std::size_t>(std::abs(a - b))];
   }
   std::vector<Dense> filters;
   for (const std::int64_t m : scales) {
@@ -73,7 +74,8 @@ TEST(DiscreteRule, IsExactForPolynomials) {
       for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
         sum += rule.weights[i] * std::pow((rule.nodes[i] - h) / h, degree);
       }
-      EXPECT_NEAR(sum, static_cast<double>(exact), 1e-11 * static_cast<double>(n)) << n << " " << degree;
+      EXPECT_NEAR(sum, static_cast<double>(exact), 1e-11 * static_cast<double>(n))
+          << n << " " << degree;
     }
   }
 }
@@ -97,7 +99,8 @@ TEST(MomentCovariance, EqualsTheDenseDefinition) {
     const SumCovariance sum = sum_covariance(ringing);
     for (std::size_t h = 0; h < samples; ++h) {
       resonance[h] = (sum.exponentials[0].amplitude *
-                      std::pow(sum.exponentials[0].root, static_cast<double>(h))).real();
+                      std::pow(sum.exponentials[0].root, static_cast<double>(h)))
+                         .real();
     }
   }
   const std::vector<Case> cases = {
@@ -113,7 +116,8 @@ TEST(MomentCovariance, EqualsTheDenseDefinition) {
   }
 }
 
-// The quadrature between kinks, against plain summation over every lag (which small signals get anyway).
+// The quadrature between kinks, against plain summation over every lag (which small signals get
+// anyway).
 TEST(MomentCovariance, QuadratureAgreesWithPlainSummation) {
   const std::size_t samples = 40'000;
   const Scales scales({1, 7, 64, 1000, 5000, 20'000});
@@ -147,7 +151,8 @@ TEST(MomentCovariance, Golden) {
     Eigen::MatrixXd expected(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
       for (Eigen::Index k = 0; k < n; ++k) {
-        expected(j, k) = row["V"][static_cast<std::size_t>(j)][static_cast<std::size_t>(k)].get<double>();
+        expected(j, k) =
+            row["V"][static_cast<std::size_t>(j)][static_cast<std::size_t>(k)].get<double>();
       }
     }
     expect_close(moment_covariance(process, scales, 120), expected, 1e-9, name);
@@ -159,7 +164,9 @@ TEST(MomentCovariance, Golden) {
     const Eigen::ArrayXd nu = variance(process, scales.half_widths());
     for (std::size_t i = 0; i < scales.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      EXPECT_NEAR(2.0 * nu(at) * nu(at) / v(at, at) / golden["edof"][name][i].get<double>(), 1.0, 1e-8) << name << i;
+      EXPECT_NEAR(2.0 * nu(at) * nu(at) / v(at, at) / golden["edof"][name][i].get<double>(), 1.0,
+                  1e-8)
+          << name << i;
     }
   }
 }

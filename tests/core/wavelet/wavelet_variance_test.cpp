@@ -26,7 +26,8 @@ double variance_by_definition(const std::vector<Sample>& x, std::int64_t m) {
   for (std::size_t end = 2 * width; end <= x.size(); ++end, ++count) {
     long double w = 0;
     for (std::size_t i = 0; i < width; ++i) {
-      w += static_cast<long double>(x[end - 1 - i]) - static_cast<long double>(x[end - 1 - width - i]);
+      w += static_cast<long double>(x[end - 1 - i]) -
+           static_cast<long double>(x[end - 1 - width - i]);
     }
     w /= 2 * static_cast<long double>(m);
     total += w * w;
@@ -44,12 +45,14 @@ std::vector<Sample> random_samples(std::size_t n, double sigma, double bias, uns
 }
 
 template <class Sample>
-void expect_same_as_definition(const std::vector<Sample>& x, const Scales& scales, double tolerance) {
+void expect_same_as_definition(const std::vector<Sample>& x, const Scales& scales,
+                               double tolerance) {
   const Signal signal{std::span<const Sample>(x), Hertz{100}};
   const WaveletVariance wv = wavelet_variance(signal, scales);
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const double expected = variance_by_definition(x, scales[i]);
-    EXPECT_NEAR(wv.variance(static_cast<Eigen::Index>(i)) / expected, 1.0, tolerance) << "m = " << scales[i];
+    EXPECT_NEAR(wv.variance(static_cast<Eigen::Index>(i)) / expected, 1.0, tolerance)
+        << "m = " << scales[i];
   }
 }
 
@@ -78,7 +81,8 @@ TEST(WaveletVariance, FarLagsAndWideSumsAreExact) {
       total += static_cast<Total128>(size) * size;
     }
     const double count = static_cast<double>(n - 2 * w + 1);
-    return static_cast<double>(total) / (count * 4.0 * static_cast<double>(m) * static_cast<double>(m));
+    return static_cast<double>(total) /
+           (count * 4.0 * static_cast<double>(m) * static_cast<double>(m));
   };
   for (const bool wide : {false, true}) {
     if (wide) {
@@ -87,10 +91,12 @@ TEST(WaveletVariance, FarLagsAndWideSumsAreExact) {
     const Signal signal{std::span<const std::int32_t>(counts), Hertz{100}};
     const WaveletVariance wv = wavelet_variance(signal, scales);
     for (std::size_t i = 0; i < scales.size(); ++i) {
-      EXPECT_DOUBLE_EQ(wv.variance(static_cast<Eigen::Index>(i)), fast(scales[i])) << scales[i] << wide;
+      EXPECT_DOUBLE_EQ(wv.variance(static_cast<Eigen::Index>(i)), fast(scales[i]))
+          << scales[i] << wide;
     }
     std::vector<double> numbers(counts.begin(), counts.end());
-    const WaveletVariance as_doubles = wavelet_variance(Signal{std::span<const double>(numbers), Hertz{100}}, scales);
+    const WaveletVariance as_doubles =
+        wavelet_variance(Signal{std::span<const double>(numbers), Hertz{100}}, scales);
     // Doubles lose the digits that a steep ramp takes from the prefix sums; counts never do.
     for (Eigen::Index i = 0; i < wv.variance.size(); ++i) {
       EXPECT_NEAR(as_doubles.variance(i) / wv.variance(i), 1.0, wide ? 1e-9 : 1e-12);
@@ -116,9 +122,11 @@ TEST(Kernels, GiveTheSameBitsWithAndWithoutAvx2) {
   const std::vector<std::int32_t> n = random_samples<std::int32_t>(3 * kBlock, 1e6, 0.0, 7);
   for (const std::size_t count : {1UL, 15UL, 16UL, 17UL, 1000UL, kBlock}) {
     const double* a = x.data() + 2 * kBlock;
-    EXPECT_EQ(base.squares_double(a, a - 700, a - 1400, count), wide->squares_double(a, a - 700, a - 1400, count));
+    EXPECT_EQ(base.squares_double(a, a - 700, a - 1400, count),
+              wide->squares_double(a, a - 700, a - 1400, count));
     const std::int32_t* b = n.data() + 2 * kBlock;
-    EXPECT_EQ(base.squares_int(b, b - 700, b - 1400, count), wide->squares_int(b, b - 700, b - 1400, count));
+    EXPECT_EQ(base.squares_int(b, b - 700, b - 1400, count),
+              wide->squares_int(b, b - 700, b - 1400, count));
     std::vector<double> one(count);
     std::vector<double> two(count);
     base.prefix_double(x.data(), 0.1, 3.0, one.data(), count);
@@ -144,7 +152,8 @@ TEST(StreamingVariance, EqualsTheBatchFormForAnyPieces) {
     const WaveletVariance batch = wavelet_variance(Signal{so_far, Hertz{100}}, streamed.scales);
     EXPECT_TRUE((streamed.variance == batch.variance).all()) << "after " << at << " samples";
   }
-  const WaveletVariance batch = wavelet_variance(Signal{std::span<const double>(numbers), Hertz{100}}, scales);
+  const WaveletVariance batch =
+      wavelet_variance(Signal{std::span<const double>(numbers), Hertz{100}}, scales);
   EXPECT_LT((number_stream.estimate().variance / batch.variance - 1.0).abs().maxCoeff(), 1e-12);
 }
 
@@ -154,7 +163,8 @@ TEST(Golden, SmallSignalClassicalAndRobust) {
   const std::vector<double> x = read_doubles("golden/det1000.f64");
   const Signal signal{std::span<const double>(x), Hertz{1}};
   const Scales scales = Scales::for_samples(x.size());
-  const auto compare = [&](const WaveletVariance& wv, const nlohmann::json& expected, double tolerance) {
+  const auto compare = [&](const WaveletVariance& wv, const nlohmann::json& expected,
+                           double tolerance) {
     ASSERT_EQ(expected["variance"].size(), scales.size());
     for (std::size_t i = 0; i < scales.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
@@ -165,7 +175,8 @@ TEST(Golden, SmallSignalClassicalAndRobust) {
   };
   compare(wavelet_variance(signal, scales), golden["modwt"], 1e-12);
   // The peer's one-dimensional minimiser stops at about 1e-4 of the tuning constant.
-  compare(robust_wavelet_variance(signal, scales, RobustEfficiency::k60), golden["robust_0.6"], 5e-5);
+  compare(robust_wavelet_variance(signal, scales, RobustEfficiency::k60), golden["robust_0.6"],
+          5e-5);
 }
 
 TEST(RobustVariance, IsUnmovedByOutliersAndUnbiasedWithoutThem) {
@@ -173,7 +184,8 @@ TEST(RobustVariance, IsUnmovedByOutliersAndUnbiasedWithoutThem) {
   const Scales scales({1, 2, 4});
   const auto ratio = [&](RobustEfficiency e) {
     const Signal signal{std::span<const double>(x), Hertz{1}};
-    return (robust_wavelet_variance(signal, scales, e).variance * 2.0 * scales.half_widths()).eval();
+    return (robust_wavelet_variance(signal, scales, e).variance * 2.0 * scales.half_widths())
+        .eval();
   };
   // Relative error of one scale is about √(2/edof/eff) < 1 %: five of them.
   for (const auto e : {RobustEfficiency::k60, RobustEfficiency::k80, RobustEfficiency::k90}) {
