@@ -45,19 +45,23 @@ void mugmwm_from_arrays(benchmark::State& state, const char* text, Weighting wei
         infer(mugmwm(model, measured, weighting), measured).goodness.statistic);
   }
 }
-BENCHMARK_CAPTURE(mugmwm_from_arrays, AR1 + WN + RW / full, "AR1 + WN + RW", Weighting::kFull)
+BENCHMARK_CAPTURE(mugmwm_from_arrays, full, "AR1 + WN + RW", Weighting::kFull)
+    ->Name("mugmwm/AR1+WN+RW")
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK_CAPTURE(mugmwm_from_arrays, 3 * AR1 + WN / full, "3*AR1 + WN", Weighting::kFull)
+BENCHMARK_CAPTURE(mugmwm_from_arrays, full, "3*AR1 + WN", Weighting::kFull)
+    ->Name("mugmwm/3*AR1+WN")
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK_CAPTURE(mugmwm_from_arrays, AR1 + WN + RW / diag, "AR1 + WN + RW", Weighting::kDiagonal)
+BENCHMARK_CAPTURE(mugmwm_from_arrays, diag, "AR1 + WN + RW", Weighting::kDiagonal)
+    ->Name("mugmwm/AR1+WN+RW/diag")
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK_CAPTURE(mugmwm_from_arrays, 3 * AR1 + WN / diag, "3*AR1 + WN", Weighting::kDiagonal)
+BENCHMARK_CAPTURE(mugmwm_from_arrays, diag, "3*AR1 + WN", Weighting::kDiagonal)
+    ->Name("mugmwm/3*AR1+WN/diag")
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

@@ -16,13 +16,3 @@ quietly() {
     return 1
   fi
 }
-
-# build_release TARGET OPTION...: the optimised program, without the tests and what they need.
-build_release() {
-  local target=$1
-  shift
-  quietly "build/log/release-configure.txt" \
-    cmake --preset release -DIMUNOISE_TESTS=OFF -DIMUNOISE_WERROR=OFF "$@"
-  quietly "build/log/release-build.txt" \
-    cmake --build --preset release --parallel "$jobs" --target "$target"
-}
