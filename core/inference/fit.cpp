@@ -41,6 +41,21 @@ void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates) {
   }
 }
 
+// The test is of the model, not of the estimate: it is made at the efficient one. Diagonal weights follow
+// the noise of the moments, which biases their estimate, and with it the covariance that the test needs.
+GoodnessOfFit test_of_fit(const Fit& fit, std::span<const WaveletVariance> replicates) {
+  if (fit.estimate.weighting == Weighting::kFull) {
+    return goodness_of_fit(fit.estimate.model, replicates, fit.covariances, fit.tested);
+  }
+  const Model model = mugmwm(fit.estimate.model, replicates, Weighting::kFull).model;
+  const PerReplicate covariances = moment_covariances(model, replicates);
+  std::vector<std::vector<bool>> tested;
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    tested.push_back(tested_scales(model, replicates[k], covariances[k]));
+  }
+  return goodness_of_fit(model, replicates, covariances, tested);
+}
+
 }  // namespace
 
 Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double confidence) {
@@ -56,7 +71,7 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
       parameter_covariance(model, replicates, roots, fit.covariances, sets.interior);
   fill_intervals(fit, sets, covariance, errors_at_zero(model, replicates, roots, fit.covariances, sets),
                  replicates[0].rate);
-  fit.goodness = goodness_of_fit(model, replicates, fit.covariances, fit.tested);
+  fit.goodness = test_of_fit(fit, replicates);
   return fit;
 }
 
