@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Models, Calibration,
 
 // Between the octaves the moments are strongly correlated; the test must stand that.
 TEST(CalibrationDense, FourScalesAnOctave) {
-  constexpr std::size_t kFew = 500;
+  constexpr std::size_t kFew = 200;
   const Model truth = testing::model_of("AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)");
   std::vector<Fit> all(kFew);
   for_each_index(kFew, [&](std::size_t i) {
