@@ -12,25 +12,30 @@
 namespace imunoise {
 namespace {
 
-// Standard error that a power at zero would have if it were free as well.
-double error_at_zero(const Model& model, std::span<const WaveletVariance> replicates,
-                     const std::vector<Eigen::MatrixXd>& weight_roots, const PerReplicate& covariances,
-                     std::vector<Eigen::Index> interior, Eigen::Index column) {
-  interior.push_back(column);
-  const ParameterCovariance c = parameter_covariance(model, replicates, weight_roots, covariances, interior);
-  const Eigen::Index last = c.matrix.rows() - 1;
-  if (c.null_share(last) > 0.2) return std::numeric_limits<double>::infinity();
-  return std::sqrt(c.matrix(last, last));
+// The model with one of its powers (by its column) worth `value`.
+Model with_power(Model model, Eigen::Index column, double value) {
+  for (Term& term : model.terms) {
+    if (column == 0) {
+      std::vector<double> v = values(term.process);
+      v[0] = value;
+      set_values(term.process, v);
+    }
+    column -= static_cast<Eigen::Index>(term.given.size());
+  }
+  return model;
 }
 
-std::vector<double> errors_at_zero(const Model& model, std::span<const WaveletVariance> replicates,
-                                   const std::vector<Eigen::MatrixXd>& weight_roots,
-                                   const PerReplicate& covariances, const ParameterSets& sets) {
-  std::vector<double> out;
-  for (const Eigen::Index column : sets.at_zero) {
-    out.push_back(error_at_zero(model, replicates, weight_roots, covariances, sets.interior, column));
-  }
-  return out;
+// Standard error of a power, were it worth `value`: the moments scatter accordingly.
+double error_of_power(const Model& model, std::span<const WaveletVariance> replicates,
+                      const std::vector<Eigen::MatrixXd>& weight_roots, std::vector<Eigen::Index> interior,
+                      Eigen::Index column, double value) {
+  auto found = std::find(interior.begin(), interior.end(), column);
+  if (found == interior.end()) found = interior.insert(found, column);
+  const PerReplicate covariances = moment_covariances(with_power(model, column, value), replicates);
+  const auto at = static_cast<Eigen::Index>(found - interior.begin());
+  const ParameterCovariance c = parameter_covariance(model, replicates, weight_roots, covariances, interior);
+  if (c.null_share(at) > 0.2) return std::numeric_limits<double>::infinity();
+  return std::sqrt(c.matrix(at, at));
 }
 
 void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates) {
@@ -39,6 +44,21 @@ void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates) {
     fit.residuals.emplace_back((replicates[k].variance - nu) / fit.covariances[k].diagonal().array().sqrt());
     fit.tested.push_back(tested_scales(fit.estimate.model, replicates[k], fit.covariances[k]));
   }
+}
+
+// The test is of the model, not of the estimate: it is made at the efficient one. Diagonal weights follow
+// the noise of the moments, which biases their estimate, and with it the covariance that the test needs.
+GoodnessOfFit test_of_fit(const Fit& fit, std::span<const WaveletVariance> replicates) {
+  if (fit.estimate.weighting == Weighting::kFull) {
+    return goodness_of_fit(fit.estimate.model, replicates, fit.covariances, fit.tested);
+  }
+  const Model model = mugmwm(fit.estimate.model, replicates, Weighting::kFull).model;
+  const PerReplicate covariances = moment_covariances(model, replicates);
+  std::vector<std::vector<bool>> tested;
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    tested.push_back(tested_scales(model, replicates[k], covariances[k]));
+  }
+  return goodness_of_fit(model, replicates, covariances, tested);
 }
 
 }  // namespace
@@ -54,9 +74,11 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
   const auto& roots = fit.estimate.weight_roots;
   const ParameterCovariance covariance =
       parameter_covariance(model, replicates, roots, fit.covariances, sets.interior);
-  fill_intervals(fit, sets, covariance, errors_at_zero(model, replicates, roots, fit.covariances, sets),
-                 replicates[0].rate);
-  fit.goodness = goodness_of_fit(model, replicates, fit.covariances, fit.tested);
+  const auto power_error = [&](Eigen::Index column, double value) {
+    return error_of_power(model, replicates, roots, sets.interior, column, value);
+  };
+  fill_intervals(fit, sets, covariance, power_error, replicates[0].rate);
+  fit.goodness = test_of_fit(fit, replicates);
   return fit;
 }
 
@@ -70,7 +92,6 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
   const ParameterSets sets = parameter_sets(model);
   const auto size = static_cast<Eigen::Index>(sets.interior.size());
   ParameterCovariance mean{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-  std::vector<double> zero_errors(sets.at_zero.size(), 0.0);
   const auto count = static_cast<double>(replicates.size());
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const auto one = replicates.subspan(k, 1);
@@ -79,13 +100,20 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
     const ParameterCovariance c = parameter_covariance(model, one, root, covariances, sets.interior);
     mean.matrix += c.matrix / (count * count);
     mean.null_share = mean.null_share.cwiseMax(c.null_share);
-    const std::vector<double> errors = errors_at_zero(model, one, root, covariances, sets);
-    for (std::size_t i = 0; i < errors.size(); ++i) zero_errors[i] += errors[i] / (count * std::sqrt(count));
     const Fit separate = infer(average.separate[k], one, confidence);
     fit.goodness.statistic += separate.goodness.statistic;
     fit.goodness.degrees_of_freedom += separate.goodness.degrees_of_freedom;
   }
-  fill_intervals(fit, sets, mean, zero_errors, replicates[0].rate);
+  const auto power_error = [&](Eigen::Index column, double value) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < replicates.size(); ++k) {
+      const double one = error_of_power(model, replicates.subspan(k, 1), {fit.estimate.weight_roots[k]},
+                                        sets.interior, column, value);
+      squares += one * one;
+    }
+    return std::sqrt(squares) / count;
+  };
+  fill_intervals(fit, sets, mean, power_error, replicates[0].rate);
   fit.goodness.p_value = chi_square_tail(fit.goodness.statistic, fit.goodness.degrees_of_freedom);
   return fit;
 }

@@ -32,9 +32,10 @@ struct DerivedEstimate {
   double upper;
 };
 
-/// Does the shape of the model fit every replicate? Asymptotically χ² whatever the weights of the fit:
-/// the whitened residuals are taken orthogonal to what the free parameters can still explain
-/// (Rao & Robson 1974; Newey 1985). Only scales with at least 5 exact degrees of freedom take part.
+/// Does the shape of the model fit every replicate? Asymptotically χ²: residuals on the scale on which
+/// they are normal (cube root), whitened, and taken orthogonal to what the free parameters can still
+/// explain (Rao & Robson 1974; Newey 1985). Only scales with at least 5 exact degrees of freedom take
+/// part. The test is made at the estimate with full weights, whatever the weights of the fit.
 struct GoodnessOfFit {
   double statistic = 0.0;
   int degrees_of_freedom = 0;

@@ -18,6 +18,14 @@ std::vector<Eigen::Index> indices_of(const std::vector<bool>& keep) {
   return out;
 }
 
+// The measured variance of a scale as a standard normal number. Where degrees of freedom are few it is
+// skew, close to chi-square: its cube root is normal (Wilson & Hilferty 1931), itself it is not.
+double normal_score(double measured, double expected, double deviation) {
+  const double relative = deviation / expected;
+  const double spread = relative * relative / 9.0;  // 2 / (9 edof)
+  return (std::cbrt(measured / expected) - (1.0 - spread)) / std::sqrt(spread);
+}
+
 }  // namespace
 
 std::vector<bool> tested_scales(const Model& model, const WaveletVariance& wv, const Eigen::MatrixXd& covariance) {
@@ -46,15 +54,17 @@ GoodnessOfFit goodness_of_fit(const Model& model, std::span<const WaveletVarianc
     const Eigen::ArrayXd m = replicates[k].scales.half_widths();
     const Eigen::MatrixXd slope_all = pick_columns(jacobian(model, m), free);
     const Eigen::ArrayXd nu = variance(model, m);
+    const Eigen::ArrayXd deviation = covariances[k].diagonal().array().sqrt();
     Eigen::VectorXd residual(size);
     Eigen::MatrixXd slope(size, n);
     Eigen::MatrixXd spread(size, size);
     for (Eigen::Index i = 0; i < size; ++i) {
       const Eigen::Index at = keep[static_cast<std::size_t>(i)];
-      residual(i) = replicates[k].variance(at) - nu(at);
-      slope.row(i) = slope_all.row(at);
+      residual(i) = normal_score(replicates[k].variance(at), nu(at), deviation(at));
+      slope.row(i) = slope_all.row(at) / deviation(at);
       for (Eigen::Index j = 0; j < size; ++j) {
-        spread(i, j) = covariances[k](at, keep[static_cast<std::size_t>(j)]);
+        const Eigen::Index other = keep[static_cast<std::size_t>(j)];
+        spread(i, j) = covariances[k](at, other) / (deviation(at) * deviation(other));
       }
     }
     const Whitening white = whiten(spread);

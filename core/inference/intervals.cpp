@@ -70,6 +70,16 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
   return out;
 }
 
+// Upper bound of a power that may be zero: the largest one that could have been estimated as this little.
+// Its own standard error counts, which grows with it, not the one that goes with the small estimate.
+double upper_bound(double value, double upper, double z, Eigen::Index column, const PowerError& power_error) {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds && std::isfinite(upper) && upper > 0.0; ++round) {
+    upper = std::max(upper, value + z * power_error(column, upper));
+  }
+  return upper;
+}
+
 }  // namespace
 
 ParameterEstimate interval(const ParameterInfo& info, bool power, double value, double standard_error,
@@ -101,7 +111,7 @@ ParameterEstimate interval(const ParameterInfo& info, bool power, double value, 
 }
 
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const std::vector<double>& zero_errors, Hertz rate) {
+                    const PowerError& power_error, Hertz rate) {
   const auto place = [](const std::vector<Eigen::Index>& set, Eigen::Index column) {
     return std::find(set.begin(), set.end(), column) - set.begin();
   };
@@ -134,10 +144,14 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
           if (other < sets.interior.size()) local(p, q) = covariance.matrix(at, static_cast<Eigen::Index>(other));
         }
       } else if (zero < sets.at_zero.size()) {
-        row.push_back({0.0, zero_errors[zero], 0.0, z * zero_errors[zero], Observability::kUpperBound});
+        const double error = power_error(first, 0.0);
+        row.push_back({0.0, error, 0.0, z * error, Observability::kUpperBound});
       } else {  // a shape whose power is zero, or that ran into its bound
         row.push_back({v[index], kInfinity, about[index].lower, about[index].upper, Observability::kIndistinguishable});
       }
+    }
+    if (row[0].observability == Observability::kUpperBound) {
+      row[0].upper = upper_bound(row[0].value, row[0].upper, z, first, power_error);
     }
     std::vector<DerivedEstimate> quantities;
     for (const DerivedQuantity& quantity : derived(term.process, rate)) {

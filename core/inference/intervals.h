@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "core/inference/fit.h"
 #include "core/inference/parameter_covariance.h"
 
@@ -9,9 +11,13 @@ namespace imunoise {
 ParameterEstimate interval(const ParameterInfo& info, bool power, double value, double standard_error,
                            double confidence);
 
-/// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model, and
-/// `zero_errors` the standard errors of the powers at zero, both in the order of `sets`.
+/// Standard error that a power (by its column) would have if it were worth `value`, all else as fitted;
+/// infinite when it cannot be told apart.
+using PowerError = std::function<double(Eigen::Index column, double value)>;
+
+/// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model, in the
+/// order of `sets`.
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const std::vector<double>& zero_errors, Hertz rate);
+                    const PowerError& power_error, Hertz rate);
 
 }  // namespace imunoise
