@@ -1,8 +1,9 @@
+#include <nlopt.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <memory>
-#include <nlopt.h>
 
 #include "core/estimate/problem.h"
 #include "core/estimate/profile.h"
@@ -42,7 +43,8 @@ double evaluate(unsigned n, const double* x, double* gradient, void* data) {
   return point.objective / search.unit;
 }
 
-// Refines one point. The optimiser may stop early, limited by round-off: the best point seen counts.
+// Refines one point. The optimiser may stop early, limited by round-off: the best point seen
+// counts.
 Refined refine(const Profile& profile, const std::vector<double>& start, const Progress& progress) {
   Search search{profile, 1.0, {start, profile.at(start).objective, Termination::kConverged}};
   search.unit = std::max(search.best.objective, 1e-300);
@@ -60,7 +62,8 @@ Refined refine(const Profile& profile, const std::vector<double>& start, const P
   nlopt_set_xtol_rel(optimiser.get(), 1e-11);
   nlopt_set_maxeval(optimiser.get(), kMostEvaluations);
   nlopt_set_min_objective(optimiser.get(), &evaluate, &search);
-  // A restart at the best point rebuilds the curvature; it ends the flat valleys that stop a first run.
+  // A restart at the best point rebuilds the curvature; it ends the flat valleys that stop a first
+  // run.
   for (int round = 0; round < 4 && !progress.stopped(); ++round) {
     const double before = search.best.objective;
     std::vector<double> x = search.best.x;
@@ -73,9 +76,11 @@ Refined refine(const Profile& profile, const std::vector<double>& start, const P
   return search.best;
 }
 
-Refined best_of(const Profile& profile, const std::vector<std::vector<double>>& starts, const Progress& progress) {
+Refined best_of(const Profile& profile, const std::vector<std::vector<double>>& starts,
+                const Progress& progress) {
   std::vector<Refined> all(starts.size());
-  for_each_index(starts.size(), [&](std::size_t i) { all[i] = refine(profile, starts[i], progress); });
+  for_each_index(starts.size(),
+                 [&](std::size_t i) { all[i] = refine(profile, starts[i], progress); });
   return *std::min_element(all.begin(), all.end(), [](const Refined& a, const Refined& b) {
     return a.objective < b.objective;
   });
@@ -92,8 +97,8 @@ Problem without(const Problem& problem, std::size_t dropped) {
   return out;
 }
 
-// The best point known: from the scan, and from every smaller model (one open term less) plus that term,
-// so that a larger model never ends worse than a smaller one.
+// The best point known: from the scan, and from every smaller model (one open term less) plus that
+// term, so that a larger model never ends worse than a smaller one.
 Refined search(const Problem& problem, const Progress& progress) {
   const Profile profile(problem);
   std::vector<std::vector<double>> starts = starting_points(profile, kScanned);
@@ -101,7 +106,8 @@ Refined search(const Problem& problem, const Progress& progress) {
   for (std::size_t t = 0; t < terms.size() && !progress.stopped(); ++t) {
     const bool open = std::any_of(profile.coordinates().begin(), profile.coordinates().end(),
                                   [&](const auto& c) { return c.term == t; });
-    const bool twin = t + 1 < terms.size() && terms[t] == terms[t + 1];  // drop one of equal terms only
+    const bool twin =
+        t + 1 < terms.size() && terms[t] == terms[t + 1];  // drop one of equal terms only
     if (!open || twin) continue;
     const Problem smaller = without(problem, t);
     const Profile small_profile(smaller);
@@ -112,7 +118,8 @@ Refined search(const Problem& problem, const Progress& progress) {
     for (std::size_t i = 0; i < base.size(); ++i) {
       if (profile.coordinates()[i].term != t) base[i] = found.x[next++];
     }
-    for (auto& start : starting_points(profile, kExtended, base, t)) starts.push_back(std::move(start));
+    for (auto& start : starting_points(profile, kExtended, base, t))
+      starts.push_back(std::move(start));
   }
   return best_of(profile, starts, progress);
 }

@@ -9,7 +9,8 @@
 namespace imunoise {
 namespace {
 
-constexpr std::size_t kBeam = 120;  // partial combinations kept while one term after another is added
+constexpr std::size_t kBeam =
+    120;  // partial combinations kept while one term after another is added
 
 // One trial of a nonlinear term's shape, with its column's place in the dictionary.
 struct Trial {
@@ -28,7 +29,8 @@ class Dictionary {
       const bool open = is_open(t);
       std::vector<Trial> trials;
       using Tried = std::vector<std::vector<double>>;
-      for (const std::vector<double>& v : open ? scanned_values(t) : Tried{values(model.terms[t].process)}) {
+      for (const std::vector<double>& v :
+           open ? scanned_values(t) : Tried{values(model.terms[t].process)}) {
         Process process = model.terms[t].process;
         set_values(process, v);
         trials.push_back({v, static_cast<Eigen::Index>(columns.size())});
@@ -40,7 +42,8 @@ class Dictionary {
     Eigen::MatrixXd all(target_.size(), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const double norm = columns[i].norm();
-      all.col(static_cast<Eigen::Index>(i)) = norm > 0.0 ? Eigen::VectorXd(columns[i] / norm) : columns[i];
+      all.col(static_cast<Eigen::Index>(i)) =
+          norm > 0.0 ? Eigen::VectorXd(columns[i] / norm) : columns[i];
     }
     gram_ = all.transpose() * all;
     moment_ = all.transpose() * target_;
@@ -107,12 +110,14 @@ struct Combination {
 };
 
 void keep_best(std::vector<Combination>& all, std::size_t most) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Combination& a, const Combination& b) { return a.objective < b.objective; });
+  std::stable_sort(all.begin(), all.end(), [](const Combination& a, const Combination& b) {
+    return a.objective < b.objective;
+  });
   if (all.size() > most) all.resize(most);
 }
 
-// Neighbours on the grid lead to the same minimum: keep only combinations that no kept one dominates nearby.
+// Neighbours on the grid lead to the same minimum: keep only combinations that no kept one
+// dominates nearby.
 std::vector<Combination> distinct(const std::vector<Combination>& sorted, std::size_t most) {
   std::vector<Combination> out;
   for (const Combination& candidate : sorted) {
@@ -170,7 +175,8 @@ std::vector<std::vector<double>> starting_points(const Profile& profile, std::si
     for (const Combination& partial : beam) {
       // Equal terms are interchangeable: take their trials in ascending order only.
       const bool twin = i > 0 && exchangeable(problem, open[i - 1], t);
-      for (std::size_t k = twin ? partial.choice[open[i - 1]] : 0; k < dictionary.trials(t).size(); ++k) {
+      for (std::size_t k = twin ? partial.choice[open[i - 1]] : 0; k < dictionary.trials(t).size();
+           ++k) {
         Combination next = partial;
         next.choice[t] = k;
         next.objective = dictionary.objective(next.choice);
@@ -188,7 +194,8 @@ std::vector<std::vector<double>> starting_points(const Profile& profile, std::si
 }
 
 std::vector<std::vector<double>> starting_points(const Profile& profile, std::size_t most,
-                                                 const std::vector<double>& base, std::size_t added) {
+                                                 const std::vector<double>& base,
+                                                 std::size_t added) {
   const Problem& problem = profile.problem();
   struct Scored {
     double objective;
@@ -207,7 +214,8 @@ std::vector<std::vector<double>> starting_points(const Profile& profile, std::si
     }
     all.push_back({profile.at(x).objective, std::move(x)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Scored& a, const Scored& b) { return a.objective < b.objective; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Scored& a, const Scored& b) { return a.objective < b.objective; });
   std::vector<std::vector<double>> out;
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i) out.push_back(std::move(all[i].x));
   return out;

@@ -27,13 +27,14 @@ Model with_power(Model model, Eigen::Index column, double value) {
 
 // Standard error of a power, were it worth `value`: the moments scatter accordingly.
 double error_of_power(const Model& model, std::span<const WaveletVariance> replicates,
-                      const std::vector<Eigen::MatrixXd>& weight_roots, std::vector<Eigen::Index> interior,
-                      Eigen::Index column, double value) {
+                      const std::vector<Eigen::MatrixXd>& weight_roots,
+                      std::vector<Eigen::Index> interior, Eigen::Index column, double value) {
   auto found = std::find(interior.begin(), interior.end(), column);
   if (found == interior.end()) found = interior.insert(found, column);
   const PerReplicate covariances = moment_covariances(with_power(model, column, value), replicates);
   const auto at = static_cast<Eigen::Index>(found - interior.begin());
-  const ParameterCovariance c = parameter_covariance(model, replicates, weight_roots, covariances, interior);
+  const ParameterCovariance c =
+      parameter_covariance(model, replicates, weight_roots, covariances, interior);
   if (c.null_share(at) > 0.2) return std::numeric_limits<double>::infinity();
   return std::sqrt(c.matrix(at, at));
 }
@@ -41,13 +42,15 @@ double error_of_power(const Model& model, std::span<const WaveletVariance> repli
 void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates) {
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const Eigen::ArrayXd nu = variance(fit.estimate.model, replicates[k].scales.half_widths());
-    fit.residuals.emplace_back((replicates[k].variance - nu) / fit.covariances[k].diagonal().array().sqrt());
+    fit.residuals.emplace_back((replicates[k].variance - nu) /
+                               fit.covariances[k].diagonal().array().sqrt());
     fit.tested.push_back(tested_scales(fit.estimate.model, replicates[k], fit.covariances[k]));
   }
 }
 
-// The test is of the model, not of the estimate: it is made at the efficient one. Diagonal weights follow
-// the noise of the moments, which biases their estimate, and with it the covariance that the test needs.
+// The test is of the model, not of the estimate: it is made at the efficient one. Diagonal weights
+// follow the noise of the moments, which biases their estimate, and with it the covariance that the
+// test needs.
 GoodnessOfFit test_of_fit(const Fit& fit, std::span<const WaveletVariance> replicates) {
   if (fit.estimate.weighting == Weighting::kFull) {
     return goodness_of_fit(fit.estimate.model, replicates, fit.covariances, fit.tested);
@@ -82,7 +85,8 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
   return fit;
 }
 
-Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> replicates, double confidence) {
+Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> replicates,
+          double confidence) {
   Fit fit;
   fit.confidence = confidence;
   fit.estimate = average.average;
@@ -97,7 +101,8 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
     const auto one = replicates.subspan(k, 1);
     const std::vector<Eigen::MatrixXd> root = {fit.estimate.weight_roots[k]};
     const PerReplicate covariances = moment_covariances(model, one);
-    const ParameterCovariance c = parameter_covariance(model, one, root, covariances, sets.interior);
+    const ParameterCovariance c =
+        parameter_covariance(model, one, root, covariances, sets.interior);
     mean.matrix += c.matrix / (count * count);
     mean.null_share = mean.null_share.cwiseMax(c.null_share);
     const Fit separate = infer(average.separate[k], one, confidence);
@@ -107,8 +112,9 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
   const auto power_error = [&](Eigen::Index column, double value) {
     double squares = 0.0;
     for (std::size_t k = 0; k < replicates.size(); ++k) {
-      const double one = error_of_power(model, replicates.subspan(k, 1), {fit.estimate.weight_roots[k]},
-                                        sets.interior, column, value);
+      const double one =
+          error_of_power(model, replicates.subspan(k, 1), {fit.estimate.weight_roots[k]},
+                         sets.interior, column, value);
       squares += one * one;
     }
     return std::sqrt(squares) / count;
@@ -125,7 +131,8 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
   if (estimate.value <= 0.0 || parameter != 0) return 0.0;
   const Model& model = fit.estimate.model;
   Eigen::Index column = 0;
-  for (std::size_t t = 0; t < term; ++t) column += static_cast<Eigen::Index>(model.terms[t].given.size());
+  for (std::size_t t = 0; t < term; ++t)
+    column += static_cast<Eigen::Index>(model.terms[t].given.size());
   const ParameterSets sets = parameter_sets(model);
   const auto found = std::find(sets.interior.begin(), sets.interior.end(), column);
   if (found == sets.interior.end()) return 0.0;
@@ -149,7 +156,8 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
     const PerReplicate covariances = moment_covariances(model, longer);
     std::vector<Eigen::MatrixXd> roots;
     for (std::size_t k = 0; k < longer.size(); ++k) roots.push_back(whiten(covariances[k]).matrix);
-    const ParameterCovariance c = parameter_covariance(model, longer, roots, covariances, sets.interior);
+    const ParameterCovariance c =
+        parameter_covariance(model, longer, roots, covariances, sets.interior);
     const auto at = static_cast<Eigen::Index>(found - sets.interior.begin());
     if (c.null_share(at) > 0.2) return 0.0;
     const double now = z * std::sqrt(c.matrix(at, at));

@@ -32,10 +32,11 @@ struct DerivedEstimate {
   double upper;
 };
 
-/// Does the shape of the model fit every replicate? Asymptotically χ²: residuals on the scale on which
-/// they are normal (cube root), whitened, and taken orthogonal to what the free parameters can still
-/// explain (Rao & Robson 1974; Newey 1985). Only scales with at least 5 exact degrees of freedom take
-/// part. The test is made at the estimate with full weights, whatever the weights of the fit.
+/// Does the shape of the model fit every replicate? Asymptotically χ²: residuals on the scale on
+/// which they are normal (cube root), whitened, and taken orthogonal to what the free parameters
+/// can still explain (Rao & Robson 1974; Newey 1985). Only scales with at least 5 exact degrees of
+/// freedom take part. The test is made at the estimate with full weights, whatever the weights of
+/// the fit.
 struct GoodnessOfFit {
   double statistic = 0.0;
   int degrees_of_freedom = 0;
@@ -49,21 +50,23 @@ struct Fit {
   std::vector<std::vector<ParameterEstimate>> parameters;  ///< a row a term, in its order
   std::vector<std::vector<DerivedEstimate>> derived;       ///< a row a term
   GoodnessOfFit goodness;
-  PerReplicate covariances;             ///< V(θ̂) of the moments of each replicate
+  PerReplicate covariances;               ///< V(θ̂) of the moments of each replicate
   std::vector<Eigen::ArrayXd> residuals;  ///< a row a replicate: (ν̂ - ν)/√V_jj
   std::vector<std::vector<bool>> tested;  ///< a row a replicate: scales that the test uses
 };
 
-/// Sandwich covariance of the parameters, intervals (on a logarithmic or logit scale where the parameter
-/// is seen, so that they respect its bounds), goodness of fit. Same replicates as the estimate was made from.
+/// Sandwich covariance of the parameters, intervals (on a logarithmic or logit scale where the
+/// parameter is seen, so that they respect its bounds), goodness of fit. Same replicates as the
+/// estimate was made from.
 Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double confidence = 0.95);
-/// The same for AGMWM: intervals from the average of the K separate covariances over K, misfit summed.
+/// The same for AGMWM: intervals from the average of the K separate covariances over K, misfit
+/// summed.
 Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> replicates,
           double confidence = 0.95);
 
-/// How many times longer each replicate would have to be for the interval of a parameter to leave zero,
-/// if its value is what was estimated: 1 when it is seen already, 0 when that cannot be said (a value of
-/// zero, or more than 256 times). Costs a few covariances of moments.
+/// How many times longer each replicate would have to be for the interval of a parameter to leave
+/// zero, if its value is what was estimated: 1 when it is seen already, 0 when that cannot be said
+/// (a value of zero, or more than 256 times). Costs a few covariances of moments.
 double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates, std::size_t term,
                      std::size_t parameter);
 

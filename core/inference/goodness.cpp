@@ -18,8 +18,8 @@ std::vector<Eigen::Index> indices_of(const std::vector<bool>& keep) {
   return out;
 }
 
-// The measured variance of a scale as a standard normal number. Where degrees of freedom are few it is
-// skew, close to chi-square: its cube root is normal (Wilson & Hilferty 1931), itself it is not.
+// The measured variance of a scale as a standard normal number. Where degrees of freedom are few it
+// is skew, close to chi-square: its cube root is normal (Wilson & Hilferty 1931), itself it is not.
 double normal_score(double measured, double expected, double deviation) {
   const double relative = deviation / expected;
   const double spread = relative * relative / 9.0;  // 2 / (9 edof)
@@ -28,12 +28,14 @@ double normal_score(double measured, double expected, double deviation) {
 
 }  // namespace
 
-std::vector<bool> tested_scales(const Model& model, const WaveletVariance& wv, const Eigen::MatrixXd& covariance) {
+std::vector<bool> tested_scales(const Model& model, const WaveletVariance& wv,
+                                const Eigen::MatrixXd& covariance) {
   const Eigen::ArrayXd nu = variance(model, wv.scales.half_widths());
   std::vector<bool> out(wv.scales.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    out[i] = covariance(at, at) > 0.0 && 2.0 * nu(at) * nu(at) / covariance(at, at) >= kLeastDegreesOfFreedom;
+    out[i] = covariance(at, at) > 0.0 &&
+             2.0 * nu(at) * nu(at) / covariance(at, at) >= kLeastDegreesOfFreedom;
   }
   return out;
 }

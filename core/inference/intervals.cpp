@@ -12,7 +12,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Derived quantities of a process with one parameter moved.
-std::vector<DerivedQuantity> derived_with(const Process& process, std::size_t parameter, double value, Hertz rate) {
+std::vector<DerivedQuantity> derived_with(const Process& process, std::size_t parameter,
+                                          double value, Hertz rate) {
   Process moved = process;
   std::vector<double> v = values(process);
   v[parameter] = value;
@@ -22,12 +23,13 @@ std::vector<DerivedQuantity> derived_with(const Process& process, std::size_t pa
 
 // The same coefficient among moved quantities (a process may lose one, as AR1 its time when φ < 0).
 double find(const std::vector<DerivedQuantity>& all, Coefficient coefficient, double otherwise) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& q) { return q.coefficient == coefficient; });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& q) { return q.coefficient == coefficient; });
   return found == all.end() ? otherwise : found->value;
 }
 
-// Interval of a derived quantity: mapped end to end when it depends on one parameter, else by the delta
-// method on the logarithm.
+// Interval of a derived quantity: mapped end to end when it depends on one parameter, else by the
+// delta method on the logarithm.
 DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEstimate>& estimates,
                                  const Eigen::MatrixXd& covariance, const DerivedQuantity& quantity,
                                  Hertz rate, double z) {
@@ -37,20 +39,27 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
   for (std::size_t p = 0; p < v.size(); ++p) {
     if (estimates[p].observability == Observability::kGiven) continue;
     double step = 1e-4 * std::abs(v[p]);
-    if (std::isfinite(estimates[p].standard_error)) step = std::min(step, 1e-3 * estimates[p].standard_error);
-    if (p > 0) step = std::min(step, 1e-3 * (1.0 - std::min(std::abs(v[p]), 1.0 - 1e-12)) + (std::abs(v[p]) > 1.0 ? step : 0.0));
+    if (std::isfinite(estimates[p].standard_error))
+      step = std::min(step, 1e-3 * estimates[p].standard_error);
+    if (p > 0)
+      step = std::min(step, 1e-3 * (1.0 - std::min(std::abs(v[p]), 1.0 - 1e-12)) +
+                                (std::abs(v[p]) > 1.0 ? step : 0.0));
     if (step == 0.0) {
       moves.push_back(p);
       continue;
     }
-    const double up = find(derived_with(term.process, p, v[p] + step, rate), quantity.coefficient, quantity.value);
-    const double down = find(derived_with(term.process, p, v[p] - step, rate), quantity.coefficient, quantity.value);
+    const double up = find(derived_with(term.process, p, v[p] + step, rate), quantity.coefficient,
+                           quantity.value);
+    const double down = find(derived_with(term.process, p, v[p] - step, rate), quantity.coefficient,
+                             quantity.value);
     slope(static_cast<Eigen::Index>(p)) = (up - down) / (2.0 * step);
     if (up != down) moves.push_back(p);
   }
   DerivedEstimate out{quantity.coefficient, quantity.value, quantity.value, quantity.value};
   if (moves.empty()) return out;
-  const auto seen = [&](std::size_t p) { return estimates[p].observability == Observability::kObserved; };
+  const auto seen = [&](std::size_t p) {
+    return estimates[p].observability == Observability::kObserved;
+  };
   if (moves.size() == 1 || !std::all_of(moves.begin(), moves.end(), seen)) {
     const auto worst = std::find_if_not(moves.begin(), moves.end(), seen);
     const std::size_t p = worst == moves.end() ? moves.front() : *worst;
@@ -70,9 +79,11 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
   return out;
 }
 
-// Upper bound of a power that may be zero: the largest one that could have been estimated as this little.
-// Its own standard error counts, which grows with it, not the one that goes with the small estimate.
-double upper_bound(double value, double upper, double z, Eigen::Index column, const PowerError& power_error) {
+// Upper bound of a power that may be zero: the largest one that could have been estimated as this
+// little. Its own standard error counts, which grows with it, not the one that goes with the small
+// estimate.
+double upper_bound(double value, double upper, double z, Eigen::Index column,
+                   const PowerError& power_error) {
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds && std::isfinite(upper) && upper > 0.0; ++round) {
     upper = std::max(upper, value + z * power_error(column, upper));
@@ -82,8 +93,8 @@ double upper_bound(double value, double upper, double z, Eigen::Index column, co
 
 }  // namespace
 
-ParameterEstimate interval(const ParameterInfo& info, bool power, double value, double standard_error,
-                           double confidence) {
+ParameterEstimate interval(const ParameterInfo& info, bool power, double value,
+                           double standard_error, double confidence) {
   const double z = normal_quantile(0.5 + 0.5 * confidence);
   ParameterEstimate out{value, standard_error, 0.0, 0.0, Observability::kObserved};
   if (power || info.logarithmic) {
@@ -106,7 +117,8 @@ ParameterEstimate interval(const ParameterInfo& info, bool power, double value, 
   const double centre = std::log(below / above);
   out.lower = back(centre - z * error);
   out.upper = back(centre + z * error);
-  if (z * error > 8.0) out.observability = Observability::kIndistinguishable;  // spans almost all there is
+  if (z * error > 8.0)
+    out.observability = Observability::kIndistinguishable;  // spans almost all there is
   return out;
 }
 
@@ -135,19 +147,23 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
         const auto at = static_cast<Eigen::Index>(inside);
         if (covariance.null_share(at) > 0.2) {
           row.push_back({v[index], kInfinity, p == 0 ? 0.0 : about[index].lower,
-                         p == 0 ? kInfinity : about[index].upper, Observability::kIndistinguishable});
+                         p == 0 ? kInfinity : about[index].upper,
+                         Observability::kIndistinguishable});
         } else {
-          row.push_back(interval(about[index], p == 0, v[index], std::sqrt(covariance.matrix(at, at)), fit.confidence));
+          row.push_back(interval(about[index], p == 0, v[index],
+                                 std::sqrt(covariance.matrix(at, at)), fit.confidence));
         }
         for (Eigen::Index q = 0; q < size; ++q) {
           const auto other = static_cast<std::size_t>(place(sets.interior, first + q));
-          if (other < sets.interior.size()) local(p, q) = covariance.matrix(at, static_cast<Eigen::Index>(other));
+          if (other < sets.interior.size())
+            local(p, q) = covariance.matrix(at, static_cast<Eigen::Index>(other));
         }
       } else if (zero < sets.at_zero.size()) {
         const double error = power_error(first, 0.0);
         row.push_back({0.0, error, 0.0, z * error, Observability::kUpperBound});
       } else {  // a shape whose power is zero, or that ran into its bound
-        row.push_back({v[index], kInfinity, about[index].lower, about[index].upper, Observability::kIndistinguishable});
+        row.push_back({v[index], kInfinity, about[index].lower, about[index].upper,
+                       Observability::kIndistinguishable});
       }
     }
     if (row[0].observability == Observability::kUpperBound) {

@@ -8,15 +8,15 @@
 namespace imunoise {
 
 /// Confidence interval of one parameter from its standard error, on the scale that suits it.
-ParameterEstimate interval(const ParameterInfo& info, bool power, double value, double standard_error,
-                           double confidence);
+ParameterEstimate interval(const ParameterInfo& info, bool power, double value,
+                           double standard_error, double confidence);
 
-/// Standard error that a power (by its column) would have if it were worth `value`, all else as fitted;
-/// infinite when it cannot be told apart.
+/// Standard error that a power (by its column) would have if it were worth `value`, all else as
+/// fitted; infinite when it cannot be told apart.
 using PowerError = std::function<double(Eigen::Index column, double value)>;
 
-/// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model, in the
-/// order of `sets`.
+/// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model,
+/// in the order of `sets`.
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
                     const PowerError& power_error, Hertz rate);
 

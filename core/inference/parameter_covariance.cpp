@@ -14,20 +14,24 @@ ParameterSets parameter_sets(const Model& model) {
         (v[0] > 0.0 ? out.interior : out.at_zero).push_back(column);
         continue;
       }
-      const bool at_bound = v[p] <= about[p].lower * (1.0 + 1e-9) || v[p] >= about[p].upper * (1.0 - 1e-13);
+      const bool at_bound =
+          v[p] <= about[p].lower * (1.0 + 1e-9) || v[p] >= about[p].upper * (1.0 - 1e-13);
       if (v[0] > 0.0 && !at_bound) out.interior.push_back(column);
     }
   }
   return out;
 }
 
-Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix, const std::vector<Eigen::Index>& columns) {
+Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix,
+                             const std::vector<Eigen::Index>& columns) {
   Eigen::MatrixXd out(matrix.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = matrix.col(columns[i]);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    out.col(static_cast<Eigen::Index>(i)) = matrix.col(columns[i]);
   return out;
 }
 
-ParameterCovariance parameter_covariance(const Model& model, std::span<const WaveletVariance> replicates,
+ParameterCovariance parameter_covariance(const Model& model,
+                                         std::span<const WaveletVariance> replicates,
                                          const std::vector<Eigen::MatrixXd>& weight_roots,
                                          const PerReplicate& covariances,
                                          const std::vector<Eigen::Index>& set) {

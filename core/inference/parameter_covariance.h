@@ -8,7 +8,8 @@
 
 namespace imunoise {
 
-/// Which parameters of a fitted model the data can move. Columns follow the parameters of all terms.
+/// Which parameters of a fitted model the data can move. Columns follow the parameters of all
+/// terms.
 struct ParameterSets {
   std::vector<Eigen::Index> interior;  ///< free, and inside their bounds
   std::vector<Eigen::Index> at_zero;   ///< powers that the fit put at zero
@@ -16,14 +17,16 @@ struct ParameterSets {
 ParameterSets parameter_sets(const Model& model);
 
 /// Columns of a matrix, in the order asked for.
-Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix, const std::vector<Eigen::Index>& columns);
+Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix,
+                             const std::vector<Eigen::Index>& columns);
 
 /// Sandwich H⁻¹BH⁻¹ of the parameters in `set`, H = Σ AᵀΩA, B = Σ AᵀΩVΩA over the replicates.
 struct ParameterCovariance {
   Eigen::MatrixXd matrix;      ///< set × set
   Eigen::VectorXd null_share;  ///< near 1 where a parameter cannot be told from the others
 };
-ParameterCovariance parameter_covariance(const Model& model, std::span<const WaveletVariance> replicates,
+ParameterCovariance parameter_covariance(const Model& model,
+                                         std::span<const WaveletVariance> replicates,
                                          const std::vector<Eigen::MatrixXd>& weight_roots,
                                          const PerReplicate& covariances,
                                          const std::vector<Eigen::Index>& set);

@@ -1,5 +1,6 @@
-// Size of the test of fit and coverage of the intervals, over many simulated recordings. Every share is
-// compared with its nominal value; the allowance is 3.3 binomial standard errors, 1 false alarm in 1,000.
+// Size of the test of fit and coverage of the intervals, over many simulated recordings. Every
+// share is compared with its nominal value; the allowance is 3.3 binomial standard errors, 1 false
+// alarm in 1,000.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,8 @@ double share(const std::vector<Fit>& fits, const auto& holds) {
 double covered(const std::vector<Fit>& fits, std::size_t term, const DerivedQuantity& truth) {
   return share(fits, [&](const Fit& fit) {
     for (const DerivedEstimate& found : fit.derived[term]) {
-      if (found.coefficient == truth.coefficient) return found.lower <= truth.value && truth.value <= found.upper;
+      if (found.coefficient == truth.coefficient)
+        return found.lower <= truth.value && truth.value <= found.upper;
     }
     return false;
   });
@@ -43,8 +45,9 @@ class Calibration : public ::testing::TestWithParam<Trial> {
     const Model truth = testing::model_of(trial.truth);
     std::vector<Fit> out(kSets);
     for_each_index(kSets, [&](std::size_t i) {
-      const auto moments = testing::simulated_set(
-          truth, std::vector<std::size_t>(trial.replicates, trial.samples), trial.per_octave, kSeed + i);
+      const auto moments =
+          testing::simulated_set(truth, std::vector<std::size_t>(trial.replicates, trial.samples),
+                                 trial.per_octave, kSeed + i);
       out[i] = infer(mugmwm(testing::freed(truth), moments, weighting), moments);
     });
     return out;
@@ -52,7 +55,8 @@ class Calibration : public ::testing::TestWithParam<Trial> {
 
   static void expect_size(const std::vector<Fit>& fits) {
     for (const double nominal : {0.05, 0.01}) {
-      const double found = share(fits, [&](const Fit& fit) { return fit.goodness.p_value < nominal; });
+      const double found =
+          share(fits, [&](const Fit& fit) { return fit.goodness.p_value < nominal; });
       std::printf("    size %.1f %% at nominal %.0f %%\n", 100.0 * found, 100.0 * nominal);
       EXPECT_NEAR(found, nominal, testing::binomial_allowance(nominal, kSets)) << GetParam().truth;
     }
@@ -69,7 +73,8 @@ class Calibration : public ::testing::TestWithParam<Trial> {
         const double found = share(fits, [&](const Fit& fit) {
           return fit.parameters[t][p].lower <= value && value <= fit.parameters[t][p].upper;
         });
-        std::printf("    %s %s covered %.1f %%\n", info(process).name.data(), about[p].name.c_str(), 100.0 * found);
+        std::printf("    %s %s covered %.1f %%\n", info(process).name.data(), about[p].name.c_str(),
+                    100.0 * found);
         EXPECT_GE(found, lowest) << GetParam().truth << " " << about[p].name;
         EXPECT_LE(found, 0.98) << GetParam().truth << " " << about[p].name;
       }
@@ -92,24 +97,25 @@ TEST_P(Calibration, FullWeights) {
   expect_coverage(all, 0.95 - testing::binomial_allowance(0.95, kSets));
 }
 
-// Diagonal weights follow the noise of the moments: what happened to come out small weighs more. The bias
-// at scales of few degrees of freedom stays however many replicates there are, and the intervals, which
-// know the scatter only, cover less.
+// Diagonal weights follow the noise of the moments: what happened to come out small weighs more.
+// The bias at scales of few degrees of freedom stays however many replicates there are, and the
+// intervals, which know the scatter only, cover less.
 TEST_P(Calibration, DiagonalWeights) {
   const std::vector<Fit> all = fits(Weighting::kDiagonal);
   expect_size(all);
   expect_coverage(all, 0.87);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Calibration,
-                         ::testing::Values(Trial{"WN(sigma2=1) + RW(gamma2=1e-3)", 1},
-                                           Trial{"WN(sigma2=1) + RW(gamma2=1e-3)", 3},
-                                           Trial{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 1},
-                                           Trial{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 3},
-                                           Trial{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 1},
-                                           Trial{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 3},
-                                           Trial{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 1},
-                                           Trial{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 3}));
+INSTANTIATE_TEST_SUITE_P(
+    Models, Calibration,
+    ::testing::Values(Trial{"WN(sigma2=1) + RW(gamma2=1e-3)", 1},
+                      Trial{"WN(sigma2=1) + RW(gamma2=1e-3)", 3},
+                      Trial{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 1},
+                      Trial{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 3},
+                      Trial{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 1},
+                      Trial{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 3},
+                      Trial{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 1},
+                      Trial{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 3}));
 
 // Between the octaves the moments are strongly correlated; the test must stand that.
 TEST(CalibrationDense, FourScalesAnOctave) {
@@ -121,13 +127,15 @@ TEST(CalibrationDense, FourScalesAnOctave) {
     all[i] = infer(mugmwm(testing::freed(truth), moments, Weighting::kFull), moments);
   });
   const double found = share(all, [](const Fit& fit) { return fit.goodness.p_value < 0.05; });
-  std::printf("AR1+WN, T = 100,000, 4 scales an octave: size %.1f %% at nominal 5 %% (%d degrees of freedom)\n",
-              100.0 * found, all[0].goodness.degrees_of_freedom);
+  std::printf(
+      "AR1+WN, T = 100,000, 4 scales an octave: size %.1f %% at nominal 5 %% (%d degrees of "
+      "freedom)\n",
+      100.0 * found, all[0].goodness.degrees_of_freedom);
   EXPECT_NEAR(found, 0.05, testing::binomial_allowance(0.05, kFew));
 }
 
-// A random walk too weak for the recording: at the length that record_longer names it is seen in about half
-// of all recordings or more.
+// A random walk too weak for the recording: at the length that record_longer names it is seen in
+// about half of all recordings or more.
 TEST(RecordLonger, IsLongEnough) {
   constexpr std::size_t kShort = 8192;
   constexpr std::size_t kRecordings = 200;
@@ -164,9 +172,11 @@ TEST(RecordLonger, IsLongEnough) {
   const double before = seen_share(kShort);
   const double after = seen_share(length);
   const double twice = seen_share(2 * length);
-  std::printf("RW seen in %.0f %% at T = %zu; told %.2f times longer: %.0f %% there, %.0f %% at twice that; "
-              "%zu of %zu recordings were told a length\n",
-              100.0 * before, kShort, factor, 100.0 * after, 100.0 * twice, told.size(), kRecordings);
+  std::printf(
+      "RW seen in %.0f %% at T = %zu; told %.2f times longer: %.0f %% there, %.0f %% at twice "
+      "that; "
+      "%zu of %zu recordings were told a length\n",
+      100.0 * before, kShort, factor, 100.0 * after, 100.0 * twice, told.size(), kRecordings);
   EXPECT_LT(before, 0.3);
   EXPECT_GT(after, 0.5 - testing::binomial_allowance(0.5, kRecordings));
   EXPECT_GT(twice, after);

@@ -1,6 +1,7 @@
-// Which weights and how many scales an octave estimate best: mean square errors over simulated recordings.
-// Prints a table. Means suffer from the few runs in which one of two Markov noises all but vanishes, so
-// that medians stand beside them; what must hold is only that the default's is never far from the best.
+// Which weights and how many scales an octave estimate best: mean square errors over simulated
+// recordings. Prints a table. Means suffer from the few runs in which one of two Markov noises all
+// but vanishes, so that medians stand beside them; what must hold is only that the default's is
+// never far from the best.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,8 @@ namespace {
 constexpr std::uint64_t kSeed = 77'000;
 constexpr std::size_t kRuns = 150;
 
-// Relative error of a power, error of the logarithm of a correlation time (its law has a long tail).
+// Relative error of a power, error of the logarithm of a correlation time (its law has a long
+// tail).
 double squared_error(const Process& truth, const Process& found, std::size_t parameter) {
   const double a = values(truth)[parameter];
   const double b = values(found)[parameter];
@@ -47,7 +49,8 @@ double mean_of(const std::vector<double>& all) {
   return sum / static_cast<double>(all.size());
 }
 double median_of(std::vector<double> all) {
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2),
+                   all.end());
   return all[all.size() / 2];
 }
 
@@ -60,7 +63,8 @@ TEST_P(Efficiency, DefaultIsNotFarFromTheBest) {
       std::size(kWays), std::vector<std::vector<double>>(count, std::vector<double>(kRuns)));
   for_each_index(kRuns, [&](std::size_t i) {
     for (std::size_t w = 0; w < std::size(kWays); ++w) {
-      const auto moments = testing::simulated_set(truth, {trial.samples}, kWays[w].per_octave, kSeed + i);
+      const auto moments =
+          testing::simulated_set(truth, {trial.samples}, kWays[w].per_octave, kSeed + i);
       const Model found = mugmwm(testing::freed(truth), moments, kWays[w].weighting).model;
       std::size_t at = 0;
       for (std::size_t t = 0; t < truth.terms.size(); ++t) {
@@ -70,8 +74,8 @@ TEST_P(Efficiency, DefaultIsNotFarFromTheBest) {
       }
     }
   });
-  std::printf("%s, T = %zu, %zu runs, seeds from %llu: square errors relative to the best way\n", trial.truth,
-              trial.samples, kRuns, static_cast<unsigned long long>(kSeed));
+  std::printf("%s, T = %zu, %zu runs, seeds from %llu: square errors relative to the best way\n",
+              trial.truth, trial.samples, kRuns, static_cast<unsigned long long>(kSeed));
   std::printf("%-12s %-6s", "", "");
   for (const Way& way : kWays) std::printf("%8s", way.name);
   std::printf("   root of the best\n");
@@ -80,9 +84,11 @@ TEST_P(Efficiency, DefaultIsNotFarFromTheBest) {
     for (const ParameterInfo& about : parameters(term.process)) {
       for (const bool median : {false, true}) {
         std::vector<double> size;
-        for (const auto& way : errors) size.push_back(median ? median_of(way[at]) : mean_of(way[at]));
+        for (const auto& way : errors)
+          size.push_back(median ? median_of(way[at]) : mean_of(way[at]));
         const double best = *std::min_element(size.begin(), size.end());
-        std::printf("%-12s %-6s", median ? "" : (std::string(info(term.process).name) + " " + about.name).c_str(),
+        std::printf("%-12s %-6s",
+                    median ? "" : (std::string(info(term.process).name) + " " + about.name).c_str(),
                     median ? "median" : "mean");
         for (const double one : size) std::printf("%8.2f", one / best);
         std::printf("   %.4f\n", std::sqrt(best));
@@ -98,10 +104,11 @@ TEST_P(Efficiency, DefaultIsNotFarFromTheBest) {
 constexpr std::size_t kShort = std::size_t{1} << 15U;
 INSTANTIATE_TEST_SUITE_P(
     Models, Efficiency,
-    ::testing::Values(Case{"WN(sigma2=1) + RW(gamma2=1e-4)", kShort},
-                      Case{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", kShort},
-                      Case{"AR1(sigma2=0.01, phi=0.99501) + AR1(sigma2=0.1, phi=0.96079) + WN(sigma2=1)", kShort},
-                      Case{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", kShort}));
+    ::testing::Values(
+        Case{"WN(sigma2=1) + RW(gamma2=1e-4)", kShort},
+        Case{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", kShort},
+        Case{"AR1(sigma2=0.01, phi=0.99501) + AR1(sigma2=0.1, phi=0.96079) + WN(sigma2=1)", kShort},
+        Case{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", kShort}));
 
 }  // namespace
 }  // namespace imunoise

@@ -19,16 +19,20 @@ using testing::theory;
 constexpr std::uint64_t kSeed = 8'800;
 
 TEST(Goodness, AcceptsTheRightModelAndRejectsAWrongOne) {
-  const auto moments = simulated_set(model_of("AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)"), {16'384, 9'000}, 1, kSeed);
+  const auto moments = simulated_set(model_of("AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)"),
+                                     {16'384, 9'000}, 1, kSeed);
   for (const Weighting weighting : {Weighting::kDiagonal, Weighting::kFull}) {
-    EXPECT_GT(infer(mugmwm(model_of("AR1 + WN"), moments, weighting), moments).goodness.p_value, 1e-3);
+    EXPECT_GT(infer(mugmwm(model_of("AR1 + WN"), moments, weighting), moments).goodness.p_value,
+              1e-3);
     EXPECT_LT(infer(mugmwm(model_of("WN"), moments, weighting), moments).goodness.p_value, 1e-9);
-    EXPECT_LT(infer(mugmwm(model_of("WN + RW"), moments, weighting), moments).goodness.p_value, 1e-9);
+    EXPECT_LT(infer(mugmwm(model_of("WN + RW"), moments, weighting), moments).goodness.p_value,
+              1e-9);
   }
 }
 
 TEST(Goodness, JudgesTheModelNotTheWeights) {
-  const auto moments = simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {4096, 4096, 4096}, 1, kSeed);
+  const auto moments =
+      simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {4096, 4096, 4096}, 1, kSeed);
   const Model open = model_of("WN + RW");
   const Fit diagonal = infer(mugmwm(open, moments, Weighting::kDiagonal), moments);
   const Fit full = infer(mugmwm(open, moments, Weighting::kFull), moments);
@@ -37,7 +41,8 @@ TEST(Goodness, JudgesTheModelNotTheWeights) {
 }
 
 TEST(Goodness, DoesNotDependOnTheUnit) {
-  std::vector<WaveletVariance> moments = simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {4096}, 1, kSeed);
+  std::vector<WaveletVariance> moments =
+      simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {4096}, 1, kSeed);
   const Model open = model_of("WN + RW");
   const Fit before = infer(mugmwm(open, moments, Weighting::kFull), moments);
   constexpr double kFactor = 1e-12;
@@ -45,15 +50,18 @@ TEST(Goodness, DoesNotDependOnTheUnit) {
   moments[0].lower *= kFactor;
   moments[0].upper *= kFactor;
   const Fit after = infer(mugmwm(open, moments, Weighting::kFull), moments);
-  EXPECT_NEAR(after.goodness.statistic, before.goodness.statistic, 1e-6 * before.goodness.statistic);
+  EXPECT_NEAR(after.goodness.statistic, before.goodness.statistic,
+              1e-6 * before.goodness.statistic);
   for (std::size_t t = 0; t < 2; ++t) {
-    EXPECT_NEAR(after.parameters[t][0].upper / (kFactor * before.parameters[t][0].upper), 1.0, 1e-6);
-    EXPECT_NEAR(after.parameters[t][0].lower / (kFactor * before.parameters[t][0].lower), 1.0, 1e-6);
+    EXPECT_NEAR(after.parameters[t][0].upper / (kFactor * before.parameters[t][0].upper), 1.0,
+                1e-6);
+    EXPECT_NEAR(after.parameters[t][0].lower / (kFactor * before.parameters[t][0].lower), 1.0,
+                1e-6);
   }
 }
 
-// One scale of few degrees of freedom, nothing free: the p-value is that of the chi-square law on either
-// side, although the law is skew. (The size over whole models is in the trials.)
+// One scale of few degrees of freedom, nothing free: the p-value is that of the chi-square law on
+// either side, although the law is skew. (The size over whole models is in the trials.)
 TEST(Goodness, KnowsThatFewDegreesOfFreedomAreSkew) {
   const Model model = model_of("WN(sigma2=1)");
   for (const std::int64_t m : {16, 64, 120}) {
@@ -67,7 +75,8 @@ TEST(Goodness, KnowsThatFewDegreesOfFreedomAreSkew) {
     for (const double tail : {0.005, 0.025, 0.3, 0.7, 0.975, 0.995}) {
       moments[0].variance(0) = expected * chi_square_quantile(tail, edof) / edof;
       const double p = infer(mugmwm(model, moments, Weighting::kFull), moments).goodness.p_value;
-      EXPECT_NEAR(p / (2.0 * std::min(tail, 1.0 - tail)), 1.0, 0.05) << "edof " << edof << ", tail " << tail;
+      EXPECT_NEAR(p / (2.0 * std::min(tail, 1.0 - tail)), 1.0, 0.05)
+          << "edof " << edof << ", tail " << tail;
     }
   }
 }
@@ -80,7 +89,8 @@ TEST(Intervals, UpperBoundsCover) {
   std::vector<int> bound(kSets);
   for_each_index(kSets, [&](std::size_t i) {
     const auto moments = simulated_set(truth, {2048}, 1, kSeed + i);
-    const ParameterEstimate walk = infer(mugmwm(freed(truth), moments, Weighting::kFull), moments).parameters[1][0];
+    const ParameterEstimate walk =
+        infer(mugmwm(freed(truth), moments, Weighting::kFull), moments).parameters[1][0];
     bound[i] = walk.observability == Observability::kUpperBound ? 1 : 0;
     covered[i] = walk.lower <= 2e-4 && 2e-4 <= walk.upper ? 1 : 0;
   });
@@ -90,17 +100,20 @@ TEST(Intervals, UpperBoundsCover) {
     share += covered[i] / static_cast<double>(kSets);
     bounds += bound[i] / static_cast<double>(kSets);
   }
-  std::printf("covered %.1f %%, of which %.0f %% are upper bounds\n", 100.0 * share, 100.0 * bounds);
+  std::printf("covered %.1f %%, of which %.0f %% are upper bounds\n", 100.0 * share,
+              100.0 * bounds);
   EXPECT_GT(bounds, 0.3);
   EXPECT_GE(share, 0.95 - testing::binomial_allowance(0.95, kSets));
 }
 
 TEST(Intervals, SayWhatTheDataSay) {
-  const auto moments = simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {16'384}, 1, kSeed);
+  const auto moments =
+      simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {16'384}, 1, kSeed);
   const Fit seen = infer(mugmwm(model_of("WN + RW"), moments, Weighting::kFull), moments);
   EXPECT_EQ(seen.parameters[0][0].observability, Observability::kObserved);
   EXPECT_EQ(record_longer(seen, moments, 1, 0), 1.0);
-  const Fit given = infer(mugmwm(model_of("WN(sigma2=1) + RW"), moments, Weighting::kFull), moments);
+  const Fit given =
+      infer(mugmwm(model_of("WN(sigma2=1) + RW"), moments, Weighting::kFull), moments);
   EXPECT_EQ(given.parameters[0][0].observability, Observability::kGiven);
   EXPECT_EQ(given.parameters[0][0].lower, 1.0);
   EXPECT_LT(given.goodness.degrees_of_freedom, 20);

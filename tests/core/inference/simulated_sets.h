@@ -1,6 +1,7 @@
 #pragma once
 
-// Simulated recordings of known models, with their moments: what the trials of inference are made of.
+// Simulated recordings of known models, with their moments: what the trials of inference are made
+// of.
 
 #include <cmath>
 #include <string>
@@ -16,14 +17,16 @@ inline constexpr Hertz kTrialRate{100};
 /// The model that a trusted text names.
 inline Model model_of(const std::string& text) { return parse_model(text, kTrialRate).value(); }
 
-/// The same terms with every parameter free: what a user who does not know the values would ask for.
+/// The same terms with every parameter free: what a user who does not know the values would ask
+/// for.
 inline Model freed(Model model) {
   for (Term& term : model.terms) term.given.assign(term.given.size(), false);
   return model;
 }
 
 /// Moments of `lengths.size()` simulated replicates of one truth.
-inline std::vector<WaveletVariance> simulated_set(const Model& truth, const std::vector<std::size_t>& lengths,
+inline std::vector<WaveletVariance> simulated_set(const Model& truth,
+                                                  const std::vector<std::size_t>& lengths,
                                                   int per_octave, std::uint64_t seed) {
   std::vector<WaveletVariance> out;
   for (std::size_t k = 0; k < lengths.size(); ++k) {
@@ -45,7 +48,8 @@ inline WaveletVariance theory(const Model& truth, std::size_t samples, int per_o
   return out;
 }
 
-/// How far a share of n trials may lie from its nominal value: 3.3 binomial standard errors (1 in 1,000).
+/// How far a share of n trials may lie from its nominal value: 3.3 binomial standard errors (1 in
+/// 1,000).
 inline double binomial_allowance(double nominal, double n) {
   return 3.3 * std::sqrt(nominal * (1.0 - nominal) / n);
 }
