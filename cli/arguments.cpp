@@ -60,7 +60,8 @@ void add_input(CLI::App& app, Raw& raw) {
       ->required()
       ->check(CLI::ExistingFile);
   app.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // what follows the name is a file again
   app.add_option("--rate", raw.rate, "Sampling rate in Hz, where the file does not say")
       ->check(CLI::PositiveNumber);
   app.add_option("--unit", raw.unit,
@@ -123,7 +124,7 @@ study::MeasureOptions measure_from(const Raw& raw) {
 }  // namespace
 
 std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
-  CLI::App app("imunoise: noise models of inertial sensors, from static recordings");
+  CLI::App app("imunoise: noise models of inertial sensors, from static recordings", "imunoise");
   app.footer(kExamples);
   app.set_version_flag("--version", IMUNOISE_VERSION);
   app.require_subcommand(1);

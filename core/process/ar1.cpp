@@ -74,7 +74,8 @@ std::vector<DerivedQuantity> Ar1::derived(Hertz rate) const {
 std::vector<double> scanned_correlation_times(const Scales& scales) {
   std::vector<double> out;
   const double longest = scales.empty() ? 1.0 : 4.0 * static_cast<double>(scales.largest());
-  for (double time = 0.25; time <= longest; time *= std::numbers::sqrt2) out.push_back(time);
+  const int steps = static_cast<int>(std::floor(2.0 * std::log2(longest / 0.25)));
+  for (int i = 0; i <= steps; ++i) out.push_back(0.25 * std::exp2(0.5 * i));
   out.push_back(1e4 * longest);  // as good as a random walk
   return out;
 }

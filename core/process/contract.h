@@ -23,8 +23,8 @@ struct ProcessInfo {
   std::string_view name;     ///< in the grammar: "AR1"
   std::string_view title;    ///< plain: "first-order Markov noise"
   std::string_view meaning;  ///< its physical meaning, one sentence
-  std::string_view structure =
-      "";  ///< what the whole number in NAME(3) counts; empty when there is none
+  std::string_view
+      structure{};  ///< what the whole number in NAME(3) counts; empty when there is none
 };
 
 /// The dimension of a parameter, from which its unit is printed.

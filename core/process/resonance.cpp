@@ -85,9 +85,11 @@ std::vector<std::vector<double>> Resonance::scan(const Scales& scales) const {
   std::vector<std::vector<double>> out;
   const double slowest = scales.empty() ? 1.0 : 1.0 / static_cast<double>(scales.largest());
   for (const double decay : {0.4, 0.7, 0.85, 0.93, 0.97, 0.99, 0.998}) {
-    for (double angle = 2.9; angle > 0.5; angle -= 0.2) out.push_back({decay, angle});
-    for (double angle = 0.5; angle > std::max(slowest, 1e-3); angle /= 1.4) {
+    for (int i = 0; i < 12; ++i) out.push_back({decay, 2.9 - 0.2 * i});
+    double angle = 0.5;
+    while (angle > std::max(slowest, 1e-3)) {
       if (angle > 0.3 * (1.0 - decay)) out.push_back({decay, angle});
+      angle /= 1.4;
     }
   }
   return out;

@@ -37,7 +37,7 @@ struct Recurrence {
     double norm = now * now;
     double root = 0.0;
     for (int k = 0; k < kOrder; ++k) {
-      const double next_root = k + 1 < kOrder ? std::sqrt(b[static_cast<std::size_t>(k + 1)]) : 1.0;
+      const double next_root = k + 1 < kOrder ? std::sqrt(b[static_cast<std::size_t>(k) + 1]) : 1.0;
       const double next = (x * now - root * before) / next_root;
       const double next_slope = (now + x * slope - root * slope_before) / next_root;
       before = now;
@@ -54,7 +54,7 @@ struct Recurrence {
 }  // namespace
 
 DiscreteRule discrete_rule(std::int64_t points) {
-  assert(points >= 3 * kOrder);
+  assert(points >= DiscreteRule::kLeastPoints);
   const Recurrence recurrence(points);
   const double half = 0.5 * recurrence.points;
   DiscreteRule out{};

@@ -9,11 +9,12 @@ namespace imunoise {
 /// degree 2·kOrder - 1: Gauss quadrature for the discrete uniform measure (Gram polynomials).
 struct DiscreteRule {
   static constexpr int kOrder = 12;
+  static constexpr std::int64_t kLeastPoints = 36;  ///< fewer are summed one by one
   std::array<double, kOrder> nodes;
   std::array<double, kOrder> weights;
 };
 
-/// The rule for N points, N ≥ 3·kOrder.
+/// The rule for N points, N ≥ kLeastPoints.
 DiscreteRule discrete_rule(std::int64_t points);
 
 }  // namespace imunoise

@@ -18,6 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::array<double, 3> kDifference = {1.0, -2.0, 1.0};  // p of the Haar wavelet on sums
+constexpr auto kLeastPanel = static_cast<double>(DiscreteRule::kLeastPoints);
 constexpr double kForgotten = 27.0;  // e^-27: an exponential counts as zero after this many lengths
 constexpr double kNothing = 45.0;    // e^-45: below the rounding of anything it is added to
 constexpr double kSmooth = 16.0;     // |log root|·lag below which polynomials are split off
@@ -73,8 +74,7 @@ class CrossCovariance {
   std::int64_t direct_reach() const {
     double reach = std::max(12.0, static_cast<double>(process_.near.size()));
     for (const Exponential& e : exponentials_) {
-      if (longest_panel(e) < 3.0 * DiscreteRule::kOrder)
-        reach = std::max(reach, kForgotten / e.rate.real());
+      if (longest_panel(e) < kLeastPanel) reach = std::max(reach, kForgotten / e.rate.real());
     }
     return static_cast<std::int64_t>(std::min(reach, 1e9));
   }
@@ -85,7 +85,7 @@ class CrossCovariance {
     for (const Exponential& e : exponentials_) {
       if (distance * e.rate.real() < kForgotten) limit = std::min(limit, longest_panel(e));
     }
-    return std::max(limit, 3.0 * DiscreteRule::kOrder);
+    return std::max(limit, kLeastPanel);
   }
 
   // Lags beyond the support after which γ is negligible.
@@ -197,9 +197,9 @@ class LagSums {
           done < reach_
               ? reach_ - done
               : static_cast<std::int64_t>(std::min(3.0 * distance, gamma_.panel_limit(distance)));
-      if (total - done - length < 3 * DiscreteRule::kOrder) length = total - done;
+      if (total - done - length < DiscreteRule::kLeastPoints) length = total - done;
       const std::int64_t from = direction > 0 ? kink + done : kink - done - length;
-      if (done < reach_ || length < 3 * DiscreteRule::kOrder) {
+      if (done < reach_ || length < DiscreteRule::kLeastPoints) {
         for (std::int64_t s = from; s < from + length; ++s) add(static_cast<double>(s), 1.0);
       } else {
         auto found = rules_.find(length);

@@ -3,6 +3,7 @@
 // Stable pieces of Γ(s) for exponential and flicker covariances, shared by the wavelet variance of
 // a process and by the covariance of moments.
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -24,11 +25,11 @@ template <class Scalar>
 Scalar exponential_remainder(Scalar x) {
   if (std::abs(x) > 1.0) return std::exp(-x) - 1.0 + x * (1.0 - x * (0.5 - x / 6.0));
   // x⁴/4! (1 - x/5 (1 - x/6 (1 - ...))), to double precision for |x| ≤ 1.
-  constexpr double kInverse[] = {1.0 / 5,  1.0 / 6,  1.0 / 7,  1.0 / 8,  1.0 / 9,
-                                 1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14,
-                                 1.0 / 15, 1.0 / 16, 1.0 / 17, 1.0 / 18};
+  constexpr std::array<double, 14> kInverse = {1.0 / 5,  1.0 / 6,  1.0 / 7,  1.0 / 8,  1.0 / 9,
+                                               1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14,
+                                               1.0 / 15, 1.0 / 16, 1.0 / 17, 1.0 / 18};
   Scalar sum = 1.0;
-  for (int k = 13; k >= 0; --k) sum = 1.0 - x * kInverse[k] * sum;
+  for (std::size_t k = kInverse.size(); k-- > 0;) sum = 1.0 - x * kInverse[k] * sum;
   return x * x * x * x / 24.0 * sum;
 }
 
