@@ -65,15 +65,18 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
   Estimate out;
   out.weighting = weighting;
   out.weight_roots = diagonal_roots(replicates);
-  Minimum found = minimise(tied_problem(model, replicates, out.weight_roots), progress);
-  for (int round = 0; weighting == Weighting::kFull && round < kMostReweightings; ++round) {
+  const Problem first = tied_problem(model, replicates, out.weight_roots);
+  const bool full = weighting == Weighting::kFull;
+  Minimum found = full ? minimise_roughly(first, progress) : minimise(first, progress);
+  if (full && !gives_weights(found.model, replicates)) found = minimise(first, progress);
+  for (int round = 0; full && round < kMostReweightings; ++round) {
     if (progress.stopped() || !gives_weights(found.model, replicates)) break;
     const Eigen::ArrayXd before = variance(found.model, replicates[0].scales.half_widths());
     out.weight_roots = full_roots(found.model, replicates);
     const Problem problem = tied_problem(model, replicates, out.weight_roots);
-    // New weights may favour another minimum: scan once more with the first of them, then follow
-    // it.
-    found = round == 0 ? minimise(problem, progress) : minimise(problem, progress, &found.model);
+    // The whole search is made once, with the first full weights; later rounds follow it.
+    found =
+        round == 0 ? minimise(problem, progress) : minimise_from(problem, found.model, progress);
     const Eigen::ArrayXd after = variance(found.model, replicates[0].scales.half_widths());
     if (((after - before).abs() <= 1e-7 * after).all()) break;
   }

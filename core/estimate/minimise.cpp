@@ -140,19 +140,35 @@ std::string_view describe(Termination termination) {
   return "stopped";
 }
 
-Minimum minimise(const Problem& problem, const Progress& progress, const Model* start) {
-  const Profile profile(problem);
-  Refined found;
-  if (profile.coordinates().empty()) {
-    found.termination = Termination::kLinear;
-  } else if (start != nullptr) {
-    found = refine(profile, profile.coordinates_of(*start), progress);
-  } else {
-    found = search(problem, progress);
-  }
-  if (progress.stopped()) found.termination = Termination::kStopped;
+namespace {
+
+Minimum at_point(const Profile& profile, const Refined& found, const Progress& progress) {
   const Profile::Point point = profile.at(found.x);
-  return {sorted(point.model), point.objective, found.termination};
+  return {sorted(point.model), point.objective,
+          progress.stopped() ? Termination::kStopped : found.termination};
+}
+
+Refined nothing_to_search() { return {{}, 0.0, Termination::kLinear}; }
+
+}  // namespace
+
+Minimum minimise(const Problem& problem, const Progress& progress) {
+  const Profile profile(problem);
+  const bool linear = profile.coordinates().empty();
+  return at_point(profile, linear ? nothing_to_search() : search(problem, progress), progress);
+}
+
+Minimum minimise_from(const Problem& problem, const Model& start, const Progress& progress) {
+  const Profile profile(problem);
+  if (profile.coordinates().empty()) return at_point(profile, nothing_to_search(), progress);
+  return at_point(profile, refine(profile, profile.coordinates_of(start), progress), progress);
+}
+
+Minimum minimise_roughly(const Problem& problem, const Progress& progress) {
+  const Profile profile(problem);
+  if (profile.coordinates().empty()) return at_point(profile, nothing_to_search(), progress);
+  return at_point(profile, refine(profile, starting_points(profile, 1).front(), progress),
+                  progress);
 }
 
 }  // namespace imunoise

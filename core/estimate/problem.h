@@ -43,8 +43,14 @@ struct Minimum {
 /// Solves the problem. Powers are found exactly by non-negative least squares for each trial of the
 /// other parameters, which are scanned on a grid and then refined from the best points of it, and
 /// from the best smaller model plus one more term. No random numbers: the same answer on every run
-/// and for any number of threads. When `start` is given, only that point is refined.
-Minimum minimise(const Problem& problem, const Progress& progress = {},
-                 const Model* start = nullptr);
+/// and for any number of threads.
+Minimum minimise(const Problem& problem, const Progress& progress = {});
+
+/// Refines one point only: the shapes of `start`, a model of the same terms.
+Minimum minimise_from(const Problem& problem, const Model& start, const Progress& progress = {});
+
+/// Refines the best point of the scan only: good enough to make weights from, at a fraction of the
+/// cost.
+Minimum minimise_roughly(const Problem& problem, const Progress& progress = {});
 
 }  // namespace imunoise
