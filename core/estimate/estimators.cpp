@@ -1,5 +1,6 @@
 #include "core/estimate/estimators.h"
 
+#include <cmath>
 #include <numeric>
 
 #include "core/support/linear_algebra.h"
@@ -10,36 +11,13 @@ namespace {
 
 constexpr int kMostReweightings = 2;
 
-std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates) {
-  std::vector<Eigen::MatrixXd> out;
-  for (const WaveletVariance& wv : replicates) {
-    const Eigen::ArrayXd width = wv.upper - wv.lower;
-    out.emplace_back((width > 0.0).select(1.0 / width, 0.0).matrix().asDiagonal());
-  }
-  return out;
-}
-
 std::vector<Eigen::MatrixXd> full_roots(const Model& model,
                                         std::span<const WaveletVariance> replicates) {
-  const PerReplicate covariances = moment_covariances(model, replicates);
-  const PerReplicate roots = PerReplicate::of(replicates, [&](const WaveletVariance& wv) {
-    const auto at = static_cast<std::size_t>(&wv - replicates.data());
-    return whiten(covariances[at]).matrix;
-  });
+  const MomentCovariances covariances = moment_covariances(model, replicates);
+  const auto roots = PerReplicate<Eigen::MatrixXd>::of(
+      replicates, [&](std::size_t k) { return whiten(covariances[k]).matrix; });
   std::vector<Eigen::MatrixXd> out;
   for (std::size_t k = 0; k < replicates.size(); ++k) out.push_back(roots[k]);
-  return out;
-}
-
-// Every replicate sees every term: all parameters are tied.
-Problem tied_problem(const Model& model, std::span<const WaveletVariance> replicates,
-                     const std::vector<Eigen::MatrixXd>& roots) {
-  std::vector<std::size_t> all(model.terms.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  Problem out{model, {}};
-  for (std::size_t k = 0; k < replicates.size(); ++k) {
-    out.blocks.push_back({replicates[k].scales, replicates[k].variance.matrix(), roots[k], all});
-  }
   return out;
 }
 
@@ -53,11 +31,57 @@ bool gives_weights(const Model& model, std::span<const WaveletVariance> replicat
 
 }  // namespace
 
-PerReplicate moment_covariances(const Model& model, std::span<const WaveletVariance> replicates) {
+MomentCovariances moment_covariances(const Model& model,
+                                     std::span<const WaveletVariance> replicates) {
   const SumCovariance process = sum_covariance(model);
-  return PerReplicate::of(replicates, [&](const WaveletVariance& wv) -> Eigen::MatrixXd {
+  return MomentCovariances::of(replicates, [&](std::size_t k) -> Eigen::MatrixXd {
+    const WaveletVariance& wv = replicates[k];
     return moment_covariance(process, wv.scales, wv.samples) / wv.efficiency;
   });
+}
+
+std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates) {
+  std::vector<Eigen::MatrixXd> out;
+  for (const WaveletVariance& wv : replicates) {
+    const Eigen::ArrayXd width = wv.upper - wv.lower;
+    out.emplace_back((width > 0.0).select(1.0 / width, 0.0).matrix().asDiagonal());
+  }
+  return out;
+}
+
+Problem tied_problem(const Model& model, std::span<const WaveletVariance> replicates,
+                     std::span<const Eigen::MatrixXd> weight_roots) {
+  std::vector<std::size_t> all(model.terms.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Problem out{model, {}};
+  double within = 0.0;  // Σ over replicates of their distance from the average they enter as
+  std::vector<bool> done(replicates.size(), false);
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    if (done[k]) continue;
+    std::vector<std::size_t> group;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(replicates[k].variance.size());
+    for (std::size_t l = k; l < replicates.size(); ++l) {
+      if (done[l] || !(replicates[l].scales == replicates[k].scales) ||
+          weight_roots[l] != weight_roots[k]) {
+        continue;
+      }
+      done[l] = true;
+      group.push_back(l);
+      mean += replicates[l].variance.matrix();
+    }
+    const auto count = static_cast<double>(group.size());
+    mean /= count;
+    for (const std::size_t l : group) {
+      within += (weight_roots[l] * (replicates[l].variance.matrix() - mean)).squaredNorm();
+    }
+    out.blocks.push_back({replicates[k].scales, mean, std::sqrt(count) * weight_roots[k], all});
+  }
+  // A moment that no term explains adds this constant to the objective.
+  out.blocks.push_back({Scales({1}),
+                        Eigen::VectorXd::Constant(1, std::sqrt(within)),
+                        Eigen::MatrixXd::Identity(1, 1),
+                        {}});
+  return out;
 }
 
 Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/per_replicate.h"
 #include "core/estimate/problem.h"
 #include "core/wavelet/wavelet_variance.h"
 
@@ -14,24 +15,23 @@ enum class Weighting {
   kFull,      ///< Ω = V(θ̂)⁻¹, the exact covariance of the moments under the model, iterated
 };
 
-/// One matrix a replicate; replicates of equal length and scales share theirs.
-class PerReplicate {
- public:
-  const Eigen::MatrixXd& operator[](std::size_t replicate) const {
-    return distinct_[index_[replicate]];
-  }
-  /// make(wv) is called once for each distinct (length, scales, efficiency).
-  template <class Make>
-  static PerReplicate of(std::span<const WaveletVariance> replicates, const Make& make);
-
- private:
-  std::vector<Eigen::MatrixXd> distinct_;
-  std::vector<std::size_t> index_;
-};
+/// One n × n matrix a replicate, for its n moments.
+using MomentCovariances = PerReplicate<Eigen::MatrixXd>;
 
 /// Covariance V(θ) of the moments of each replicate under the model; widened by 1/efficiency for
 /// the robust estimator.
-PerReplicate moment_covariances(const Model& model, std::span<const WaveletVariance> replicates);
+MomentCovariances moment_covariances(const Model& model,
+                                     std::span<const WaveletVariance> replicates);
+
+/// The problem of one model for all replicates, with weights given: Ω_k = rootᵀ·root, one root a
+/// replicate. Replicates with the same scales and weights enter as their average, which has the
+/// same minimum and objective.
+Problem tied_problem(const Model& model, std::span<const WaveletVariance> replicates,
+                     std::span<const Eigen::MatrixXd> weight_roots);
+
+/// Weights of the peers' objective, one root a replicate: diag(1/(upper - lower)) of its χ²
+/// intervals.
+std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates);
 
 /// An estimate and the weights that it was made with.
 struct Estimate {
@@ -56,22 +56,5 @@ struct AverageEstimate {
 };
 AverageEstimate agmwm(const Model& model, std::span<const WaveletVariance> replicates,
                       Weighting weighting, const Progress& progress = {});
-
-template <class Make>
-PerReplicate PerReplicate::of(std::span<const WaveletVariance> replicates, const Make& make) {
-  PerReplicate out;
-  std::vector<const WaveletVariance*> first;
-  for (const WaveletVariance& wv : replicates) {
-    std::size_t i = 0;
-    while (i < first.size() && !(first[i]->samples == wv.samples && first[i]->scales == wv.scales &&
-                                 first[i]->efficiency == wv.efficiency)) {
-      ++i;
-    }
-    if (i == first.size()) first.push_back(&wv);
-    out.index_.push_back(i);
-  }
-  for (const WaveletVariance* wv : first) out.distinct_.push_back(make(*wv));
-  return out;
-}
 
 }  // namespace imunoise

@@ -8,22 +8,11 @@
 namespace imunoise {
 
 double Profile::Coordinate::to_search(double value) const {
-  const double inside = std::clamp(value, info.lower, info.upper);
-  if (info.logarithmic) return std::log(inside);
-  const double gap = 1e-14 * (info.upper - info.lower);
-  return std::log(std::max(inside - info.lower, gap) / std::max(info.upper - inside, gap));
+  return scale().to_scale(std::clamp(value, info.lower, info.upper));
 }
 
 double Profile::Coordinate::to_value(double search) const {
-  if (info.logarithmic) return std::clamp(std::exp(search), info.lower, info.upper);
-  const double width = info.upper - info.lower;
-  const double tail = width / (1.0 + std::exp(std::abs(search)));
-  return search < 0.0 ? info.lower + tail : info.upper - tail;
-}
-
-double Profile::Coordinate::slope(double value) const {
-  if (info.logarithmic) return value;
-  return (value - info.lower) * (info.upper - value) / (info.upper - info.lower);
+  return std::clamp(scale().to_value(search), info.lower, info.upper);
 }
 
 Profile::Profile(const Problem& problem) : problem_(problem) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/estimate/parameter_scale.h"
 #include "core/estimate/problem.h"
 
 namespace imunoise {
@@ -18,7 +19,10 @@ class Profile {
     ParameterInfo info;
     double to_search(double value) const;
     double to_value(double search) const;
-    double slope(double value) const;  ///< d value / d search
+    double slope(double value) const { return scale().slope(value); }  ///< d value / d search
+
+   private:
+    ParameterScale scale() const { return {info, parameter}; }
   };
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
 

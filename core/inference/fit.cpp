@@ -31,7 +31,8 @@ double error_of_power(const Model& model, std::span<const WaveletVariance> repli
                       std::vector<Eigen::Index> interior, Eigen::Index column, double value) {
   auto found = std::find(interior.begin(), interior.end(), column);
   if (found == interior.end()) found = interior.insert(found, column);
-  const PerReplicate covariances = moment_covariances(with_power(model, column, value), replicates);
+  const MomentCovariances covariances =
+      moment_covariances(with_power(model, column, value), replicates);
   const auto at = static_cast<Eigen::Index>(found - interior.begin());
   const ParameterCovariance c =
       parameter_covariance(model, replicates, weight_roots, covariances, interior);
@@ -39,29 +40,28 @@ double error_of_power(const Model& model, std::span<const WaveletVariance> repli
   return std::sqrt(c.matrix(at, at));
 }
 
-void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates) {
+void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates,
+                    const PerReplicate<NormalScores>& scores) {
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const Eigen::ArrayXd nu = variance(fit.estimate.model, replicates[k].scales.half_widths());
     fit.residuals.emplace_back((replicates[k].variance - nu) /
                                fit.covariances[k].diagonal().array().sqrt());
-    fit.tested.push_back(tested_scales(fit.estimate.model, replicates[k], fit.covariances[k]));
+    fit.tested.push_back(scores[k].used());
   }
+}
+
+TestOutcome test_of_fit(const Model& model, std::span<const WaveletVariance> replicates,
+                        const PerReplicate<NormalScores>& scores) {
+  return goodness_of_fit(ScoreBlocks(model, replicates, scores));
 }
 
 // The test is of the model, not of the estimate: it is made at the efficient one. Diagonal weights
 // follow the noise of the moments, which biases their estimate, and with it the covariance that the
 // test needs.
-GoodnessOfFit test_of_fit(const Fit& fit, std::span<const WaveletVariance> replicates) {
-  if (fit.estimate.weighting == Weighting::kFull) {
-    return goodness_of_fit(fit.estimate.model, replicates, fit.covariances, fit.tested);
-  }
-  const Model model = mugmwm(fit.estimate.model, replicates, Weighting::kFull).model;
-  const PerReplicate covariances = moment_covariances(model, replicates);
-  std::vector<std::vector<bool>> tested;
-  for (std::size_t k = 0; k < replicates.size(); ++k) {
-    tested.push_back(tested_scales(model, replicates[k], covariances[k]));
-  }
-  return goodness_of_fit(model, replicates, covariances, tested);
+TestOutcome test_at_full_weights(const Model& open, std::span<const WaveletVariance> replicates) {
+  const Model model = mugmwm(open, replicates, Weighting::kFull).model;
+  return test_of_fit(model, replicates,
+                     normal_scores(model, replicates, moment_covariances(model, replicates)));
 }
 
 }  // namespace
@@ -72,7 +72,8 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
   fit.estimate = std::move(estimate);
   const Model& model = fit.estimate.model;
   fit.covariances = moment_covariances(model, replicates);
-  fill_residuals(fit, replicates);
+  const PerReplicate<NormalScores> scores = normal_scores(model, replicates, fit.covariances);
+  fill_residuals(fit, replicates, scores);
   const ParameterSets sets = parameter_sets(model);
   const auto& roots = fit.estimate.weight_roots;
   const ParameterCovariance covariance =
@@ -81,7 +82,9 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
     return error_of_power(model, replicates, roots, sets.interior, column, value);
   };
   fill_intervals(fit, sets, covariance, power_error, replicates[0].rate);
-  fit.goodness = test_of_fit(fit, replicates);
+  fit.goodness = fit.estimate.weighting == Weighting::kFull
+                     ? test_of_fit(model, replicates, scores)
+                     : test_at_full_weights(model, replicates);
   return fit;
 }
 
@@ -92,7 +95,7 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
   fit.estimate = average.average;
   const Model& model = fit.estimate.model;
   fit.covariances = moment_covariances(model, replicates);
-  fill_residuals(fit, replicates);
+  fill_residuals(fit, replicates, normal_scores(model, replicates, fit.covariances));
   const ParameterSets sets = parameter_sets(model);
   const auto size = static_cast<Eigen::Index>(sets.interior.size());
   ParameterCovariance mean{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
@@ -100,14 +103,15 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const auto one = replicates.subspan(k, 1);
     const std::vector<Eigen::MatrixXd> root = {fit.estimate.weight_roots[k]};
-    const PerReplicate covariances = moment_covariances(model, one);
+    const MomentCovariances covariances = moment_covariances(model, one);
     const ParameterCovariance c =
         parameter_covariance(model, one, root, covariances, sets.interior);
     mean.matrix += c.matrix / (count * count);
     mean.null_share = mean.null_share.cwiseMax(c.null_share);
     const Fit separate = infer(average.separate[k], one, confidence);
-    fit.goodness.statistic += separate.goodness.statistic;
-    fit.goodness.degrees_of_freedom += separate.goodness.degrees_of_freedom;
+    fit.goodness =
+        chi_square_test(fit.goodness.statistic + separate.goodness.statistic,
+                        fit.goodness.degrees_of_freedom + separate.goodness.degrees_of_freedom);
   }
   const auto power_error = [&](Eigen::Index column, double value) {
     double squares = 0.0;
@@ -120,7 +124,6 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
     return std::sqrt(squares) / count;
   };
   fill_intervals(fit, sets, mean, power_error, replicates[0].rate);
-  fit.goodness.p_value = chi_square_tail(fit.goodness.statistic, fit.goodness.degrees_of_freedom);
   return fit;
 }
 
@@ -153,7 +156,7 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
       wv.scales = Scales(std::move(scales));
       wv.samples *= static_cast<std::size_t>(times);
     }
-    const PerReplicate covariances = moment_covariances(model, longer);
+    const MomentCovariances covariances = moment_covariances(model, longer);
     std::vector<Eigen::MatrixXd> roots;
     for (std::size_t k = 0; k < longer.size(); ++k) roots.push_back(whiten(covariances[k]).matrix);
     const ParameterCovariance c =

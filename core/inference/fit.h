@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/estimate/estimators.h"
+#include "core/inference/goodness.h"
 
 namespace imunoise {
 
@@ -32,25 +33,16 @@ struct DerivedEstimate {
   double upper;
 };
 
-/// Does the shape of the model fit every replicate? Asymptotically χ²: residuals on the scale on
-/// which they are normal (cube root), whitened, and taken orthogonal to what the free parameters
-/// can still explain (Rao & Robson 1974; Newey 1985). Only scales with at least 5 exact degrees of
-/// freedom take part. The test is made at the estimate with full weights, whatever the weights of
-/// the fit.
-struct GoodnessOfFit {
-  double statistic = 0.0;
-  int degrees_of_freedom = 0;
-  double p_value = 1.0;
-};
-
 /// A fit with everything inference adds to it.
 struct Fit {
   Estimate estimate;
   double confidence = 0.95;
   std::vector<std::vector<ParameterEstimate>> parameters;  ///< a row a term, in its order
   std::vector<std::vector<DerivedEstimate>> derived;       ///< a row a term
-  GoodnessOfFit goodness;
-  PerReplicate covariances;               ///< V(θ̂) of the moments of each replicate
+  /// Does the model fit all replicates? Made at the estimate with full weights, whatever the
+  /// weights of the fit.
+  TestOutcome goodness;
+  MomentCovariances covariances;          ///< V(θ̂) of the moments of each replicate
   std::vector<Eigen::ArrayXd> residuals;  ///< a row a replicate: (ν̂ - ν)/√V_jj
   std::vector<std::vector<bool>> tested;  ///< a row a replicate: scales that the test uses
 };

@@ -1,16 +1,20 @@
 #pragma once
 
-#include "core/inference/fit.h"
+#include "core/inference/normal_scores.h"
 
 namespace imunoise {
 
-/// Scales of a replicate with at least 5 exact equivalent degrees of freedom 2ν²/V_jj.
-std::vector<bool> tested_scales(const Model& model, const WaveletVariance& wv,
-                                const Eigen::MatrixXd& covariance);
+/// A χ² test.
+struct TestOutcome {
+  double statistic = 0.0;
+  int degrees_of_freedom = 0;
+  double p_value = 1.0;
+};
+TestOutcome chi_square_test(double statistic, Eigen::Index degrees_of_freedom);
 
-/// The test of fit of one model to all replicates, on the tested scales.
-GoodnessOfFit goodness_of_fit(const Model& model, std::span<const WaveletVariance> replicates,
-                              const PerReplicate& covariances,
-                              const std::vector<std::vector<bool>>& tested);
+/// Does the shape of the model fit all replicates? Residuals on the scale on which they are normal,
+/// whitened, and taken orthogonal to what the free parameters can still explain (Rao & Robson 1974;
+/// Newey 1985).
+TestOutcome goodness_of_fit(const ScoreBlocks& blocks);
 
 }  // namespace imunoise

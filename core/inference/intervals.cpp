@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/estimate/parameter_scale.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
@@ -93,32 +94,23 @@ double upper_bound(double value, double upper, double z, Eigen::Index column,
 
 }  // namespace
 
-ParameterEstimate interval(const ParameterInfo& info, bool power, double value,
+ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
                            double standard_error, double confidence) {
   const double z = normal_quantile(0.5 + 0.5 * confidence);
+  const ParameterScale scale(info, index);
   ParameterEstimate out{value, standard_error, 0.0, 0.0, Observability::kObserved};
-  if (power || info.logarithmic) {
-    if (value - z * standard_error > 0.0) {
-      out.lower = value * std::exp(-z * standard_error / value);
-      out.upper = value * std::exp(z * standard_error / value);
-    } else {
-      out.lower = 0.0;
-      out.upper = value + z * standard_error;
-      out.observability = Observability::kUpperBound;
-    }
+  if (scale.logarithmic() && value <= z * standard_error) {
+    out.upper = value + z * standard_error;
+    out.observability = Observability::kUpperBound;
     return out;
   }
-  // Logit between the bounds.
-  const double below = value - info.lower;
-  const double above = info.upper - value;
-  const double width = info.upper - info.lower;
-  const double error = standard_error * width / (below * above);
-  const auto back = [&](double logit) { return info.lower + width / (1.0 + std::exp(-logit)); };
-  const double centre = std::log(below / above);
-  out.lower = back(centre - z * error);
-  out.upper = back(centre + z * error);
-  if (z * error > 8.0)
+  const double reach = z * standard_error / scale.slope(value);
+  const double centre = scale.to_scale(value);
+  out.lower = scale.to_value(centre - reach);
+  out.upper = scale.to_value(centre + reach);
+  if (!scale.logarithmic() && reach > 8.0) {
     out.observability = Observability::kIndistinguishable;  // spans almost all there is
+  }
   return out;
 }
 
@@ -150,7 +142,7 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
                          p == 0 ? kInfinity : about[index].upper,
                          Observability::kIndistinguishable});
         } else {
-          row.push_back(interval(about[index], p == 0, v[index],
+          row.push_back(interval(about[index], index, v[index],
                                  std::sqrt(covariance.matrix(at, at)), fit.confidence));
         }
         for (Eigen::Index q = 0; q < size; ++q) {

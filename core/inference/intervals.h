@@ -7,8 +7,9 @@
 
 namespace imunoise {
 
-/// Confidence interval of one parameter from its standard error, on the scale that suits it.
-ParameterEstimate interval(const ParameterInfo& info, bool power, double value,
+/// Confidence interval of parameter `index` of a process from its standard error, on the scale that
+/// suits it.
+ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
                            double standard_error, double confidence);
 
 /// Standard error that a power (by its column) would have if it were worth `value`, all else as

@@ -33,7 +33,7 @@ Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix,
 ParameterCovariance parameter_covariance(const Model& model,
                                          std::span<const WaveletVariance> replicates,
                                          const std::vector<Eigen::MatrixXd>& weight_roots,
-                                         const PerReplicate& covariances,
+                                         const MomentCovariances& covariances,
                                          const std::vector<Eigen::Index>& set) {
   const auto n = static_cast<Eigen::Index>(set.size());
   Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);

@@ -28,7 +28,7 @@ struct ParameterCovariance {
 ParameterCovariance parameter_covariance(const Model& model,
                                          std::span<const WaveletVariance> replicates,
                                          const std::vector<Eigen::MatrixXd>& weight_roots,
-                                         const PerReplicate& covariances,
+                                         const MomentCovariances& covariances,
                                          const std::vector<Eigen::Index>& set);
 
 }  // namespace imunoise

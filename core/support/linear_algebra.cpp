@@ -88,6 +88,11 @@ Whitening whiten(const MatrixRef& covariance) {
   return out;
 }
 
+Eigen::MatrixXd square_root(const MatrixRef& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
 PseudoInverse pseudo_inverse(const MatrixRef& symmetric, double tolerance) {
   const Eigen::Index n = symmetric.rows();
   PseudoInverse out;

@@ -1,0 +1,114 @@
+#include "core/inference/spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/estimate/parameter_scale.h"
+#include "core/support/distributions.h"
+
+namespace imunoise {
+namespace {
+
+constexpr std::size_t kFewest = 3;
+
+// Estimates of one quantity, each with its own error variance.
+struct Effects {
+  std::vector<double> value;
+  std::vector<double> error2;
+
+  double mean(double between2) const {
+    double sum = 0.0;
+    double weights = 0.0;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const double w = 1.0 / (error2[k] + between2);
+      sum += w * value[k];
+      weights += w;
+    }
+    return sum / weights;
+  }
+  // Generalised Q, which falls as the variance between grows; χ² with size - 1 degrees of freedom
+  // at the true one.
+  double q(double between2) const {
+    const double centre = mean(between2);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      sum += (value[k] - centre) * (value[k] - centre) / (error2[k] + between2);
+    }
+    return sum;
+  }
+  // The variance between at which Q has a given value; zero when it is below that already.
+  double between_at(double wanted) const {
+    if (q(0.0) <= wanted) return 0.0;
+    double high = *std::max_element(error2.begin(), error2.end());
+    while (q(high) > wanted) high *= 4.0;
+    double low = 0.0;
+    for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
+      const double middle = 0.5 * (low + high);
+      (q(middle) > wanted ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+};
+
+ParameterSpread spread_of(const Effects& effects, const ParameterScale& scale) {
+  const auto degrees = static_cast<double>(effects.value.size() - 1);
+  const double between2 = effects.between_at(degrees);
+  ParameterSpread out;
+  out.replicates = static_cast<int>(effects.value.size());
+  out.mean = scale.to_value(effects.mean(between2));
+  const double slope = scale.slope(out.mean);
+  out.spread = slope * std::sqrt(between2);
+  out.lower = slope * std::sqrt(effects.between_at(chi_square_quantile(0.975, degrees)));
+  out.upper = slope * std::sqrt(effects.between_at(chi_square_quantile(0.025, degrees)));
+  out.p_value = chi_square_tail(effects.q(0.0), degrees);
+  return out;
+}
+
+// Holm (1979): the smallest p-value times their number, the next times one less, and never falling.
+void correct_for_number(std::vector<ParameterSpread>& all) {
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return all[a].p_value < all[b].p_value; });
+  double least = 0.0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    double& p = all[order[i]].p_value;
+    least = std::max(least, std::min(1.0, p * static_cast<double>(order.size() - i)));
+    p = least;
+  }
+}
+
+}  // namespace
+
+std::vector<ParameterSpread> parameter_spread(std::span<const Estimate> separate,
+                                              std::span<const WaveletVariance> replicates) {
+  std::vector<Fit> fits;
+  for (std::size_t k = 0; k < separate.size(); ++k) {
+    fits.push_back(infer(separate[k], replicates.subspan(k, 1)));
+  }
+  std::vector<ParameterSpread> out;
+  const Model& model = separate[0].model;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    const std::vector<ParameterInfo> about = parameters(model.terms[t].process);
+    for (std::size_t p = 0; p < about.size(); ++p) {
+      const ParameterScale scale(about[p], p);
+      Effects effects;
+      for (const Fit& fit : fits) {
+        const ParameterEstimate& seen = fit.parameters[t][p];
+        if (seen.observability != Observability::kObserved) continue;
+        effects.value.push_back(scale.to_scale(seen.value));
+        const double error = seen.standard_error / scale.slope(seen.value);
+        effects.error2.push_back(error * error);
+      }
+      if (effects.value.size() < kFewest) continue;
+      out.push_back(spread_of(effects, scale));
+      out.back().term = t;
+      out.back().parameter = p;
+    }
+  }
+  correct_for_number(out);
+  return out;
+}
+
+}  // namespace imunoise
