@@ -46,6 +46,17 @@ Eigen::VectorXd NormalScores::residual(const Eigen::ArrayXd& measured,
   return whitening_ * scores;
 }
 
+Eigen::VectorXd NormalScores::shift(const Eigen::ArrayXd& other,
+                                    const Eigen::ArrayXd& expected) const {
+  Eigen::VectorXd scores(static_cast<Eigen::Index>(keep_.size()));
+  for (Eigen::Index i = 0; i < scores.size(); ++i) {
+    const Eigen::Index at = keep_[static_cast<std::size_t>(i)];
+    const double spread = relative_(at) * relative_(at) / 9.0;
+    scores(i) = (std::cbrt(other(at) / expected(at)) - 1.0) * (1.0 - spread) / std::sqrt(spread);
+  }
+  return whitening_ * scores;
+}
+
 Eigen::MatrixXd NormalScores::slope(const Eigen::MatrixXd& change,
                                     const Eigen::ArrayXd& expected) const {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(keep_.size()), change.cols());

@@ -24,6 +24,8 @@ class NormalScores {
 
   /// Residuals of the measured variances from those that a model expects (both n), whitened.
   Eigen::VectorXd residual(const Eigen::ArrayXd& measured, const Eigen::ArrayXd& expected) const;
+  /// How far those residuals move when another variance is expected instead (n): size() numbers.
+  Eigen::VectorXd shift(const Eigen::ArrayXd& other, const Eigen::ArrayXd& expected) const;
   /// The same, to first order, of a change of what the model expects by each column of `change`
   /// (n × p): size() × p.
   Eigen::MatrixXd slope(const Eigen::MatrixXd& change, const Eigen::ArrayXd& expected) const;

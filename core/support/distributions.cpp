@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 
 namespace imunoise {
@@ -17,6 +18,10 @@ double chi_square_tail(double value, double dof) {
 
 double normal_quantile(double probability) {
   return boost::math::quantile(boost::math::normal(), probability);
+}
+
+double student_quantile(double probability, double dof) {
+  return boost::math::quantile(boost::math::students_t(dof), probability);
 }
 
 double digamma(double x) { return boost::math::digamma(x); }

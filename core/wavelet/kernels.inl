@@ -21,8 +21,8 @@ inline void store(Element* to, const Vector& value) {
 
 double squares_double(const double* a, const double* b, const double* c, std::size_t n) {
   constexpr std::size_t kLanes = 16;
-  double sum[kLanes] =
-      {};  // NOLINT(modernize-avoid-c-arrays): nothing inline of another header here
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): nothing inline of another header here
+  double sum[kLanes] = {};
   std::size_t i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {

@@ -5,39 +5,10 @@
 
 #include "core/support/distributions.h"
 #include "study/analysis/fit_series.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
-
-std::string_view quantity_name(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kAngularRate:
-      return "angular rate";
-    case Quantity::kAcceleration:
-      return "acceleration";
-    case Quantity::kMagneticFluxDensity:
-      return "magnetic flux density";
-    case Quantity::kTemperature:
-      return "temperature";
-    case Quantity::kVoltage:
-      return "voltage";
-    case Quantity::kUnknown:
-      break;
-  }
-  return "";
-}
-
-std::string unit_of(Dimension dimension, Quantity quantity) {
-  switch (dimension) {
-    case Dimension::kPower:
-      return quantity == Quantity::kUnknown ? "unit²" : fmt::format("({})²", si_symbol(quantity));
-    case Dimension::kSeconds:
-      return "s";
-    case Dimension::kPurePerSample:
-      break;
-  }
-  return "1";
-}
 
 v1::Observability observability(Observability from) {
   switch (from) {
@@ -51,21 +22,6 @@ v1::Observability observability(Observability from) {
       break;
   }
   return v1::given;
-}
-
-// "AR1", or "AR1 (2)" when the model has several.
-std::string label_of(const Model& model, std::size_t term) {
-  const auto same = [&](std::size_t other) {
-    return model.terms[other].process.index() == model.terms[term].process.index();
-  };
-  std::size_t number = 0;
-  std::size_t count = 0;
-  for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    if (same(t)) ++count;
-    if (t == term) number = count;
-  }
-  const std::string name(info(model.terms[term].process).name);
-  return count > 1 ? fmt::format("{} ({})", name, number) : name;
 }
 
 // N, B, K, R and Q are known by themselves; what describes a correlated noise needs the noise's
@@ -204,13 +160,12 @@ std::string summary_of(const v1::FitReport& report) {
     }
   }
   const double p = report.p_value();
-  const std::string chance = p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
   std::string fits = "there are too few scales to test the fit";
   if (report.degrees_of_freedom() > 0) {
     fits = (p >= 0.05   ? "the model fits the measurements ("
             : p >= 0.01 ? "it is doubtful that the model fits ("
                         : "the model does not fit the measurements (") +
-           chance + ")";
+           chance_words(p) + ")";
   }
   return fmt::format("{}: {}{}.", report.channel(), known.empty() ? "" : known + "; ", fits);
 }

@@ -4,7 +4,7 @@
 
 #include "study/report/assets.h"
 #include "study/report/html_tables.h"
-#include "study/report/number.h"
+#include "study/report/page_frame.h"
 #include "study/report/svg_plot.h"
 #include "study/report/text.h"
 #include "study/report/verdict.h"
@@ -162,16 +162,10 @@ std::string html_page(const v1::FitReports& reports) {
   for (const v1::FitReport& report : reports.channels()) {
     title += (title == "Noise budget" ? " of " : ", ") + channel_name(report.channel());
   }
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      R"(<meta name="viewport" content="width=device-width, )"
-      "initial-scale=1\">\n<title>{}</title>\n"
-      "<style>\n{}{}{}</style>\n</head>\n<body>\n<h1 class=\"brand\">imunoise: noise budget</h1>\n",
-      escape_markup(title), kPaletteCss, kPlotCss, kPageCss);
-  out += navigation(reports) + "<main>\n";
-  if (reports.channels().empty()) out += "<p>This report holds no channel.</p>\n";
-  for (int i = 0; i < reports.channels_size(); ++i) out += section(reports.channels(i), i);
-  return out.append("</main>\n<script>\n").append(kPageJs).append("</script>\n</body>\n</html>\n");
+  std::string body = navigation(reports) + "<main>\n";
+  if (reports.channels().empty()) body += "<p>This report holds no channel.</p>\n";
+  for (int i = 0; i < reports.channels_size(); ++i) body += section(reports.channels(i), i);
+  return page_frame(title, "noise budget", body + "</main>\n");
 }
 
 std::string html_page(const v1::FitReport& report) {

@@ -7,6 +7,7 @@
 
 #include "study/report/assets.h"
 #include "study/report/number.h"
+#include "study/report/page_frame.h"
 #include "study/report/text.h"
 #include "study/report/verdict.h"
 
@@ -14,22 +15,6 @@ namespace imunoise::report {
 namespace {
 
 constexpr Digits kStyle = Digits::kTypeset;
-
-std::string markup_cell(std::string_view css_class, std::string_view markup) {
-  return fmt::format(R"(<td class="{}">{}</td>)", css_class, markup);
-}
-
-std::string cell(std::string_view css_class, std::string_view text) {
-  return markup_cell(css_class, escape_markup(text));
-}
-
-std::string head(const std::vector<std::string>& titles) {
-  std::string out = "<thead><tr>";
-  for (const std::string& title : titles) {
-    out += fmt::format(R"(<th scope="col">{}</th>)", escape_markup(title));
-  }
-  return out + "</tr></thead>\n";
-}
 
 std::string unit_text(const std::string& unit) { return unit == "1" ? "" : unit; }
 
@@ -73,8 +58,8 @@ std::string parameter_table(const v1::FitReport& report) {
   }
   if (rows.empty()) return {};
   return "<h3>Parameters, per sample</h3>\n<div class=\"scroll\"><table>" +
-         head({"term", "parameter", "value", interval_title(report), "unit",
-               "do the data show it?"}) +
+         table_head({"term", "parameter", "value", interval_title(report), "unit",
+                     "do the data show it?"}) +
          "<tbody>" + rows + "</tbody></table></div>\n";
 }
 
@@ -95,7 +80,7 @@ std::string coefficient_table(const v1::FitReport& report) {
   }
   if (rows.empty()) return {};
   return "<h3>Coefficients, as in data sheets</h3>\n<div class=\"scroll\"><table>" +
-         head({"symbol", "name", "data-sheet unit", "SI"}) + "<tbody>" + rows +
+         table_head({"symbol", "name", "data-sheet unit", "SI"}) + "<tbody>" + rows +
          "</tbody></table></div>\n";
 }
 
@@ -119,7 +104,7 @@ std::string scale_table(const v1::FitReport& report, const BudgetView& view) {
   }
   return "<details><summary>The numbers at every scale</summary>\n<div class=\"scroll\">"
          R"(<table class="scales">)" +
-         head(titles) + "<tbody>" + rows + "</tbody></table></div></details>\n";
+         table_head(titles) + "<tbody>" + rows + "</tbody></table></div></details>\n";
 }
 
 std::string provenance(const v1::FitReport& report) {

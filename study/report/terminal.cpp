@@ -6,21 +6,15 @@
 #include <cmath>
 
 #include "study/report/number.h"
+#include "study/report/terminal_lines.h"
 #include "study/report/terminal_plot.h"
 #include "study/report/terminal_table.h"
-#include "study/report/text.h"
 #include "study/report/verdict.h"
 
 namespace imunoise::report {
 namespace {
 
-constexpr int kLeastWidth = 40;
 constexpr Digits kStyle = Digits::kPlain;
-
-TerminalStyle usable(TerminalStyle style) {
-  style.width = std::max(style.width, kLeastWidth);
-  return style;
-}
 
 Ink ink_of(Verdict verdict) {
   switch (verdict) {
@@ -33,25 +27,6 @@ Ink ink_of(Verdict verdict) {
       break;
   }
   return Ink::kQuiet;
-}
-
-std::string title(const std::string& text, const TerminalStyle& style) {
-  const std::string_view ellipsis = style.unicode ? "…" : "~";
-  const std::string line =
-      shorten(terminal_text(text, style), static_cast<std::size_t>(style.width), ellipsis);
-  return inked(line, Ink::kStrong, style) + "\n";
-}
-
-// A wrapped paragraph in one colour, line by line so that no colour runs over a line's end.
-std::string paragraph(const std::string& text, Ink ink, const TerminalStyle& style) {
-  const std::string lines = wrapped(text, 0, style);
-  std::string out;
-  for (std::size_t at = 0; at < lines.size();) {
-    const auto end = lines.find('\n', at);
-    out += inked(std::string_view(lines).substr(at, end - at), ink, style) + "\n";
-    at = end + 1;
-  }
-  return out;
 }
 
 std::string marks(const v1::FitReport& report, const TerminalStyle& style) {
@@ -113,7 +88,7 @@ std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
   const TerminalStyle style = usable(wanted);
   const BudgetView view = budget_view(report);
   const Verdict v = verdict(report);
-  std::string out = title(
+  std::string out = title_line(
       channel_name(report.channel()) + " " + std::string(verdict_words(v)) + ": " + facts(report),
       style);
   if (!report.summary().empty()) out += paragraph(report.summary(), Ink::kPlain, style);
@@ -139,9 +114,9 @@ std::string wv_text(const v1::WaveletVarianceReport& report, const TerminalStyle
                     duration(0.5 * scale.seconds),
                     number(allan.deviation(scale.measured), 3, kStyle) + " " + allan.unit});
   }
-  std::string out = title(fmt::format("{}: wavelet variance, {} estimator",
-                                      channel_name(report.channel()), report.estimator()),
-                          style);
+  std::string out = title_line(fmt::format("{}: wavelet variance, {} estimator",
+                                           channel_name(report.channel()), report.estimator()),
+                               style);
   out += "\n" + terminal_plot(view, false, style) + "\n";
   if (rows.empty()) return out;
   return out + terminal_table(

@@ -1,0 +1,44 @@
+#include "study/analysis/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace imunoise::study {
+
+Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured) {
+  Result<Model> model = parse_model(text, measured.front().rate);
+  if (!model) return model;
+  std::size_t scales = 0;
+  for (const WaveletVariance& wv : measured) scales = std::max(scales, wv.scales.size());
+  if (free_parameters(*model) > scales) {
+    return fail(fmt::format(
+        "model: {} has {} free parameters, but the recording has only {} scales; take a "
+        "smaller model, record longer, or ask for more scales an octave",
+        print(*model), free_parameters(*model), scales));
+  }
+  return model;
+}
+
+Result<Prepared> prepare(const Series& series, std::string_view text, const MeasureOptions& options,
+                         const Progress& progress) {
+  // A model that cannot be read is told before minutes are spent on measuring.
+  if (auto readable = parse_model(text, series.replicates.front().rate()); !readable) {
+    return tl::unexpected(readable.error());
+  }
+  Result<std::vector<WaveletVariance>> measured = measure(series, options, progress);
+  if (!measured) return tl::unexpected(measured.error());
+  Result<Model> model = read_model(text, *measured);
+  if (!model) return tl::unexpected(model.error());
+  return Prepared{std::move(*model), std::move(*measured)};
+}
+
+std::size_t free_parameters(const Model& model) {
+  std::size_t out = 0;
+  for (const Term& term : model.terms) {
+    out += static_cast<std::size_t>(std::count(term.given.begin(), term.given.end(), false));
+  }
+  return out;
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,123 @@
+#include "study/analysis/select_model.h"
+
+#include <fmt/format.h>
+
+#include "study/analysis/fit_series.h"
+#include "study/analysis/prepare.h"
+
+namespace imunoise::study {
+namespace {
+
+constexpr std::size_t kBlocks = 6;            // of a single recording
+constexpr std::size_t kLeastSamples = 1'024;  // of a block
+
+// A recording in parts of equal length, as if each were a replicate.
+Series in_blocks(const Series& series) {
+  const Signal& whole = series.replicates.front();
+  const std::size_t size = whole.size() / kBlocks;
+  Series out{series.channel, {}, {}};
+  for (std::size_t b = 0; b < kBlocks; ++b) {
+    out.names.push_back(fmt::format("{} [{}/{}]", series.names.front(), b + 1, kBlocks));
+    out.replicates.push_back(whole.part(b * size, size));
+  }
+  return out;
+}
+
+v1::ChoiceVerdict verdict_of(ChoiceVerdict from) {
+  switch (from) {
+    case ChoiceVerdict::kSelected:
+      return v1::selected;
+    case ChoiceVerdict::kEquivalent:
+      return v1::equivalent;
+    case ChoiceVerdict::kNotAppropriate:
+      break;
+  }
+  return v1::not_appropriate;
+}
+
+void add_candidate(const Candidate& from, v1::ChoiceReport& out) {
+  v1::CandidateModel& to = *out.add_candidates();
+  to.set_model(print(from.model));
+  to.set_fitted_model(print_with_values(from.model));
+  to.set_parameters(static_cast<std::uint32_t>(free_parameters(from.model)));
+  to.set_merit(from.merit.value);
+  to.set_merit_lower(from.merit.lower);
+  to.set_merit_upper(from.merit.upper);
+  to.set_excess(from.excess.value);
+  to.set_excess_lower(from.excess.lower);
+  to.set_excess_upper(from.excess.upper);
+  to.set_verdict(verdict_of(from.verdict));
+}
+
+std::string summary_of(const v1::ChoiceReport& report) {
+  const v1::CandidateModel& best = report.candidates(0);
+  std::string out = fmt::format(
+      "{} predicts replicates that it was not fitted to best: its error is {:.3g} times the noise "
+      "floor.",
+      best.model(), best.merit());
+  const v1::CandidateModel* simplest = &best;
+  for (const v1::CandidateModel& one : report.candidates()) {
+    if (one.verdict() == v1::equivalent && one.parameters() < simplest->parameters()) {
+      simplest = &one;
+    }
+  }
+  if (simplest != &best) {
+    out +=
+        fmt::format(" {} is simpler, and the data cannot say that it is worse.", simplest->model());
+  }
+  if (best.merit_lower() > 1.5) {
+    out += " None of the models comes near the floor: they all lack something.";
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& options,
+                                      const Progress& progress) {
+  const bool blocks = given.replicates.size() == 1;
+  if (blocks && given.replicates.front().size() < kBlocks * kLeastSamples) {
+    return fail(fmt::format(
+        "{}: one recording of {} samples is too short to be cut into {} blocks of {}: record more "
+        "replicates, or longer",
+        given.channel, given.replicates.front().size(), kBlocks, kLeastSamples));
+  }
+  const Series series = blocks ? in_blocks(given) : given;
+  std::vector<std::string> texts = options.models;
+  if (texts.empty()) texts.emplace_back(kDefaultModel);
+  const Result<Prepared> prepared =
+      prepare(series, texts.front(), options.measure, progress.part(0.0, 0.5));
+  if (!prepared) return tl::unexpected(prepared.error());
+  const std::vector<WaveletVariance>& measured = prepared->measured;
+  std::vector<Model> models;
+  for (const std::string& text : texts) {
+    Result<Model> model = read_model(text, measured);
+    if (!model) return tl::unexpected(model.error());
+    models.push_back(std::move(*model));
+  }
+  if (models.size() == 1) models = sub_models(models[0]);
+  const ModelChoice choice = choose_model(models, measured, options.choice, progress.part(0.5, 1.0));
+  if (progress.stopped()) return fail("stopped");
+
+  v1::ChoiceReport out;
+  out.set_channel(series.channel);
+  out.set_unit(std::string(si_symbol(measured.front().quantity)));
+  out.set_rate_hz(series.replicates.front().rate().value);
+  out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
+  out.set_contiguous_blocks(blocks);
+  out.set_splits(options.choice.splits == Splits::kHalf ? "half" : "leave one out");
+  out.set_split_count(static_cast<std::uint32_t>(choice.splits));
+  out.set_weights(options.choice.weighting == Weighting::kFull ? "full" : "diag");
+  for (const Candidate& candidate : choice.candidates) add_candidate(candidate, out);
+  out.set_summary(summary_of(out));
+  if (blocks) {
+    out.add_notes(fmt::format(
+        "There is one recording: it was cut into {} contiguous blocks. They share whatever changes "
+        "from day to day and from power-on to power-on, so this is weaker evidence than "
+        "replicates.",
+        kBlocks));
+  }
+  return out;
+}
+
+}  // namespace imunoise::study

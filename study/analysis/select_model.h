@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/inference/model_choice.h"
+#include "imunoise/v1/inference.pb.h"
+#include "study/analysis/measure.h"
+
+namespace imunoise::study {
+
+struct SelectOptions {
+  /// One model: it and all its sub-models are compared. Several: just these. None: kDefaultModel
+  /// and its sub-models.
+  std::vector<std::string> models;
+  ChoiceOptions choice;
+  MeasureOptions measure;
+};
+
+/// Chooses the model that predicts replicates it was not fitted to best. A single replicate is cut
+/// into contiguous blocks, and the report says so. Error: as prepare(), or a recording too short to
+/// cut.
+Result<v1::ChoiceReport> select_model(const Series& series, const SelectOptions& options,
+                                      const Progress& progress = {});
+
+}  // namespace imunoise::study

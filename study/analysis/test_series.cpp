@@ -1,0 +1,124 @@
+#include "study/analysis/test_series.h"
+
+#include <fmt/format.h>
+
+#include "study/analysis/fit_series.h"
+#include "study/analysis/prepare.h"
+#include "study/analysis/vocabulary.h"
+
+namespace imunoise::study {
+namespace {
+
+constexpr double kLevel = 0.05;
+
+void fill(const BootstrappedTest& from, v1::TestResult& to) {
+  to.set_statistic(from.asymptotic.statistic);
+  to.set_degrees_of_freedom(from.asymptotic.degrees_of_freedom);
+  if (from.asymptotic.degrees_of_freedom > 0) to.set_p_value(from.asymptotic.p_value);
+  if (from.bootstrap_p_value) to.set_bootstrap_p_value(*from.bootstrap_p_value);
+  to.set_rejected(from.p_value() < kLevel);
+}
+
+void add_spread(const NearStationarity& result, Quantity quantity, v1::StationarityReport& out) {
+  const Model& model = result.pooled.model;
+  for (const ParameterSpread& from : result.spread) {
+    const ParameterInfo about = parameters(model.terms[from.term].process)[from.parameter];
+    v1::ParameterSpread& to = *out.add_spread();
+    to.set_term(label_of(model, from.term));
+    to.set_parameter(about.name);
+    to.set_unit(unit_of(about.dimension, quantity));
+    to.set_replicates(static_cast<std::uint32_t>(from.replicates));
+    to.set_mean(from.mean);
+    to.set_spread(from.spread);
+    to.set_lower(from.lower);
+    to.set_upper(from.upper);
+    to.set_p_value(from.p_value);
+    to.set_moves(from.moves());
+  }
+}
+
+std::string moving(const v1::StationarityReport& report) {
+  std::string out;
+  for (const v1::ParameterSpread& one : report.spread()) {
+    if (!one.moves()) continue;
+    out += fmt::format("{}{} of {} by ±{:.2g} %", out.empty() ? "" : ", ", one.parameter(),
+                       one.term(), 100.0 * one.spread() / std::abs(one.mean()));
+  }
+  return out;
+}
+
+std::string summary_of(const v1::StationarityReport& report, const NearStationarity& result) {
+  const std::string misfit = chance_words(result.misfit.p_value());
+  const std::string differ = chance_words(result.heterogeneity.p_value());
+  const std::string who = moving(report);
+  const std::string moves =
+      who.empty() ? "No single parameter stands out." : "What moves: " + who + ".";
+  if (!report.misfit().rejected() && !report.heterogeneity().rejected()) {
+    return fmt::format(
+        "Near-stationary: the model's shape fits every replicate ({}), and one set of parameters "
+        "serves them all ({}).",
+        misfit, differ);
+  }
+  if (!report.heterogeneity().rejected()) {
+    return fmt::format(
+        "The replicates agree with each other ({}), but the model's shape fits none of them well "
+        "({}): a process is missing, and it is the same in all. More replicates will not help; a "
+        "better model will.",
+        differ, misfit);
+  }
+  if (!report.misfit().rejected()) {
+    return fmt::format(
+        "The model's shape fits every replicate ({}), but their parameters differ by more than "
+        "chance ({}). {} One set of parameters describes their average, not the next recording.",
+        misfit, differ, moves);
+  }
+  return fmt::format(
+      "Two things are wrong: the model's shape does not fit the replicates even with parameters of "
+      "their own ({}), and those parameters differ by more than chance ({}). {} Find the missing "
+      "process first: what is missing can pass for a parameter that moves.",
+      misfit, differ, moves);
+}
+
+}  // namespace
+
+Result<v1::StationarityReport> test_series(const Series& series, const TestOptions& options,
+                                           const Progress& progress) {
+  if (series.replicates.size() < 2) {
+    return fail(fmt::format(
+        "{}: a test between replicates needs at least two: name more files, or cut this one with "
+        "--split-into 6 (parts of one recording tell less than recordings of different days)",
+        series.channel));
+  }
+  const Result<Prepared> prepared = prepare(series, options.model ? *options.model : kDefaultModel,
+                                            options.measure, progress.part(0.0, 0.3));
+  if (!prepared) return tl::unexpected(prepared.error());
+  const NearStationarity result = near_stationarity(prepared->model, prepared->measured,
+                                                    options.bootstrap, progress.part(0.3, 1.0));
+  if (progress.stopped()) return fail("stopped");
+
+  v1::StationarityReport out;
+  out.set_channel(series.channel);
+  out.set_unit(std::string(si_symbol(prepared->measured.front().quantity)));
+  out.set_rate_hz(series.replicates.front().rate().value);
+  out.set_model(print(result.pooled.model));
+  out.set_fitted_model(print_with_values(result.pooled.model));
+  out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
+  fill(result.misfit, *out.mutable_misfit());
+  fill(result.heterogeneity, *out.mutable_heterogeneity());
+  out.set_published_statistic(result.published_statistic);
+  if (result.published_p_value) out.set_published_p_value(*result.published_p_value);
+  out.set_bootstrap_sets(static_cast<std::uint32_t>(options.bootstrap.sets));
+  out.set_seed(options.bootstrap.seed);
+  add_spread(result, prepared->measured.front().quantity, out);
+  out.set_summary(summary_of(out, result));
+  if (series.replicates.size() < 5) {
+    out.add_notes(fmt::format(
+        "{} replicates say little about how much the next one will differ: the intervals of the "
+        "spread are wide. Record at least 6.",
+        series.replicates.size()));
+  }
+  progress.report(1.0);
+  return out;
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,24 @@
+#pragma once
+
+// How the things of core are called in messages.
+
+#include <string>
+#include <string_view>
+
+#include "core/model/model.h"
+
+namespace imunoise::study {
+
+/// "angular rate"; "" when unknown.
+std::string_view quantity_name(Quantity quantity);
+
+/// The unit of a parameter of a channel: "(rad/s)²", "s", "1".
+std::string unit_of(Dimension dimension, Quantity quantity);
+
+/// "AR1", or "AR1 (2)" when the model has several.
+std::string label_of(const Model& model, std::size_t term);
+
+/// "p = 0.032", "p < 0.0001".
+std::string chance_words(double p);
+
+}  // namespace imunoise::study

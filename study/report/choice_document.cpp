@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include "study/report/inference_documents.h"
+#include "study/report/interval_chart.h"
+#include "study/report/verdict.h"
+
+namespace imunoise::report {
+namespace {
+
+const char* words(v1::ChoiceVerdict verdict) {
+  switch (verdict) {
+    case v1::selected:
+      return "selected";
+    case v1::equivalent:
+      return "equivalent";
+    default:
+      return "not appropriate";
+  }
+}
+
+Section section(const v1::ChoiceReport& report, Digits digits) {
+  Section out;
+  out.title = channel_name(report.channel());
+  out.facts = fmt::format("{:g} Hz · {} {} · {} splits ({}) · weights {}", report.rate_hz(),
+                          report.replicates(),
+                          report.contiguous_blocks() ? "contiguous blocks" : "replicates",
+                          report.split_count(), report.splits(), report.weights());
+  out.summary = report.summary();
+  Table table{"Models by the error of their predictions",
+              {"model", "error, noise floor = 1", "above the best", "parameters", ""},
+              {}};
+  std::vector<IntervalRow> rows;
+  for (const v1::CandidateModel& one : report.candidates()) {
+    table.rows.push_back(
+        {one.model(), with_interval(one.merit(), one.merit_lower(), one.merit_upper(), digits),
+         one.verdict() == v1::selected
+             ? ""
+             : with_interval(one.excess(), one.excess_lower(), one.excess_upper(), digits),
+         std::to_string(one.parameters()), words(one.verdict())});
+    rows.push_back({one.model(), one.merit(), one.merit_lower(), one.merit_upper(),
+                    one.verdict() == v1::not_appropriate});
+  }
+  out.badge = report.candidates_size() > 0 ? report.candidates(0).model() : "";
+  out.figures.push_back(interval_chart(
+      "Error of prediction", "held-out error, 1 = noise floor",
+      "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
+      "noise alone makes; orange models are significantly worse than the best.",
+      rows, 1.0));
+  out.tables = {std::move(table)};
+  out.notes.assign(report.notes().begin(), report.notes().end());
+  return out;
+}
+
+}  // namespace
+
+Document document(const v1::ChoiceReports& reports, Digits digits) {
+  Document out{"model choice", {}};
+  for (const v1::ChoiceReport& one : reports.channels()) {
+    out.sections.push_back(section(one, digits));
+  }
+  return out;
+}
+
+}  // namespace imunoise::report

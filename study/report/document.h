@@ -1,0 +1,51 @@
+#pragma once
+
+// A report as words, tables and figures, apart from where it is shown: the page and the terminal
+// both draw it. What is said is decided once, by whoever makes the document.
+
+#include <string>
+#include <vector>
+
+#include "study/report/terminal_canvas.h"
+
+namespace imunoise::report {
+
+enum class Mood { kNeutral, kGood, kDoubtful, kBad };
+
+struct Table {
+  std::string title;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A figure for the page, drawn for a desk and for a phone; the terminal shows the tables only.
+struct Figure {
+  std::string title;
+  std::string wide;    ///< SVG
+  std::string narrow;  ///< SVG
+  std::string caption;
+};
+
+struct Section {
+  std::string title;
+  std::string badge;  ///< a word or two; empty for none
+  Mood mood = Mood::kNeutral;
+  std::string facts;  ///< one line: what it was made from
+  std::string summary;
+  std::vector<Figure> figures;
+  std::vector<Table> tables;
+  std::vector<std::string> notes;
+};
+
+struct Document {
+  std::string title;  ///< "near-stationarity"
+  std::vector<Section> sections;
+};
+
+/// One self-contained page. All text is escaped; figures are SVG of our own making. Thread-safe.
+std::string html_page(const Document& document);
+
+/// For the terminal, no line wider than the style says. Thread-safe.
+std::string text(const Document& document, const TerminalStyle& style = {});
+
+}  // namespace imunoise::report

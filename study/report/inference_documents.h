@@ -1,0 +1,13 @@
+#pragma once
+
+#include "imunoise/v1/inference.pb.h"
+#include "study/report/document.h"
+#include "study/report/number.h"
+
+namespace imunoise::report {
+
+/// What `imunoise test` and `imunoise select` say, for page and terminal.
+Document document(const v1::StationarityReports& reports, Digits digits);
+Document document(const v1::ChoiceReports& reports, Digits digits);
+
+}  // namespace imunoise::report

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/report/document.h"
+
+namespace imunoise::report {
+
+/// One row: a name, a value and its interval.
+struct IntervalRow {
+  std::string name;
+  double value = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+  bool marked = false;  ///< drawn in the colour of trouble
+};
+
+/// Rows of values with whiskers on a logarithmic axis, with a line at `reference`; ends that are
+/// zero or negative run to the axis's edge. For page figures: both widths.
+Figure interval_chart(const std::string& title, const std::string& axis_title,
+                      const std::string& caption, const std::vector<IntervalRow>& rows,
+                      double reference);
+
+}  // namespace imunoise::report

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include "study/report/inference_documents.h"
+#include "study/report/interval_chart.h"
+#include "study/report/verdict.h"
+
+namespace imunoise::report {
+namespace {
+
+std::string probability(bool known, double p, Digits digits) {
+  return known ? number(p, 2, digits) : "–";
+}
+
+std::vector<std::string> row(const char* question, const v1::TestResult& test, Digits digits) {
+  return {question,
+          test.rejected() ? "yes" : "no",
+          probability(test.has_p_value(), test.p_value(), digits),
+          probability(test.has_bootstrap_p_value(), test.bootstrap_p_value(), digits),
+          number(test.statistic(), 4, digits),
+          std::to_string(test.degrees_of_freedom())};
+}
+
+Table tests(const v1::StationarityReport& report, Digits digits) {
+  Table out{"The two questions", {"", "", "p", "p, bootstrap", "statistic", "degrees"}, {}};
+  out.rows.push_back(row("does the shape fail?", report.misfit(), digits));
+  out.rows.push_back(row("do parameters differ?", report.heterogeneity(), digits));
+  out.rows.push_back(
+      {"the published statistic, for comparison", "", "",
+       probability(report.has_published_p_value(), report.published_p_value(), digits),
+       number(report.published_statistic(), 4, digits), ""});
+  return out;
+}
+
+Table spread(const v1::StationarityReport& report, Digits digits) {
+  Table out{"How parameters differ between replicates",
+            {"parameter", "mean", "spread between replicates", "unit", "moves?", "p"},
+            {}};
+  for (const v1::ParameterSpread& one : report.spread()) {
+    out.rows.push_back({one.term() + " " + one.parameter(), number(one.mean(), 4, digits),
+                        with_interval(one.spread(), one.lower(), one.upper(), digits),
+                        one.unit() == "1" ? "" : one.unit(), one.moves() ? "yes" : "not shown",
+                        number(one.p_value(), 2, digits)});
+  }
+  return out;
+}
+
+Section section(const v1::StationarityReport& report, Digits digits) {
+  Section out;
+  out.title = channel_name(report.channel());
+  const bool misfit = report.misfit().rejected();
+  const bool differ = report.heterogeneity().rejected();
+  out.badge = misfit && differ ? "misfit, and parameters move"
+              : misfit         ? "misfit"
+              : differ         ? "parameters move"
+                               : "near-stationary";
+  out.mood = misfit ? Mood::kBad : differ ? Mood::kDoubtful : Mood::kGood;
+  out.facts = fmt::format("{} · {:g} Hz · {} replicates", report.model(), report.rate_hz(),
+                          report.replicates());
+  if (report.bootstrap_sets() > 0) {
+    out.facts +=
+        fmt::format(" · {} bootstrap sets, seed {}", report.bootstrap_sets(), report.seed());
+  }
+  out.summary = report.summary();
+  std::vector<IntervalRow> rows;
+  for (const v1::ParameterSpread& one : report.spread()) {
+    const double scale = 100.0 / std::abs(one.mean());
+    if (one.spread() <= 0.0) continue;
+    rows.push_back({one.term() + " " + one.parameter(), scale * one.spread(), scale * one.lower(),
+                    scale * one.upper(), one.moves()});
+  }
+  if (!rows.empty()) {
+    out.figures.push_back(interval_chart(
+        "Spread between replicates", "standard deviation between replicates, % of the mean",
+        "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
+        "runs to the left edge includes zero. Orange: moves by more than chance. Parameters "
+        "without "
+        "any excess spread are left out.",
+        rows, 1.0));
+  }
+  out.tables = {tests(report, digits), spread(report, digits)};
+  out.notes.assign(report.notes().begin(), report.notes().end());
+  return out;
+}
+
+}  // namespace
+
+Document document(const v1::StationarityReports& reports, Digits digits) {
+  Document out{"near-stationarity", {}};
+  for (const v1::StationarityReport& one : reports.channels()) {
+    out.sections.push_back(section(one, digits));
+  }
+  return out;
+}
+
+}  // namespace imunoise::report
