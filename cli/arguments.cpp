@@ -39,6 +39,19 @@ Examples:
       --rate 100 --samples 1000000 --replicates 6 --seed 42 --unit rad/s --out run.h5
   writes run_1.h5 .. run_6.h5 (also .csv and .npy). The same seed gives the same numbers.)help";
 
+constexpr const char* kTestExamples = R"help(
+Examples:
+  imunoise test run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"
+  imunoise test run?.h5 --model "AR1 + WN" --bootstrap 999 --seed 1 --report test.html
+
+Two questions: does the model's shape fit every replicate, and do its parameters differ between them?)help";
+
+constexpr const char* kSelectExamples = R"help(
+Examples:
+  imunoise select run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"     it and all its sub-models
+  imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      just these
+  imunoise select run?.h5 --splits half --weights diag                   CV-WVIC as published)help";
+
 // Texts that need a look-up after parsing.
 struct Raw {
   std::vector<std::string> files;
@@ -192,6 +205,39 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->required();
   add_json(simulate);
 
+  const auto add_show = [&](CLI::App* command) {
+    add_json(command);
+    command->add_option("--report", report, "Write one self-contained HTML page")
+        ->type_name("OUT.html");
+  };
+  CLI::App* const test = app.add_subcommand("test", "Are replicates near-stationary?");
+  test->footer(kTestExamples);
+  add_input(*test, raw);
+  add_show(test);
+  BootstrapOptions bootstrap;
+  test->add_option("--model", model, fmt::format("The model (default: {})", study::kDefaultModel));
+  test->add_option("--bootstrap", bootstrap.sets, "Sets of a parametric bootstrap, e.g. 999")
+      ->check(CLI::Range(0, 1'000'000));
+  test->add_option("--seed", bootstrap.seed, "Seed of the bootstrap")->capture_default_str();
+
+  CLI::App* const select = app.add_subcommand("select", "Which model predicts best?");
+  select->footer(kSelectExamples);
+  add_input(*select, raw);
+  add_show(select);
+  std::vector<std::string> models;
+  std::string splits = "leave-one-out";
+  select
+      ->add_option("--model", models,
+                   fmt::format("One: it and its sub-models; several: these (default: {})",
+                               study::kDefaultModel))
+      ->allow_extra_args(false);
+  select->add_option("--splits", splits, "Which replicates are held out")
+      ->check(CLI::IsMember({"leave-one-out", "half"}))
+      ->capture_default_str();
+  select->add_option("--weights", weights, "full, or diag as published")
+      ->check(CLI::IsMember({"full", "diag"}))
+      ->capture_default_str();
+
   try {
     app.parse(argc, argv);
     Arguments arguments;
@@ -209,6 +255,21 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       command.json = json;
       if (!report.empty()) command.report = report;
       if (!svg.empty()) command.svg = svg;
+      arguments.command = std::move(command);
+    } else if (test->parsed()) {
+      TestArguments command{input_from(raw), {}, {json, {}}};
+      if (!model.empty()) command.test.model = model;
+      command.test.bootstrap = bootstrap;
+      command.test.measure = measure_from(raw);
+      if (!report.empty()) command.show.report = report;
+      arguments.command = std::move(command);
+    } else if (select->parsed()) {
+      SelectArguments command{input_from(raw), {}, {json, {}}};
+      command.select.models = models;
+      command.select.choice.splits = splits == "half" ? Splits::kHalf : Splits::kLeaveOneOut;
+      command.select.choice.weighting = weights == "diag" ? Weighting::kDiagonal : Weighting::kFull;
+      command.select.measure = measure_from(raw);
+      if (!report.empty()) command.show.report = report;
       arguments.command = std::move(command);
     } else {
       simulation.rate = Hertz{rate};

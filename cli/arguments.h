@@ -9,8 +9,11 @@
 #include <variant>
 #include <vector>
 
+#include "cli/show.h"
 #include "recording/import/import.h"
 #include "study/analysis/fit_series.h"
+#include "study/analysis/select_model.h"
+#include "study/analysis/test_series.h"
 
 namespace imunoise::cli {
 
@@ -46,8 +49,21 @@ struct SimulateArguments {
   bool json = false;
 };
 
+struct TestArguments {
+  InputArguments input;
+  study::TestOptions test;
+  ShowArguments show;
+};
+
+struct SelectArguments {
+  InputArguments input;
+  study::SelectOptions select;
+  ShowArguments show;
+};
+
 struct Arguments {
-  std::variant<WvArguments, FitArguments, SimulateArguments> command;
+  std::variant<WvArguments, FitArguments, SimulateArguments, TestArguments, SelectArguments>
+      command;
   std::optional<std::size_t> threads;
 };
 

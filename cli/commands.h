@@ -8,5 +8,7 @@ namespace imunoise::cli {
 int run(const WvArguments& arguments);
 int run(const FitArguments& arguments);
 int run(const SimulateArguments& arguments);
+int run(const TestArguments& arguments);
+int run(const SelectArguments& arguments);
 
 }  // namespace imunoise::cli

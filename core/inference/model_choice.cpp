@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/inference/goodness.h"
 #include "core/support/distributions.h"
@@ -13,6 +14,8 @@ namespace imunoise {
 namespace {
 
 using Replicates = std::span<const WaveletVariance>;
+constexpr double kSame = 1e-6;  // a difference of merits that is none
+
 using Fold = std::vector<bool>;  // which replicates are held out
 
 std::vector<Fold> folds(std::size_t count, Splits splits) {
@@ -162,15 +165,19 @@ ModelChoice choose_model(std::span<const Model> models, Replicates replicates,
 
   std::vector<std::size_t> order(models.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return merits[a].mean() < merits[b].mean();
-  });
+  // Models that predict the same (one has a term that the fit put at zero) are told by their size.
+  const auto rank = [&](std::size_t c) {
+    return std::pair(std::llround(merits[c].mean() / kSame), parameter_count(fits[c].model));
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   ModelChoice out;
   out.splits = splits.size();
   for (const std::size_t c : order) {
     Candidate candidate;
     candidate.model = fits[c].model;
     candidate.merit = mean_interval(merits[c]);
+    candidate.merit.lower = std::max(0.0, candidate.merit.lower);
     candidate.excess = mean_interval(merits[c] - merits[order[0]]);
     candidate.verdict = c == order[0]                  ? ChoiceVerdict::kSelected
                         : candidate.excess.lower > 0.0 ? ChoiceVerdict::kNotAppropriate

@@ -9,6 +9,7 @@ namespace imunoise::study {
 namespace {
 
 constexpr std::size_t kBlocks = 6;            // of a single recording
+constexpr double kFarFromFloor = 1.5;         // merit
 constexpr std::size_t kLeastSamples = 1'024;  // of a block
 
 // A recording in parts of equal length, as if each were a replicate.
@@ -65,8 +66,10 @@ std::string summary_of(const v1::ChoiceReport& report) {
     out +=
         fmt::format(" {} is simpler, and the data cannot say that it is worse.", simplest->model());
   }
-  if (best.merit_lower() > 1.5) {
-    out += " None of the models comes near the floor: they all lack something.";
+  if (best.merit() > kFarFromFloor) {
+    out +=
+        " That is far from the floor: either every model lacks a process, or the replicates differ "
+        "by more than chance; imunoise test says which.";
   }
   return out;
 }
@@ -96,7 +99,8 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
     models.push_back(std::move(*model));
   }
   if (models.size() == 1) models = sub_models(models[0]);
-  const ModelChoice choice = choose_model(models, measured, options.choice, progress.part(0.5, 1.0));
+  const ModelChoice choice =
+      choose_model(models, measured, options.choice, progress.part(0.5, 1.0));
   if (progress.stopped()) return fail("stopped");
 
   v1::ChoiceReport out;

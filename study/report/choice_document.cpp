@@ -26,8 +26,8 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
                           report.contiguous_blocks() ? "contiguous blocks" : "replicates",
                           report.split_count(), report.splits(), report.weights());
   out.summary = report.summary();
-  Table table{"Models by the error of their predictions",
-              {"model", "error, noise floor = 1", "above the best", "parameters", ""},
+  Table table{"Models by the error of their predictions (noise floor = 1)",
+              {"model", "error", "above the best", "free", ""},
               {}};
   std::vector<IntervalRow> rows;
   for (const v1::CandidateModel& one : report.candidates()) {

@@ -20,9 +20,8 @@ Ink ink_of(Mood mood) {
 
 std::string section(const Section& from, const TerminalStyle& style) {
   std::string title = from.title;
-  if (!from.badge.empty()) title += " " + from.badge;
-  if (!from.facts.empty()) title += ": " + from.facts;
-  std::string out = title_line(title, style);
+  if (!from.badge.empty()) title += ": " + from.badge;
+  std::string out = title_line(title, style) + paragraph(from.facts, Ink::kQuiet, style) + "\n";
   out += paragraph(from.summary, ink_of(from.mood), style);
   for (const Table& table : from.tables) {
     if (table.rows.empty()) continue;

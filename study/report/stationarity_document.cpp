@@ -8,7 +8,8 @@ namespace imunoise::report {
 namespace {
 
 std::string probability(bool known, double p, Digits digits) {
-  return known ? number(p, 2, digits) : "–";
+  if (!known) return "–";
+  return p < 1e-4 ? "< 0.0001" : number(p, 2, digits);
 }
 
 std::vector<std::string> row(const char* question, const v1::TestResult& test, Digits digits) {
@@ -21,11 +22,11 @@ std::vector<std::string> row(const char* question, const v1::TestResult& test, D
 }
 
 Table tests(const v1::StationarityReport& report, Digits digits) {
-  Table out{"The two questions", {"", "", "p", "p, bootstrap", "statistic", "degrees"}, {}};
+  Table out{"The two questions", {"", "", "p", "bootstrap", "statistic", "degrees"}, {}};
   out.rows.push_back(row("does the shape fail?", report.misfit(), digits));
   out.rows.push_back(row("do parameters differ?", report.heterogeneity(), digits));
   out.rows.push_back(
-      {"the published statistic, for comparison", "", "",
+      {"published statistic", "", "",
        probability(report.has_published_p_value(), report.published_p_value(), digits),
        number(report.published_statistic(), 4, digits), ""});
   return out;
@@ -33,13 +34,13 @@ Table tests(const v1::StationarityReport& report, Digits digits) {
 
 Table spread(const v1::StationarityReport& report, Digits digits) {
   Table out{"How parameters differ between replicates",
-            {"parameter", "mean", "spread between replicates", "unit", "moves?", "p"},
+            {"parameter", "mean", "spread", "unit", "moves?", "p"},
             {}};
   for (const v1::ParameterSpread& one : report.spread()) {
     out.rows.push_back({one.term() + " " + one.parameter(), number(one.mean(), 4, digits),
                         with_interval(one.spread(), one.lower(), one.upper(), digits),
                         one.unit() == "1" ? "" : one.unit(), one.moves() ? "yes" : "not shown",
-                        number(one.p_value(), 2, digits)});
+                        probability(one.has_p_value(), one.p_value(), digits)});
   }
   return out;
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include "cli/output.h"
+#include "study/report/document.h"
+#include "study/report/inference_documents.h"
+#include "study/report/json.h"
+
+namespace imunoise::cli {
+
+/// How a result leaves the program.
+struct ShowArguments {
+  bool json = false;
+  std::optional<std::filesystem::path> report;  ///< HTML page
+};
+
+/// Writes the page if one was asked for, and prints the result as JSON (a single channel without
+/// the list around it) or for people. Returns the exit status.
+template <class Reports>
+int show(const Reports& reports, const ShowArguments& arguments) {
+  if (arguments.report) {
+    const auto page = report::html_page(report::document(reports, report::Digits::kTypeset));
+    if (auto done = write_file(*arguments.report, page); !done) return print_error(done.error());
+    fmt::print(stderr, "wrote {}\n", arguments.report->string());
+  }
+  if (arguments.json) {
+    const bool single = reports.channels_size() == 1;
+    print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));
+    return 0;
+  }
+  print(report::text(report::document(reports, report::Digits::kPlain), terminal_style()));
+  return 0;
+}
+
+}  // namespace imunoise::cli

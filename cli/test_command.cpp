@@ -1,0 +1,21 @@
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/progress_line.h"
+#include "cli/show.h"
+
+namespace imunoise::cli {
+
+int run(const TestArguments& arguments) {
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return print_error(replicates.error());
+  v1::StationarityReports reports;
+  for (const study::Series& series : all_series(*replicates)) {
+    ProgressLine line(series.channel);
+    const auto done = study::test_series(series, arguments.test, line.progress());
+    if (!done) return print_error(done.error());
+    *reports.add_channels() = *done;
+  }
+  return show(reports, arguments.show);
+}
+
+}  // namespace imunoise::cli
