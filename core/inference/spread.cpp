@@ -58,9 +58,12 @@ ParameterSpread spread_of(const Effects& effects, const ParameterScale& scale) {
   out.replicates = static_cast<int>(effects.value.size());
   out.mean = scale.to_value(effects.mean(between2));
   const double slope = scale.slope(out.mean);
-  out.spread = slope * std::sqrt(between2);
-  out.lower = slope * std::sqrt(effects.between_at(chi_square_quantile(0.975, degrees)));
-  out.upper = slope * std::sqrt(effects.between_at(chi_square_quantile(0.025, degrees)));
+  out.relative = std::sqrt(between2);
+  out.relative_lower = std::sqrt(effects.between_at(chi_square_quantile(0.975, degrees)));
+  out.relative_upper = std::sqrt(effects.between_at(chi_square_quantile(0.025, degrees)));
+  out.spread = slope * out.relative;
+  out.lower = slope * out.relative_lower;
+  out.upper = slope * out.relative_upper;
   out.p_value = chi_square_tail(effects.q(0.0), degrees);
   return out;
 }

@@ -17,6 +17,11 @@ struct ParameterSpread {
   double spread = 0.0;  ///< its standard deviation, beyond what estimation adds
   double lower = 0.0;   ///< 95 % interval of the spread
   double upper = 0.0;
+  /// The same on its scale, where 0.1 means 10 %: of a power or a time, or of the distance of
+  /// anything else from its nearer bound.
+  double relative = 0.0;
+  double relative_lower = 0.0;
+  double relative_upper = 0.0;
   double p_value = 1.0;  ///< that it does not move, corrected for the number of parameters (Holm)
   bool moves() const { return p_value < 0.05; }
 };

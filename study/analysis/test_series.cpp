@@ -32,17 +32,22 @@ void add_spread(const NearStationarity& result, Quantity quantity, v1::Stationar
     to.set_spread(from.spread);
     to.set_lower(from.lower);
     to.set_upper(from.upper);
+    to.set_relative(from.relative);
+    to.set_relative_lower(from.relative_lower);
+    to.set_relative_upper(from.relative_upper);
     to.set_p_value(from.p_value);
     to.set_moves(from.moves());
   }
 }
 
+// "sigma2 of AR1 by 29 %, 1 - phi of AR1 by 40 %".
 std::string moving(const v1::StationarityReport& report) {
   std::string out;
   for (const v1::ParameterSpread& one : report.spread()) {
     if (!one.moves()) continue;
-    out += fmt::format("{}{} of {} by ±{:.2g} %", out.empty() ? "" : ", ", one.parameter(),
-                       one.term(), 100.0 * one.spread() / std::abs(one.mean()));
+    const bool near_one = one.parameter() == "phi" && one.mean() > 0.5;
+    out += fmt::format("{}{}{} of {} by {:.2g} %", out.empty() ? "" : ", ", near_one ? "1 - " : "",
+                       one.parameter(), one.term(), 100.0 * one.relative());
   }
   return out;
 }

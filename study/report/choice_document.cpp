@@ -7,6 +7,8 @@
 namespace imunoise::report {
 namespace {
 
+constexpr double kFarFromFloor = 1.5;  // merit, from which something is missing
+
 const char* words(v1::ChoiceVerdict verdict) {
   switch (verdict) {
     case v1::selected:
@@ -40,7 +42,10 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
     rows.push_back({one.model(), one.merit(), one.merit_lower(), one.merit_upper(),
                     one.verdict() == v1::not_appropriate});
   }
-  out.badge = report.candidates_size() > 0 ? report.candidates(0).model() : "";
+  if (report.candidates_size() > 0) {
+    out.badge = report.candidates(0).model();
+    out.mood = report.candidates(0).merit() < kFarFromFloor ? Mood::kGood : Mood::kDoubtful;
+  }
   out.figures.push_back(interval_chart(
       "Error of prediction", "held-out error, 1 = noise floor",
       "Each model was fitted without the replicates that it is judged on. The line at 1 is what "

@@ -16,11 +16,10 @@ constexpr double kLetter = 12.0;  // px
 constexpr double kFoot = 44.0;    // px, for the axis
 
 std::string draw(const std::string& title, const std::string& axis_title,
-                 const std::vector<IntervalRow>& rows, double reference, const char* kind,
-                 double width) {
+                 const std::vector<IntervalRow>& rows, std::optional<double> reference,
+                 const char* kind, double width) {
   LogRange range;
-  range.include(reference * 0.9);
-  range.include(reference * 1.1);
+  if (reference) range.include(*reference);
   double names = 0.0;
   for (const IntervalRow& row : rows) {
     range.include(row.value);
@@ -29,7 +28,7 @@ std::string draw(const std::string& title, const std::string& axis_title,
     names = std::max(names, text_width(row.name, kLetter));
   }
   const double left = std::min(names, 0.45 * width) + 14.0;
-  const LogAxis axis(range.low() * 0.95, range.high() * 1.05, left, width - 16.0);
+  const LogAxis axis(range.low() * 0.9, range.high() * 1.1, left, width - 16.0);
   const double bottom = kRow * static_cast<double>(rows.size()) + 6.0;
   SvgWriter svg;
   std::string opening = svg_opening({SvgVariant::kInline, width, kind}, bottom + kFoot, title);
@@ -37,13 +36,13 @@ std::string draw(const std::string& title, const std::string& axis_title,
   opening.replace(opening.find(plain), plain.size(),
                   std::string(R"(class="figure )") + kind + "\"");
   svg.raw(opening);
-  for (const Tick& tick : axis.fine_ticks(34.0)) {
+  for (const Tick& tick : axis.fine_ticks(52.0)) {
     const double x = axis(tick.value);
     svg.line(tick.major ? "grid" : "grid minor", {x, 0.0}, {x, bottom});
     if (!tick.major) continue;
     svg.text("tick", {x, bottom + 16.0}, tick_label(tick.value), kLetter, Anchor::kMiddle);
   }
-  svg.line("axis", {axis(reference), 0.0}, {axis(reference), bottom});
+  if (reference) svg.line("axis", {axis(*reference), 0.0}, {axis(*reference), bottom});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const IntervalRow& row = rows[i];
     const double y = kRow * (static_cast<double>(i) + 0.5);
@@ -65,7 +64,7 @@ std::string draw(const std::string& title, const std::string& axis_title,
 
 Figure interval_chart(const std::string& title, const std::string& axis_title,
                       const std::string& caption, const std::vector<IntervalRow>& rows,
-                      double reference) {
+                      std::optional<double> reference) {
   return {title, draw(title, axis_title, rows, reference, "wide", 920.0),
           draw(title, axis_title, rows, reference, "narrow", 388.0), caption};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,10 @@ struct IntervalRow {
   bool marked = false;  ///< drawn in the colour of trouble
 };
 
-/// Rows of values with whiskers on a logarithmic axis, with a line at `reference`; ends that are
-/// zero or negative run to the axis's edge. For page figures: both widths.
+/// Rows of values with whiskers on a logarithmic axis, with a line at `reference` where there is
+/// one; ends that are zero or negative run to the axis's edge. For page figures: both widths.
 Figure interval_chart(const std::string& title, const std::string& axis_title,
                       const std::string& caption, const std::vector<IntervalRow>& rows,
-                      double reference);
+                      std::optional<double> reference);
 
 }  // namespace imunoise::report

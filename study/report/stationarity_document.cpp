@@ -64,14 +64,13 @@ Section section(const v1::StationarityReport& report, Digits digits) {
   out.summary = report.summary();
   std::vector<IntervalRow> rows;
   for (const v1::ParameterSpread& one : report.spread()) {
-    const double scale = 100.0 / std::abs(one.mean());
-    if (one.spread() <= 0.0) continue;
-    rows.push_back({one.term() + " " + one.parameter(), scale * one.spread(), scale * one.lower(),
-                    scale * one.upper(), one.moves()});
+    if (one.relative() <= 0.0) continue;
+    rows.push_back({one.term() + " " + one.parameter(), 100.0 * one.relative(),
+                    100.0 * one.relative_lower(), 100.0 * one.relative_upper(), one.moves()});
   }
   if (!rows.empty()) {
     out.figures.push_back(interval_chart(
-        "Spread between replicates", "standard deviation between replicates, % of the mean",
+        "Spread between replicates", "standard deviation between replicates, %",
         "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
         "runs to the left edge includes zero. Orange: moves by more than chance. Parameters "
         "without "
