@@ -39,6 +39,11 @@ Examples:
       --rate 100 --samples 1000000 --replicates 6 --seed 42 --unit rad/s --out run.h5
   writes run_1.h5 .. run_6.h5 (also .csv and .npy). The same seed gives the same numbers.)help";
 
+constexpr const char* kDriversHelp = R"help(
+Drivers are files imunoise-NAME.so in the folders given here, in those of the environment variable
+IMUNOISE_DRIVER_PATH (separated by ':'), and in lib/imunoise/drivers of the installation. The first of
+a name wins.)help";
+
 // Texts that need a look-up after parsing.
 struct Raw {
   std::vector<std::string> files;
@@ -192,6 +197,15 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->required();
   add_json(simulate);
 
+  CLI::App* const drivers =
+      app.add_subcommand("drivers", "List drivers of devices, and why any was refused");
+  drivers->footer(kDriversHelp);
+  std::vector<std::string> folders;
+  drivers->add_option("--driver-path", folders, "A folder to search before the others; repeatable")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("FOLDER");
+  add_json(drivers);
+
   try {
     app.parse(argc, argv);
     Arguments arguments;
@@ -210,6 +224,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       if (!report.empty()) command.report = report;
       if (!svg.empty()) command.svg = svg;
       arguments.command = std::move(command);
+    } else if (drivers->parsed()) {
+      arguments.command = DriversArguments{{folders.begin(), folders.end()}, json};
     } else {
       simulation.rate = Hertz{rate};
       simulation.unit = unit_from(unit);

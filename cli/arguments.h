@@ -46,8 +46,13 @@ struct SimulateArguments {
   bool json = false;
 };
 
+struct DriversArguments {
+  std::vector<std::filesystem::path> folders;  ///< searched before all others
+  bool json = false;
+};
+
 struct Arguments {
-  std::variant<WvArguments, FitArguments, SimulateArguments> command;
+  std::variant<WvArguments, FitArguments, SimulateArguments, DriversArguments> command;
   std::optional<std::size_t> threads;
 };
 
