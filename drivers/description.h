@@ -85,9 +85,9 @@ struct Channel {
   std::string name;         ///< Unique in its stream, without '/': "gyro_x".
   std::string units = "1";  ///< "rad/s", "deg/s", "K", ...; "1" where none is known.
   NumberType type = NumberType::kFloat64;
-  double scale_factor = 1.0;  ///< Units per number; not 0.
-  double add_offset = 0.0;    ///< Units.
-  std::string long_name;      ///< "angular rate about x"; may be empty.
+  double scale_factor = 1.0;   ///< Units per number; not 0.
+  double add_offset = 0.0;     ///< Units.
+  std::string long_name = {};  ///< "angular rate about x"; may be empty.
 };
 
 /// Channels that share one clock, one counter, one time column.
