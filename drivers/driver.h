@@ -17,6 +17,7 @@
  * and unchanged: of the driver for ever (plugins are never unloaded), of a device until close.
  * No exception, no C++ type and no allocation crosses. */
 
+/* NOLINTBEGIN: C, where clang-tidy expects C++. */
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -237,3 +238,4 @@ IMUNOISE_DRIVER_EXPORT const imunoise_driver* imunoise_driver_entry(uint32_t hos
 #ifdef __cplusplus
 } /* extern "C" */
 #endif
+/* NOLINTEND */

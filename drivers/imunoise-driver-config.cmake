@@ -1,8 +1,7 @@
 # find_package(imunoise-driver): the headers that a driver outside of imunoise's tree is built against.
 #
 #   imunoise::driver                  link a driver to it
-#   imunoise_add_driver(NAME SOURCES) makes imunoise-NAME.so
-#   IMUNOISE_DRIVER_FOLDER            where to install it
+#   imunoise_add_driver(NAME SOURCES) makes imunoise-NAME.so, target NAME
 get_filename_component(_imunoise_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
 if(NOT TARGET imunoise::driver)

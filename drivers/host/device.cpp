@@ -72,7 +72,8 @@ bool all_finite(std::span<const Number> numbers) {
 
 }  // namespace
 
-Device::Device(const Driver& driver, NoteHandler note) : driver_(driver), note_(std::move(note)) {}
+Device::Device(Driver driver, NoteHandler note)
+    : driver_(std::move(driver)), note_(std::move(note)) {}
 
 Device::~Device() {
   if (handle_ == nullptr) return;

@@ -60,7 +60,7 @@ class Device {
   void cancel() noexcept;
 
  private:
-  Device(const Driver& driver, NoteHandler note);
+  Device(Driver driver, NoteHandler note);
   Result<void> start(const OptionValues& values);
   Result<ReadOutcome> outcome(std::int32_t status, const Block& block, std::string_view text);
   Result<void> check_samples(const Block& block) const;

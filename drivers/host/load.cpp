@@ -22,6 +22,7 @@ Result<Entry> entry_of(const fs::path& file) {
   // LOCAL: plugins do not see one another. NODELETE: not even by mistake is one unloaded.
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library == nullptr) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text for each thread.
     const char* const text = ::dlerror();
     return fail(text == nullptr ? "cannot be loaded" : text);
   }
@@ -64,6 +65,7 @@ std::vector<fs::path> plugins_in(const fs::path& folder) {
 
 std::vector<fs::path> driver_folders(std::span<const fs::path> first) {
   std::vector<fs::path> wanted(first.begin(), first.end());
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing of ours changes the environment.
   if (const char* const list = std::getenv("IMUNOISE_DRIVER_PATH")) {
     std::string_view rest = list;
     while (!rest.empty()) {

@@ -94,7 +94,7 @@ class StreamQueue {
       }
       for (std::uint32_t k = 0; k < IMUNOISE_REFUSED_REASONS; ++k) {
         // A host older than this header knows fewer reasons: the others are "other".
-        const std::uint32_t known = k < block.reason_count ? k : 0;
+        const std::size_t known = k < block.reason_count ? k : 0;
         block.refused[known * block.column_capacity + c] += refused(static_cast<Reason>(k), c);
       }
     }

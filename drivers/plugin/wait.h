@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -67,12 +68,12 @@ class Wait {
  private:
   // True where `descriptor` has an event; a negative one never has.
   bool poll_until(int descriptor, short events, Clock::time_point moment) const {
-    pollfd both[] = {{signal_.descriptor(), POLLIN, 0}, {descriptor, events, 0}};
+    std::array<pollfd, 2> both = {{{signal_.descriptor(), POLLIN, 0}, {descriptor, events, 0}}};
     for (;;) {
       const auto left = std::chrono::ceil<std::chrono::nanoseconds>(moment - Clock::now());
       const auto nanoseconds = std::max<std::int64_t>(0, left.count());
       const timespec most = {nanoseconds / 1'000'000'000, nanoseconds % 1'000'000'000};
-      const int count = ::ppoll(both, 2, &most, nullptr);
+      const int count = ::ppoll(both.data(), both.size(), &most, nullptr);
       if (count >= 0) return both[1].revents != 0;
       if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "ppoll");
     }
