@@ -52,9 +52,7 @@ class StreamQueue {
     settle();
     const std::size_t first = stamps_.size();
     stamps_.resize(first + count);
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      columns_[c].resize(stamps_.size() * width(stream_.channels[c].type));
-    }
+    fit_columns();
     return first;
   }
   Stamp& stamp(std::size_t row) { return stamps_[row]; }
@@ -115,16 +113,22 @@ class StreamQueue {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       ++refused(faults_[c].value_or(Reason::kSibling), c);
       faults_[c].reset();
-      columns_[c].resize(columns_[c].size() - width(stream_.channels[c].type));
     }
     stamps_.pop_back();
+    fit_columns();
     faulty_ = false;
     any_refused_ = true;
   }
   void clear() {
     begin_ = 0;
     stamps_.clear();
-    for (auto& column : columns_) column.clear();
+    fit_columns();
+  }
+  // Gives every column as many numbers as there are samples.
+  void fit_columns() {
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      columns_[c].resize(stamps_.size() * width(stream_.channels[c].type));
+    }
   }
 
   const drivers::Stream& stream_;
