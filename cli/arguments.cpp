@@ -52,6 +52,11 @@ Examples:
   imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      just these
   imunoise select run?.h5 --splits half --weights diag                   CV-WVIC as published)help";
 
+constexpr const char* kDriversHelp = R"help(
+Drivers are files imunoise-NAME.so in the folders given here, in those of the environment variable
+IMUNOISE_DRIVER_PATH (separated by ':'), and in lib/imunoise/drivers of the installation. The first of
+a name wins.)help";
+
 // Texts that need a look-up after parsing.
 struct Raw {
   std::vector<std::string> files;
@@ -238,6 +243,15 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->check(CLI::IsMember({"full", "diag"}))
       ->capture_default_str();
 
+  CLI::App* const drivers =
+      app.add_subcommand("drivers", "List drivers of devices, and why any was refused");
+  drivers->footer(kDriversHelp);
+  std::vector<std::string> folders;
+  drivers->add_option("--driver-path", folders, "A folder to search before the others; repeatable")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("FOLDER");
+  add_json(drivers);
+
   try {
     app.parse(argc, argv);
     Arguments arguments;
@@ -271,6 +285,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       command.select.measure = measure_from(raw);
       if (!report.empty()) command.show.report = report;
       arguments.command = std::move(command);
+    } else if (drivers->parsed()) {
+      arguments.command = DriversArguments{{folders.begin(), folders.end()}, json};
     } else {
       simulation.rate = Hertz{rate};
       simulation.unit = unit_from(unit);

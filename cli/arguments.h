@@ -61,8 +61,14 @@ struct SelectArguments {
   ShowArguments show;
 };
 
+struct DriversArguments {
+  std::vector<std::filesystem::path> folders;  ///< searched before all others
+  bool json = false;
+};
+
 struct Arguments {
-  std::variant<WvArguments, FitArguments, SimulateArguments, TestArguments, SelectArguments>
+  std::variant<WvArguments, FitArguments, SimulateArguments, TestArguments, SelectArguments,
+               DriversArguments>
       command;
   std::optional<std::size_t> threads;
 };

@@ -5,6 +5,7 @@
 namespace imunoise::cli {
 
 /// Each runs one command and returns the exit status.
+int run(const DriversArguments& arguments);
 int run(const WvArguments& arguments);
 int run(const FitArguments& arguments);
 int run(const SimulateArguments& arguments);

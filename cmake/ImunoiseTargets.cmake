@@ -1,4 +1,4 @@
-# How every target of the house is built: one function for rooms, one for programs' common flags.
+# How every target of the house is built: a function for rooms, one for drivers, the common flags.
 
 find_program(IMUNOISE_CCACHE ccache)
 if(IMUNOISE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
@@ -29,4 +29,21 @@ function(imunoise_room name)
   add_library(imunoise_${name} STATIC ${ROOM_SOURCES})
   add_library(imunoise::${name} ALIAS imunoise_${name})
   target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
+endfunction()
+
+# imunoise_plugin(NAME SOURCES ... USES ...): the driver lib/imunoise/drivers/imunoise-NAME.so of the
+# build tree, target imunoise_plugin_NAME.
+function(imunoise_plugin name)
+  cmake_parse_arguments(PLUGIN "" "" "SOURCES;USES" ${ARGN})
+  set(target imunoise_plugin_${name})
+  add_library(${target} MODULE ${PLUGIN_SOURCES})
+  target_link_libraries(${target} PRIVATE imunoise_flags imunoise::driver ${PLUGIN_USES})
+  # Plugins show one function; what they contain of ours does not meet the program's own copy.
+  target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL)
+  set_target_properties(${target} PROPERTIES
+    PREFIX "" OUTPUT_NAME imunoise-${name} CXX_VISIBILITY_PRESET hidden
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/imunoise/drivers
+    INSTALL_RPATH "$ORIGIN/..")
+  add_dependencies(imunoise_plugins ${target})
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/imunoise/drivers)
 endfunction()

@@ -10,9 +10,10 @@ if(NOT version MATCHES "version 14\\.")
 endif()
 
 set(sources)
-foreach(folder IN ITEMS core recording study drivers daemon cli tests bench)
+foreach(folder IN ITEMS core recording study drivers daemon cli tests bench docs)
   file(GLOB_RECURSE found RELATIVE ${SOURCE_DIR}
-    ${SOURCE_DIR}/${folder}/*.h ${SOURCE_DIR}/${folder}/*.cpp ${SOURCE_DIR}/${folder}/*.inl)
+    ${SOURCE_DIR}/${folder}/*.h ${SOURCE_DIR}/${folder}/*.cpp ${SOURCE_DIR}/${folder}/*.inl
+    ${SOURCE_DIR}/${folder}/*.c)
   list(APPEND sources ${found})
 endforeach()
 list(LENGTH sources count)

@@ -1,0 +1,67 @@
+#pragma once
+
+// What a driver implements.
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "drivers/description.h"
+#include "drivers/plugin/samples.h"
+#include "drivers/plugin/wait.h"
+
+namespace imunoise::plugin {
+
+/// What goes wrong with a device; the host gets it as code and text. Other exceptions reach it as
+/// IMUNOISE_FAILED.
+class DeviceError : public std::runtime_error {
+ public:
+  /// `code` is IMUNOISE_NOT_FOUND or another of driver.h's; `text` names the thing, the place and
+  /// the way out.
+  DeviceError(std::int32_t code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  std::int32_t code() const { return code_; }
+
+ private:
+  std::int32_t code_;
+};
+
+/// What the host does for a device. Copies are cheap. Thread-safe.
+class Host {
+ public:
+  Host(const imunoise_host* table, void* context) : table_(table), context_(context) {}
+
+  /// The host's clock: ns since 1970-01-01 UTC.
+  std::int64_t now_ns() const { return table_->now_ns(); }
+  /// Tells what a person should know of the device: "reset after 3 bad checksums".
+  void note(const std::string& text) const { table_->note(context_, text.c_str()); }
+
+ private:
+  const imunoise_host* table_;
+  void* context_;
+};
+
+/// An open device. The base calls one function at a time, from one thread at a time, except
+/// interrupt(). The constructor starts the device and the destructor stops it; both, and read(),
+/// may throw DeviceError.
+class Device {
+ public:
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device() = default;
+
+  /// What it is and what it delivers. Called once, right after construction.
+  virtual drivers::DeviceInfo describe() = 0;
+
+  /// Waits for samples and adds them, of any stream; returns when some have come, or sooner: it is
+  /// called again until there are some or `wait` is over. Every wait goes through `wait`, or looks
+  /// at wait.over() ten times a second. What was added before a throw is delivered before the
+  /// error.
+  virtual void read(Samples& samples, const Wait& wait) = 0;
+
+  /// For a read that waits neither through `wait` nor looks at it: wakes it. From any thread, also
+  /// while nothing is being read.
+  virtual void interrupt() noexcept {}
+};
+
+}  // namespace imunoise::plugin
