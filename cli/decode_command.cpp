@@ -166,15 +166,20 @@ std::string summary_text(const DecodeArguments& arguments, std::uint64_t bytes,
 // A descriptor, because fread() would wait for a whole block of a live pipe.
 class Input {
  public:
-  explicit Input(const std::string& name)
-      : descriptor_(name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  /// "-" is standard input. Error: the file cannot be opened.
+  static Result<Input> open(const std::string& name) {
+    if (name == "-") return Input(STDIN_FILENO);
+    const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return fail(fmt::format("{}: {}", name, std::strerror(errno)));
+    return Input(descriptor);
+  }
+  Input(Input&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
   ~Input() {
     if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
   }
-  Input(const Input&) = delete;
-  Input& operator=(const Input&) = delete;
+  Input& operator=(Input&&) = delete;
 
-  /// Bytes read into `block`, 0 at the end; errno's text otherwise.
+  /// Bytes read into `block`, 0 at the end. Error: errno's text.
   Result<std::size_t> read(std::vector<std::uint8_t>& block) const {
     while (true) {
       const ssize_t got = ::read(descriptor_, block.data(), block.size());
@@ -184,6 +189,7 @@ class Input {
   }
 
  private:
+  explicit Input(int descriptor) : descriptor_(descriptor) {}
   int descriptor_;
 };
 
@@ -193,13 +199,14 @@ int run(const DecodeArguments& arguments) {
   const Result<DecoderPointer> made = make_decoder(arguments);
   if (!made) return print_error(made.error());
   StreamDecoder& decoder = **made;
-  const Input input(arguments.file);
+  const Result<Input> input = Input::open(arguments.file);
+  if (!input) return print_error(input.error());
   std::vector<std::uint8_t> block(kBlockBytes);
   std::string lines;
   DecodedSample sample;
   std::uint64_t bytes = 0;
   for (bool more = true; more;) {
-    const Result<std::size_t> got = input.read(block);
+    const Result<std::size_t> got = input->read(block);
     if (!got) return print_error({fmt::format("{}: {}", arguments.file, got.error().message)});
     bytes += *got;
     more = *got > 0;
