@@ -152,9 +152,9 @@ TEST(MtData2, CounterAndTimeGoOnThroughTheirWraps) {
   EXPECT_EQ(tally.lost, 2U);
 }
 
-TEST(MtData2, ASampleTimeAboveADayUsesAllItsBits) {
+TEST(MtData2, ASampleTimeAboveADayWrapsAt32Bits) {
   std::vector<std::uint8_t> bytes;
-  for (const std::uint32_t ticks : {863'999'900U, 864'000'000U, 864'000'100U}) {
+  for (const std::uint32_t ticks : {4'294'967'190U, 4'294'967'290U, 94U}) {
     MtData2Writer writer;
     writer.sample_time_fine(ticks);
     append_message(bytes, writer);
