@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "drivers/adis16405/registers.h"
+
 namespace imunoise::cli {
 namespace {
 
@@ -14,6 +16,7 @@ Examples:
   imunoise wv run1.csv --rate 100 --unit deg/s           the measured wavelet variance
   imunoise simulate --model "WN(sigma2=1e-6) + RW(gamma2=1e-14)" --rate 100 \
       --samples 360000 --replicates 6 --seed 1 --out run.h5
+  imunoise decode --format xbus capture.bin              what a device's bytes say
 
 imunoise COMMAND --help says more.)help";
 
@@ -56,6 +59,15 @@ constexpr const char* kDriversHelp = R"help(
 Drivers are files imunoise-NAME.so in the folders given here, in those of the environment variable
 IMUNOISE_DRIVER_PATH (separated by ':'), and in lib/imunoise/drivers of the installation. The first of
 a name wins.)help";
+
+constexpr const char* kDecodeExamples = R"help(
+Examples:
+  imunoise decode --format xbus capture.bin              one JSON line a sample
+  imunoise decode --format candump bus.log --dbc imu.dbc
+  candump -L can0 | imunoise decode --format candump --preset mti600 -
+  imunoise decode --format adis16405 --sens-avg 0x0204 bursts.bin --json
+
+What was refused, and why, goes to standard error; with --json it is the last line.)help";
 
 // Texts that need a look-up after parsing.
 struct Raw {
@@ -111,6 +123,11 @@ Unit unit_from(const std::string& text) {
   const Result<Unit> unit = parse_unit(text);
   if (!unit) refuse("--unit", unit.error().message);
   return *unit;
+}
+
+CaptureFormat format_from(const std::string& name) {
+  if (name == "xbus") return CaptureFormat::kXbus;
+  return name == "candump" ? CaptureFormat::kCandump : CaptureFormat::kAdis16405;
 }
 
 InputArguments input_from(const Raw& raw) {
@@ -252,6 +269,27 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->type_name("FOLDER");
   add_json(drivers);
 
+  CLI::App* const decode = app.add_subcommand("decode", "Print the samples in a device's bytes");
+  decode->footer(kDecodeExamples);
+  DecodeArguments capture;
+  std::string format;
+  std::string dbc;
+  decode->add_option("--format", format, "How the bytes are to be read")
+      ->required()
+      ->check(CLI::IsMember({"xbus", "candump", "adis16405"}));
+  decode->add_option("FILE", capture.file, "The capture; - is standard input")->required();
+  auto* const database =
+      decode->add_option("--dbc", dbc, "candump: what the messages mean")->check(CLI::ExistingFile);
+  decode->add_option("--preset", capture.preset, "candump: a known IMU: mti600, aceinna, mm5.10")
+      ->excludes(database);
+  capture.sens_avg = drivers::adis16405::kDefaultSensitivityAveraging;
+  capture.smpl_prd = drivers::adis16405::kDefaultSamplePeriod;
+  decode->add_option("--sens-avg", capture.sens_avg,
+                     "adis16405: register SENS_AVG (default: 0x0402, 300 deg/s)");
+  decode->add_option("--smpl-prd", capture.smpl_prd,
+                     "adis16405: register SMPL_PRD (default: 0x0001, 819.2 Hz)");
+  decode->add_flag("--json", capture.json, "Print the summary as the last JSON line");
+
   try {
     app.parse(argc, argv);
     Arguments arguments;
@@ -287,6 +325,10 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       arguments.command = std::move(command);
     } else if (drivers->parsed()) {
       arguments.command = DriversArguments{{folders.begin(), folders.end()}, json};
+    } else if (decode->parsed()) {
+      capture.format = format_from(format);
+      if (!dbc.empty()) capture.dbc = dbc;
+      arguments.command = std::move(capture);
     } else {
       simulation.rate = Hertz{rate};
       simulation.unit = unit_from(unit);

@@ -66,9 +66,22 @@ struct DriversArguments {
   bool json = false;
 };
 
+/// How the bytes of a capture are to be read.
+enum class CaptureFormat { kXbus, kCandump, kAdis16405 };
+
+struct DecodeArguments {
+  CaptureFormat format = CaptureFormat::kXbus;
+  std::string file;                          ///< "-": standard input
+  std::optional<std::filesystem::path> dbc;  ///< candump: a database, or
+  std::string preset;                        ///< the name of a known IMU.
+  std::uint16_t sens_avg = 0;                ///< adis16405: registers at the time of recording
+  std::uint16_t smpl_prd = 0;
+  bool json = false;
+};
+
 struct Arguments {
   std::variant<WvArguments, FitArguments, SimulateArguments, TestArguments, SelectArguments,
-               DriversArguments>
+               DriversArguments, DecodeArguments>
       command;
   std::optional<std::size_t> threads;
 };

@@ -11,5 +11,6 @@ int run(const FitArguments& arguments);
 int run(const SimulateArguments& arguments);
 int run(const TestArguments& arguments);
 int run(const SelectArguments& arguments);
+int run(const DecodeArguments& arguments);
 
 }  // namespace imunoise::cli

@@ -1,0 +1,63 @@
+#pragma once
+
+// Which signals of a bus are which channels of a sensor.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/support/result.h"
+#include "drivers/can/database.h"
+#include "drivers/codec/sample.h"
+#include "drivers/codec/si_unit.h"
+
+namespace imunoise::drivers {
+
+/// One line of a configuration: this signal is that channel.
+struct ChannelMapping {
+  std::string message;
+  std::string signal;
+  std::string channel;  ///< e.g. "gyro_x"
+  std::string unit;     ///< Of the physical value; empty: as the database says.
+  /// Bits from this value on mean "not valid" (J1939's upper codes).
+  std::optional<std::uint64_t> invalid_from;
+};
+
+/// A database and the channels made of it. Samples borrow names and units from it. Immutable once
+/// made, so it may be read from many threads.
+class CanChannels {
+ public:
+  /// An empty mapping makes a channel of every signal, under its own name. Error: a message or
+  /// signal that the database lacks, one signal mapped twice.
+  static Result<CanChannels> make(CanDatabase database, std::span<const ChannelMapping> mapping);
+
+  enum class Outcome : std::uint8_t {
+    kSample,   ///< `sample` holds stream (the message's name) and values.
+    kIgnored,  ///< The message is known, and none of its signals is a channel.
+    kRefused,  ///< An error frame, a remote frame, an unknown message.
+  };
+  /// What a frame says. `sample` is overwritten; time and source are the caller's.
+  Outcome decode(const CanFrame& frame, DecodedSample& sample, Refusals& refused) const;
+
+  const CanDatabase& database() const { return database_; }
+
+ private:
+  struct Channel {
+    std::string name;
+    SiUnit unit;
+    std::optional<std::uint64_t> invalid_from;
+  };
+  struct Message {
+    bool used = false;
+    std::vector<std::optional<Channel>> channels;  // as the message's signals
+  };
+
+  explicit CanChannels(CanDatabase database) : database_(std::move(database)) {}
+
+  CanDatabase database_;
+  std::vector<Message> messages_;  // as the database's
+};
+
+}  // namespace imunoise::drivers

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "drivers/codec/stream_decoder.h"
+#include "drivers/codec/unwrap.h"
+#include "drivers/xsens/frame.h"
+#include "drivers/xsens/legacy.h"
+#include "drivers/xsens/mtdata2.h"
+
+namespace imunoise::drivers {
+
+/// SampleTimeFine of the MTi 10 and 100 series starts again after a day, in ticks of 100 µs.
+inline constexpr std::int64_t kXsensDayTicks = 864'000'000;
+
+/// Xbus bytes in, samples out: MTData2, and legacy MTData once a Configuration message has said its
+/// layout. SampleTimeFine wraps after a day until a larger value shows that it uses all 32 bits.
+class XbusDecoder final : public StreamDecoder {
+ public:
+  void push(Bytes bytes) override { parser_.push(bytes); }
+  void finish() override { parser_.finish(); }
+  bool next(DecodedSample& sample) override;
+
+ private:
+  bool decode(const XbusFrame& frame, DecodedSample& sample);
+  bool decode_mtdata(Bytes payload, DecodedSample& sample);
+  void count(std::uint16_t raw, DecodedSample& sample);
+
+  XbusParser parser_;
+  MtData2 data2_;
+  LegacyData data_;
+  std::optional<LegacyLayout> layout_;
+  Unwrapper counter_{65536};
+  std::optional<std::int64_t> last_count_;
+  Unwrapper ticks_{kXsensDayTicks};
+  Refusals own_;  // what was refused within whole frames
+};
+
+}  // namespace imunoise::drivers
