@@ -1,5 +1,10 @@
 #include "recording/hdf5/memory_file.h"
 
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
 namespace imunoise::recording {
 namespace {
 
@@ -20,19 +25,58 @@ Hdf5Handle memory_access() {
 
 }  // namespace
 
-Hdf5Handle create_memory_file() {
+// The memory of a file, kept when HDF5 frees it on closing. (H5Fget_file_image of an open file
+// clears a flag in the superblock and leaves its checksum as it was: 1.10.8 cannot open the
+// result.)
+struct NewMemoryFile::Memory {
+  void* bytes = nullptr;
+  std::size_t size = 0;
+
+  ~Memory() { std::free(bytes); }
+
+  static void* allocate(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+  }
+  static void* resize(void* bytes, std::size_t size, H5FD_file_image_op_t, void* self) {
+    static_cast<Memory*>(self)->size = size;
+    return std::realloc(bytes, size);
+  }
+  static herr_t release(void* bytes, H5FD_file_image_op_t operation, void* self) {
+    if (operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
+      static_cast<Memory*>(self)->bytes = bytes;
+    } else {
+      std::free(bytes);
+    }
+    return 0;
+  }
+  static void* share(void* self) { return self; }
+  static herr_t forget(void*) { return 0; }
+};
+
+NewMemoryFile::NewMemoryFile() : memory_(std::make_unique<Memory>()) {
   const Hdf5Handle access = memory_access();
-  if (!access) return {};
-  return {H5Fcreate(kName, H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
+  H5FD_file_image_callbacks_t callbacks = {Memory::allocate, Memory::copy,  Memory::resize,
+                                           Memory::release,  Memory::share, Memory::forget,
+                                           memory_.get()};
+  if (access && H5Pset_file_image_callbacks(access.get(), &callbacks) >= 0) {
+    file_ = {H5Fcreate(kName, H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
+  }
 }
 
-std::optional<std::string> file_image(hid_t file) {
-  if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) return std::nullopt;
-  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  if (size <= 0) return std::nullopt;
-  std::string out(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file, out.data(), out.size()) != size) return std::nullopt;
-  return out;
+NewMemoryFile::~NewMemoryFile() = default;
+
+std::optional<std::string> NewMemoryFile::finish() {
+  if (!file_.close_now() || memory_->bytes == nullptr) return std::nullopt;
+  // The memory is longer than the file, whose end is in its superblock (versions 2 and 3: the
+  // eight bytes after the signature, four single bytes and two addresses).
+  constexpr std::size_t end_of_file = 8 + 4 + 2 * 8;
+  std::uint64_t size = 0;
+  if (memory_->size < end_of_file + sizeof size) return std::nullopt;
+  const auto* const bytes = static_cast<const char*>(memory_->bytes);
+  std::memcpy(&size, bytes + end_of_file, sizeof size);
+  if (size > memory_->size) return std::nullopt;
+  return std::string(bytes, size);
 }
 
 Hdf5Handle open_memory_file(std::string_view bytes) {

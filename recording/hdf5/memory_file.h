@@ -3,6 +3,7 @@
 // HDF5 files in memory: the library never touches the disk, so that whoever does can decide when
 // bytes are safe, and read each file once for its checksum and its contents.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,10 +12,26 @@
 
 namespace imunoise::recording {
 
-/// An empty file in memory, of format bounds V110: its metadata carries checksums.
-Hdf5Handle create_memory_file();
-/// The bytes that the file would have on disk; nothing when HDF5 refuses.
-std::optional<std::string> file_image(hid_t file);
+/// A new file, of format bounds V110: its metadata carries checksums.
+class NewMemoryFile {
+ public:
+  NewMemoryFile();
+  ~NewMemoryFile();
+  NewMemoryFile(const NewMemoryFile&) = delete;
+  NewMemoryFile& operator=(const NewMemoryFile&) = delete;
+
+  /// The file; negative when HDF5 refused.
+  hid_t id() const { return file_.get(); }
+  /// Closes it: the bytes that a file on disk would have. Nothing when HDF5 refuses; everything else
+  /// of the file must be closed before.
+  std::optional<std::string> finish();
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+  Hdf5Handle file_;
+};
+
 /// Opens the bytes of a file for reading; an invalid handle when they are none. Copies the bytes.
 Hdf5Handle open_memory_file(std::string_view bytes);
 

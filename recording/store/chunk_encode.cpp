@@ -96,14 +96,14 @@ std::uint64_t row_count(const Chunk& chunk) {
 Result<std::string> encode_chunk(const Chunk& chunk) {
   const QuietHdf5 quiet;
   assert(chunk.streams.size() == static_cast<std::size_t>(chunk.device.streams_size()));
-  Hdf5Handle file = create_memory_file();
-  bool good = file && write_root(file.get(), chunk);
+  NewMemoryFile file;
+  bool good = file.id() >= 0 && write_root(file.id(), chunk);
   for (int i = 0; i < chunk.device.streams_size(); ++i) {
     const auto order = static_cast<std::uint64_t>(i);
-    good = good && write_stream(file.get(), chunk.device.streams(i), order, chunk.streams[order]);
+    good = good && write_stream(file.id(), chunk.device.streams(i), order, chunk.streams[order]);
   }
   std::optional<std::string> bytes;
-  if (good) bytes = file_image(file.get());
+  if (good) bytes = file.finish();
   if (!bytes) return fail("HDF5 cannot build it; free some memory");
   return std::move(*bytes);
 }
