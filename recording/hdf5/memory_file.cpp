@@ -17,6 +17,8 @@ Hdf5Handle memory_access() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const bool keep_on_disk = false;
   if (!access || H5Pset_fapl_core(access.get(), kIncrement, keep_on_disk) < 0 ||
+      // What HDF5 itself leaves open of a damaged file goes with the file.
+      H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG) < 0 ||
       H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) {
     return {};
   }

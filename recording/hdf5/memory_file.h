@@ -22,8 +22,8 @@ class NewMemoryFile {
 
   /// The file; negative when HDF5 refused.
   hid_t id() const { return file_.get(); }
-  /// Closes it: the bytes that a file on disk would have. Nothing when HDF5 refuses; everything else
-  /// of the file must be closed before.
+  /// Closes it: the bytes that a file on disk would have. Nothing when HDF5 refuses; everything
+  /// else of the file must be closed before.
   std::optional<std::string> finish();
 
  private:

@@ -156,9 +156,10 @@ struct Ordered {
 template <class Message>
 using InOrder = std::map<std::uint64_t, Ordered<Message>>;
 
+// HDF5 passes over objects whose header is damaged: only the count shows that one is missing.
 template <class Message>
-bool is_complete(const InOrder<Message>& elements) {
-  return elements.empty() || elements.rbegin()->first + 1 == elements.size();
+bool is_complete(const InOrder<Message>& elements, std::uint64_t count) {
+  return elements.size() == count && (count == 0 || elements.rbegin()->first + 1 == count);
 }
 
 Result<void> read_stream(hid_t file, const std::string& name,
@@ -175,6 +176,7 @@ Result<void> read_stream(hid_t file, const std::string& name,
   out.message.set_rate_hz(attributes.required(kRate));
   out.message.set_counter_modulus(attributes.count(kModulus));
   out.message.set_counter_step(attributes.count(kStep));
+  const std::uint64_t channel_count = attributes.count(kChannels);
   out.rows.received = attributes.count(kReceived);
   attributes.add_refusals_of("", out.rows.refused);
   if (attributes.error()) return trouble(attributes.error()->message);
@@ -205,7 +207,8 @@ Result<void> read_stream(hid_t file, const std::string& name,
     }
     channels.emplace(place, std::move(channel));
   }
-  if (!is_complete(channels)) return trouble("a channel is missing; the file is damaged");
+  if (!is_complete(channels, channel_count))
+    return trouble("a channel is missing; the file is damaged");
   for (auto& [place, channel] : channels) {
     *out.message.add_channels() = std::move(channel.message);
     out.rows.channels.push_back(std::move(channel.rows.channels.front()));
@@ -215,7 +218,7 @@ Result<void> read_stream(hid_t file, const std::string& name,
   return {};
 }
 
-Result<void> read_root(hid_t file, Chunk& chunk) {
+Result<void> read_root(hid_t file, Chunk& chunk, std::uint64_t& streams) {
   const auto version = read_number_attribute(file, kVersion);
   if (!version || !*version) return fail("is not a chunk of a recording");
   if (**version != kFormatVersion) {
@@ -228,6 +231,7 @@ Result<void> read_root(hid_t file, Chunk& chunk) {
   chunk.device.set_serial(attributes.text(kSerial));
   chunk.first_sequence = attributes.count(kFirstSequence);
   chunk.last_sequence = attributes.count(kLastSequence);
+  streams = attributes.count(kStreams);
   for (const std::string& name : attribute_names(file)) {
     const std::string_view prefix = kMetadata;
     if (!name.starts_with(prefix)) continue;
@@ -244,14 +248,16 @@ Result<Chunk> decode_chunk(std::string_view bytes) {
   const Hdf5Handle file = open_memory_file(bytes);
   if (!file) return fail("HDF5 cannot open it: truncated or damaged");
   Chunk chunk;
-  if (auto good = read_root(file.get(), chunk); !good) return tl::make_unexpected(good.error());
+  std::uint64_t stream_count = 0;
+  if (auto good = read_root(file.get(), chunk, stream_count); !good)
+    return tl::make_unexpected(good.error());
   InOrder<v1::RecordedStream> streams;
   for (const std::string& name : names_in(file.get(), H5O_TYPE_GROUP)) {
     if (auto good = read_stream(file.get(), name, streams); !good) {
       return tl::make_unexpected(good.error());
     }
   }
-  if (!is_complete(streams)) return fail("a stream is missing; the file is damaged");
+  if (!is_complete(streams, stream_count)) return fail("a stream is missing; the file is damaged");
   for (auto& [place, stream] : streams) {
     *chunk.device.add_streams() = std::move(stream.message);
     chunk.streams.push_back(std::move(stream.rows));

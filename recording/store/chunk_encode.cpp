@@ -57,6 +57,7 @@ bool write_stream(hid_t file, const v1::RecordedStream& stream, std::uint64_t or
   bool good = write_attribute(id, kOrder, order) && write_attribute(id, kRate, stream.rate_hz()) &&
               write_attribute(id, kModulus, std::uint64_t{stream.counter_modulus()}) &&
               write_attribute(id, kStep, std::uint64_t{stream.counter_step()}) &&
+              write_attribute(id, kChannels, std::uint64_t{rows.channels.size()}) &&
               write_attribute(id, kReceived, rows.received) && write_refusals(id, rows, "");
   const Hdf5Handle time = write_numbers(id, kHostTime, rows.host_time);
   good = good && time &&
@@ -78,7 +79,8 @@ bool write_root(hid_t file, const Chunk& chunk) {
               write_attribute(file, kDriver, std::string_view(device.driver())) &&
               write_attribute(file, kSerial, std::string_view(device.serial())) &&
               write_attribute(file, kFirstSequence, chunk.first_sequence) &&
-              write_attribute(file, kLastSequence, chunk.last_sequence);
+              write_attribute(file, kLastSequence, chunk.last_sequence) &&
+              write_attribute(file, kStreams, std::uint64_t{chunk.streams.size()});
   for (const auto& [key, value] : device.metadata()) {
     good = good && write_attribute(file, kMetadata + key, std::string_view(value));
   }

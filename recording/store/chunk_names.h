@@ -12,10 +12,12 @@ inline constexpr const char* kDriver = "driver";
 inline constexpr const char* kSerial = "serial";
 inline constexpr const char* kFirstSequence = "first_sequence";
 inline constexpr const char* kLastSequence = "last_sequence";
+inline constexpr const char* kStreams = "streams";     // how many groups there are
 inline constexpr const char* kMetadata = "metadata.";  // followed by the key
 // Of a stream's group.
 inline constexpr const char* kOrder =
     "order";  // of streams in the device, of channels in the stream
+inline constexpr const char* kChannels = "channels";  // how many datasets beside the stream's own
 inline constexpr const char* kRate = "rate_hz";
 inline constexpr const char* kModulus = "counter_modulus";
 inline constexpr const char* kStep = "counter_step";
