@@ -14,6 +14,7 @@ Examples:
   imunoise wv run1.csv --rate 100 --unit deg/s           the measured wavelet variance
   imunoise simulate --model "WN(sigma2=1e-6) + RW(gamma2=1e-14)" --rate 100 \
       --samples 360000 --replicates 6 --seed 1 --out run.h5
+  imunoise verify recordings/monday                      is the recording intact?
 
 imunoise COMMAND --help says more.)help";
 
@@ -38,6 +39,15 @@ Examples:
   imunoise simulate --model "WN(sigma2=1e-6) + AR1(sigma2=1e-12, phi=0.999)" \
       --rate 100 --samples 1000000 --replicates 6 --seed 42 --unit rad/s --out run.h5
   writes run_1.h5 .. run_6.h5 (also .csv and .npy). The same seed gives the same numbers.)help";
+
+constexpr const char* kVerifyExamples = R"help(
+Examples:
+  imunoise verify recordings/monday                      every chunk, gap and count of a recording
+  imunoise verify recordings/monday --repair             after a crash or a failing disk
+  imunoise verify recordings/monday/replicate-1/imu0/000012.h5 --json
+
+Repairing loses nothing: what the journal holds becomes a chunk, damaged files are renamed to .broken, a
+lost manifest is made from the chunks. The exit status is 0 when the recording is sound.)help";
 
 // Texts that need a look-up after parsing.
 struct Raw {
@@ -192,6 +202,16 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->required();
   add_json(simulate);
 
+  CLI::App* const verify = app.add_subcommand("verify", "Check a recording, and repair it");
+  verify->footer(kVerifyExamples);
+  VerifyArguments verification;
+  std::string recording;
+  verify->add_option("FOLDER", recording, "A recording's folder, or one chunk file of it")
+      ->required()
+      ->check(CLI::ExistingPath);
+  verify->add_flag("--repair", verification.repair, "Repair what can be repaired");
+  add_json(verify);
+
   try {
     app.parse(argc, argv);
     Arguments arguments;
@@ -210,6 +230,13 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       if (!report.empty()) command.report = report;
       if (!svg.empty()) command.svg = svg;
       arguments.command = std::move(command);
+    } else if (verify->parsed()) {
+      verification.path = recording;
+      verification.json = json;
+      if (verification.repair && !std::filesystem::is_directory(verification.path)) {
+        refuse("--repair", "one chunk by itself cannot be repaired; name the recording's folder");
+      }
+      arguments.command = std::move(verification);
     } else {
       simulation.rate = Hertz{rate};
       simulation.unit = unit_from(unit);

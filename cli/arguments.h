@@ -46,8 +46,14 @@ struct SimulateArguments {
   bool json = false;
 };
 
+struct VerifyArguments {
+  std::filesystem::path path;  ///< a recording's folder, or one chunk file
+  bool repair = false;
+  bool json = false;
+};
+
 struct Arguments {
-  std::variant<WvArguments, FitArguments, SimulateArguments> command;
+  std::variant<WvArguments, FitArguments, SimulateArguments, VerifyArguments> command;
   std::optional<std::size_t> threads;
 };
 

@@ -8,5 +8,6 @@ namespace imunoise::cli {
 int run(const WvArguments& arguments);
 int run(const FitArguments& arguments);
 int run(const SimulateArguments& arguments);
+int run(const VerifyArguments& arguments);
 
 }  // namespace imunoise::cli

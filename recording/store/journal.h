@@ -15,7 +15,8 @@
 
 namespace imunoise::recording {
 
-/// When a segment ends and the next begins: whichever comes first.
+/// When a segment ends and the next begins: whichever comes first. What one sync() writes stays in
+/// one segment.
 struct SegmentLimits {
   std::uint64_t bytes = std::uint64_t{32} << 20U;
   std::chrono::nanoseconds time = std::chrono::minutes(10);  ///< By the blocks' host times.

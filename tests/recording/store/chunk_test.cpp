@@ -99,8 +99,8 @@ TEST(Chunk, EveryNumberTypeComesBack) {
   expect_same(back->streams[1], chunk.streams[1]);
 }
 
-// A bit in every third byte of a small chunk or so: the number, name or count it belongs to is refused, or
-// nothing that is read has changed (unused bytes of the file).
+// A bit in every third byte of a small chunk or so: the number, name or count it belongs to is
+// refused, or nothing that is read has changed (unused bytes of the file).
 TEST(Chunk, NoFlippedBitPasses) {
   const Chunk chunk = every_type(60);
   const std::string bytes = *encode_chunk(chunk);
