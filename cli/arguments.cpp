@@ -65,10 +65,12 @@ struct Raw {
 };
 
 void add_input(CLI::App& app, Raw& raw) {
-  app.add_option("FILES", raw.files,
-                 "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar")
+  app.add_option(
+         "FILES", raw.files,
+         "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar; or the "
+         "folder of one recording")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingPath);
   app.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")
       ->delimiter(',')
       ->allow_extra_args(false);  // what follows the name is a file again

@@ -9,6 +9,7 @@
 
 #include "recording/store/layout.h"
 #include "recording/store/recorder.h"
+#include "recording/store/replicates.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/samples.h"
 
@@ -163,6 +164,40 @@ TEST_F(Verify, OneChunkFileByItself) {
   const auto bad = verify_chunk(files_, file("000002.h5"));
   ASSERT_TRUE(bad);
   EXPECT_FALSE(bad->sound());
+}
+
+TEST_F(Verify, ImportsAsReplicatesCutAtGaps) {
+  ImportOptions options;
+  options.channels = {"imu0/imu/gyro_x"};
+  const auto whole = import_recording(files_, root_, options);
+  ASSERT_TRUE(whole) << whole.error().message;
+  ASSERT_EQ(whole->size(), 1U);
+  EXPECT_EQ(whole->front().name, "replicate-1");
+  const Signal signal = whole->front().channels.front().signal();
+  ASSERT_EQ(signal.size(), 360U);
+  EXPECT_EQ(signal.rate().value, 100.0);
+  EXPECT_EQ(signal.quantity(), Quantity::kAngularRate);
+  EXPECT_DOUBLE_EQ(signal.value(1), -993 * 0.05 * 0.017453292519943295);  // row 1: 7 - 1000
+  EXPECT_TRUE(
+      std::holds_alternative<std::vector<std::int16_t>>(*whole->front().channels[0].samples));
+
+  std::filesystem::remove(file("000003.h5"));
+  const auto damaged = import_recording(files_, root_, options);
+  ASSERT_FALSE(damaged);
+  expect_parts(damaged.error().message, {"000003.h5: is missing", "--repair"});
+  verify(true);
+  const auto parts = import_recording(files_, root_, options);
+  ASSERT_TRUE(parts);
+  ASSERT_EQ(parts->size(), 2U);
+  EXPECT_EQ((*parts)[0].channels[0].count, 60U);
+  EXPECT_EQ((*parts)[1].channels[0].begin, 60U);
+  EXPECT_EQ((*parts)[1].channels[0].count, 270U);
+  EXPECT_EQ((*parts)[1].name, "replicate-1#2");
+
+  options.channels.clear();
+  const auto both = import_recording(files_, root_, options);
+  ASSERT_FALSE(both);
+  expect_parts(both.error().message, {"different streams", "imu0/slow/temperature"});
 }
 
 TEST_F(Verify, AnotherFolderIsNoRecording) {
