@@ -243,6 +243,15 @@ Result<void> read_root(hid_t file, Chunk& chunk, std::uint64_t& streams) {
 
 }  // namespace
 
+Result<void> reopen_chunk(std::string_view bytes) {
+  const QuietHdf5 quiet;
+  const Hdf5Handle file = open_memory_file(bytes);
+  if (!file) return fail("HDF5 cannot open it: truncated or damaged");
+  Chunk chunk;
+  std::uint64_t stream_count = 0;
+  return read_root(file.get(), chunk, stream_count);
+}
+
 Result<Chunk> decode_chunk(std::string_view bytes) {
   const QuietHdf5 quiet;
   const Hdf5Handle file = open_memory_file(bytes);

@@ -28,6 +28,9 @@ std::uint64_t row_count(const Chunk& chunk);
 /// want of memory. Precondition: check_device() and check_block() accepted what is in it.
 Result<std::string> encode_chunk(const Chunk& chunk);
 
+/// Opens a chunk's bytes and looks at its root, not at its numbers. Error as decode_chunk().
+Result<void> reopen_chunk(std::string_view bytes);
+
 /// Error, without the file's name: damage, with the dataset where it is; not a chunk; another
 /// version. HDF5's own checksums guard every number and name.
 Result<Chunk> decode_chunk(std::string_view bytes);

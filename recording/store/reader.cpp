@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "recording/store/journal_reader.h"
 #include "recording/store/layout.h"
@@ -94,7 +95,11 @@ class DeviceReader {
         rows.flags.front() |= kLostBefore;
         lost_before_[i] = false;
       }
-      append(out_.streams[i], rows);
+      if (out_.chunks == 0) {
+        out_.streams[i] = std::move(rows);
+      } else {
+        append(out_.streams[i], rows);
+      }
     }
     after_ = chunk.last_sequence;
     ++out_.chunks;

@@ -78,8 +78,9 @@ Result<Sealed> seal_segment(FileSystem& files, const DeviceFolder& where, std::u
     const std::string name = numbered(number, kChunkSuffix);
     const auto image = encode_chunk(*segment->chunk);
     if (!image) return trouble(image.error());
-    const auto reread = decode_chunk(*image);
-    if (!reread) return trouble({"its chunk cannot be read back: " + reread.error().message});
+    if (auto good = reopen_chunk(*image); !good) {
+      return trouble({"its chunk cannot be opened: " + good.error().message});
+    }
     if (auto done = replace_file(files, where.path() / name, *image); !done) {
       return tl::make_unexpected(done.error());
     }

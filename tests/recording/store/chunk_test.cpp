@@ -78,7 +78,13 @@ void expect_same(const Rows& a, const Rows& b) {
   EXPECT_EQ(a.refused, b.refused);
 }
 
-TEST(Crc32c, CheckValueOfRfc3720) {
+TEST(Crc32c, ExamplesOfRfc3720) {
+  std::string counting;
+  for (char c = 0; c < 32; ++c) counting += c;
+  EXPECT_EQ(crc32c(std::string(32, '\0')), 0x8a9136aaU);
+  EXPECT_EQ(crc32c(std::string(32, '\xff')), 0x62a8ab43U);
+  EXPECT_EQ(crc32c(counting), 0x46dd794eU);
+  EXPECT_EQ(crc32c(counting.substr(0, 13), counting.substr(13)), 0x46dd794eU);
   EXPECT_EQ(crc32c("123456789"), 0xe3069283U);
   EXPECT_EQ(crc32c("12345", "6789"), 0xe3069283U);
   EXPECT_EQ(crc32c_text("123456789"), "e3069283");
