@@ -50,16 +50,17 @@ const std::vector<Counts>& counts(std::uint32_t replicate) {
   return all[replicate];
 }
 
-v1::RecordedDevice gyro() {
+// A device of so many channels, which repeat the three axes.
+v1::RecordedDevice device(std::size_t channels) {
   v1::RecordedDevice out;
   out.set_name("imu0");
   v1::RecordedStream& stream = *out.add_streams();
   stream.set_name("imu");
   stream.set_rate_hz(100.0);
   stream.set_counter_modulus(65536);
-  for (const char* name : {"gyro_x", "gyro_y", "gyro_z"}) {
+  for (std::size_t i = 0; i < channels; ++i) {
     v1::RecordedChannel& channel = *stream.add_channels();
-    channel.set_name(name);
+    channel.set_name("axis" + std::to_string(i));
     channel.set_dtype("<i2");
     channel.set_units("deg/s");
     channel.set_scale_factor(0.05);
@@ -68,13 +69,14 @@ v1::RecordedDevice gyro() {
 }
 
 // Blocks of one replicate: counter, and host times that are late by up to `late_ns`.
-std::vector<Block> blocks(std::uint32_t replicate, std::int64_t late_ns) {
+std::vector<Block> blocks(std::uint32_t replicate, std::size_t channels, std::int64_t late_ns) {
   std::mt19937_64 engine(replicate);
   std::uniform_int_distribution<std::int64_t> late(0, late_ns);
   const std::vector<Counts>& axes = counts(replicate);
+  const v1::RecordedDevice described = device(channels);
   std::vector<Block> out;
   for (std::size_t first = 0; first + kBlockRows <= axes[0].size(); first += kBlockRows) {
-    Block block{0, empty_rows(gyro().streams(0))};
+    Block block{0, empty_rows(described.streams(0))};
     Rows& rows = block.rows;
     for (std::size_t i = first; i < first + kBlockRows; ++i) {
       const auto at = static_cast<std::int64_t>(i);
@@ -82,10 +84,10 @@ std::vector<Block> blocks(std::uint32_t replicate, std::int64_t late_ns) {
       rows.counter.push_back(at % 65536);
       rows.flags.push_back(0);
     }
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < channels; ++c) {
       std::get<Counts>(rows.channels[c])
-          .assign(axes[c].begin() + static_cast<std::ptrdiff_t>(first),
-                  axes[c].begin() + static_cast<std::ptrdiff_t>(first + kBlockRows));
+          .assign(axes[c % 3].begin() + static_cast<std::ptrdiff_t>(first),
+                  axes[c % 3].begin() + static_cast<std::ptrdiff_t>(first + kBlockRows));
     }
     rows.received = rows.size();
     out.push_back(std::move(block));
@@ -110,7 +112,7 @@ bool record(const std::filesystem::path& root, std::uint32_t replicate,
             const std::vector<Block>& all) {
   RecordingPlan plan;
   plan.replicate = replicate + 1;
-  plan.devices = {gyro()};
+  plan.devices = {device(all.front().rows.channels.size())};
   const auto recorder = Recorder::start(posix_file_system(), root, plan);
   if (!recorder) return false;
   for (const Block& block : all) {
@@ -121,7 +123,8 @@ bool record(const std::filesystem::path& root, std::uint32_t replicate,
 
 // Journal, chunk, every sync: from the first block handed over until everything is in chunks.
 void write_recording(benchmark::State& state) {
-  const std::vector<Block> all = blocks(0, state.range(0));
+  const auto channels = static_cast<std::size_t>(state.range(0));
+  const std::vector<Block> all = blocks(0, channels, state.range(1));
   std::uintmax_t bytes = 0;
   for (auto _ : state) {
     const Folder folder;
@@ -133,15 +136,16 @@ void write_recording(benchmark::State& state) {
     }
     state.ResumeTiming();
   }
-  const double values = 3.0 * static_cast<double>(all.size() * kBlockRows);
+  const double values = static_cast<double>(channels * all.size() * kBlockRows);
   state.counters["values/s"] = benchmark::Counter(values * static_cast<double>(state.iterations()),
                                                   benchmark::Counter::kIsRate);
   state.counters["bytes/value"] = static_cast<double>(bytes) / values;
 }
 BENCHMARK(write_recording)
-    ->ArgName("late_ns")
-    ->Arg(0)
-    ->Arg(100'000)
+    ->ArgNames({"channels", "late_ns"})
+    ->Args({3, 0})
+    ->Args({3, 100'000})
+    ->Args({10, 100'000})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
@@ -150,7 +154,7 @@ BENCHMARK(write_recording)
 void read_recording(benchmark::State& state) {
   const Folder folder;
   for (std::uint32_t i = 0; i < kReplicates; ++i) {
-    if (!record(folder.path(), i, blocks(i, 100'000))) state.SkipWithError("cannot record");
+    if (!record(folder.path(), i, blocks(i, 3, 100'000))) state.SkipWithError("cannot record");
   }
   const FileSystem& files = posix_file_system();
   for (auto _ : state) {

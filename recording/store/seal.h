@@ -33,8 +33,9 @@ struct Sealed {
 v1::ChunkEntry chunk_entry(const std::string& file, const Chunk& chunk, std::string_view bytes);
 
 /// Writes the blocks beyond `after` of segment `number` as chunk `number`, opens it again, puts
-/// it in place durably, and only then removes the segment (sets it aside when part of it was damaged).
-/// May be repeated after an error or a crash at any point. `fallback` as for read_segment().
+/// it in place durably, and only then removes the segment (sets it aside when part of it was
+/// damaged). May be repeated after an error or a crash at any point. `fallback` as for
+/// read_segment().
 Result<Sealed> seal_segment(FileSystem& files, const DeviceFolder& where, std::uint64_t number,
                             std::uint64_t after, const v1::JournalHeader* fallback = nullptr);
 
