@@ -188,9 +188,36 @@ TEST(Recorder, ADiskThatStaysFullIsToldAtTheEnd) {
   EXPECT_TRUE(holds_rows(row_indices(read_back(disk, "/run").streams[0]), 10));
 }
 
-// After a failed fdatasync nobody knows what is on the disk. Blocks are written again under their
-// numbers: all are found, none twice.
-TEST(Recorder, FailedSyncsLoseAndDoubleNothing) {
+// After a failed fdatasync nobody knows what is on the disk: here the block is there, and is
+// written again under its number. It is found once.
+TEST(Journal, ABlockOfUnknownFateIsFoundOnce) {
+  FakeDisk disk;
+  const DeviceFolder where{"/run", "replicate-1/imu0"};
+  for (const char* folder : {"/run", "/run/replicate-1", "/run/replicate-1/imu0"}) {
+    ASSERT_TRUE(disk.make_folder(folder));
+  }
+  Journal journal(disk, where.path(), test_device(), {}, {});
+  journal.append(imu_block(0, 10));
+  ASSERT_TRUE(journal.sync());
+  journal.append(imu_block(10, 10));
+  disk.fail_syncs(true);
+  ASSERT_FALSE(journal.sync());
+  EXPECT_EQ(journal.acknowledged(), 1U);
+  disk.fail_syncs(false);
+  ASSERT_TRUE(journal.sync());
+  EXPECT_EQ(journal.acknowledged(), 2U);
+  journal.append(imu_block(20, 10));
+  ASSERT_TRUE(journal.sync());
+  const auto names = disk.list(where.path());
+  EXPECT_EQ(*names, (std::vector<std::string>{"000001.journal", "000002.journal"}));
+  ASSERT_TRUE(recover_recording(disk, "/run"));
+  const DeviceRecording device = read_back(disk, "/run");
+  EXPECT_EQ(device.chunks, 2U);
+  EXPECT_EQ(row_indices(device.streams[0]).size(), 30U);
+  EXPECT_TRUE(holds_rows(row_indices(device.streams[0]), 30));
+}
+
+TEST(Recorder, FailedSyncsLoseNothing) {
   FakeDisk disk;
   const auto recorder = Recorder::start(disk, "/run", plan(), small_segments());
   ASSERT_TRUE(recorder);
