@@ -1,6 +1,6 @@
 #pragma once
 
-// What the user asked for. CLI11 is slow to compile: it lives in arguments.cpp alone.
+// What the user asked for. CLI11 is slow to compile: it lives in cli/parse alone.
 
 #include <cstdint>
 #include <filesystem>
@@ -79,10 +79,17 @@ struct DecodeArguments {
   bool json = false;
 };
 
+struct VerifyArguments {
+  std::filesystem::path path;  ///< a recording's folder, or one chunk file
+  bool repair = false;
+  bool json = false;
+};
+
 struct Arguments {
-  std::variant<WvArguments, FitArguments, SimulateArguments, TestArguments, SelectArguments,
-               DriversArguments, DecodeArguments>
-      command;
+  using Command =
+      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, SimulateArguments,
+                   VerifyArguments, DriversArguments, DecodeArguments>;
+  Command command;
   std::optional<std::size_t> threads;
 };
 

@@ -12,5 +12,6 @@ int run(const SimulateArguments& arguments);
 int run(const TestArguments& arguments);
 int run(const SelectArguments& arguments);
 int run(const DecodeArguments& arguments);
+int run(const VerifyArguments& arguments);
 
 }  // namespace imunoise::cli

@@ -1,11 +1,16 @@
 #include "cli/input.h"
 
 #include "cli/progress_line.h"
+#include "recording/store/replicates.h"
 
 namespace imunoise::cli {
 
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments) {
   ProgressLine line("reading");
+  if (arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files.front())) {
+    return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
+                                       arguments.import, line.progress());
+  }
   return recording::import_files(arguments.files, arguments.import, line.progress());
 }
 

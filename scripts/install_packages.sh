@@ -21,6 +21,7 @@ test_packages=(
   libgtest-dev nlohmann-json3-dev
   clang libclang-rt-14-dev       # fuzzing
   clang-format clang-tidy
+  python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
 )
 bench_packages=(libbenchmark-dev time)
 

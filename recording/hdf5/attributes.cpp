@@ -30,6 +30,14 @@ Result<std::optional<OpenAttribute>> open_one(hid_t object, const char* name) {
   return std::optional(std::move(out));
 }
 
+bool write_scalar(hid_t object, const std::string& name, hid_t stored, hid_t memory,
+                  const void* value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(
+      H5Acreate2(object, name.c_str(), stored, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  return attribute && H5Awrite(attribute.get(), memory, value) >= 0;
+}
+
 }  // namespace
 
 Result<std::optional<double>> read_number_attribute(hid_t object, const char* name) {
@@ -78,12 +86,22 @@ Result<std::optional<std::string>> read_string_attribute(hid_t object, const cha
   return std::optional(std::move(text));
 }
 
+std::vector<std::string> attribute_names(hid_t object) {
+  std::vector<std::string> out;
+  const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* names) -> herr_t {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+  };
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &out);
+  return out;
+}
+
 bool write_attribute(hid_t object, const std::string& name, double value) {
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(
-      H5Acreate2(object, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose);
-  return attribute && H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0;
+  return write_scalar(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+bool write_attribute(hid_t object, const std::string& name, std::uint64_t value) {
+  return write_scalar(object, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
 }
 
 bool write_attribute(hid_t object, const std::string& name, std::string_view value) {

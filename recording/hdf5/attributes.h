@@ -2,9 +2,11 @@
 
 // Attributes of HDF5 files, groups and datasets: one number or one string each.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/support/result.h"
 #include "recording/hdf5/handle.h"
@@ -19,8 +21,12 @@ Result<std::optional<double>> read_number_attribute(hid_t object, const char* na
 /// none. Error, without file and object: another type or shape, more than 4096 bytes.
 Result<std::optional<std::string>> read_string_attribute(hid_t object, const char* name);
 
+/// Names of all attributes of `object`, sorted. Nothing when HDF5 cannot list them.
+std::vector<std::string> attribute_names(hid_t object);
+
 /// Writes a scalar attribute. False when HDF5 refuses.
 [[nodiscard]] bool write_attribute(hid_t object, const std::string& name, double value);
+[[nodiscard]] bool write_attribute(hid_t object, const std::string& name, std::uint64_t value);
 [[nodiscard]] bool write_attribute(hid_t object, const std::string& name, std::string_view value);
 
 }  // namespace imunoise::recording

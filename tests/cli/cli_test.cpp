@@ -12,6 +12,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "recording/store/recorder.h"
+#include "tests/recording/store/samples.h"
 #include "tests/support/golden.h"
 
 namespace imunoise {
@@ -184,6 +186,39 @@ TEST_F(Cli, RealRecordingsAsThePeerMeasuresThem) {
       }
     }
   }
+}
+
+TEST_F(Cli, VerifiesAndRepairsARecordingAndFitsIt) {
+  {
+    recording::RecordingPlan plan;
+    plan.devices = {recording::test_device()};
+    plan.devices[0].mutable_streams()->RemoveLast();
+    const auto recorder = recording::Recorder::start(
+        recording::posix_file_system(), folder_ / "run", plan, recording::RecorderOptions());
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    ASSERT_TRUE((*recorder)->push(0, recording::imu_block(0, 2000)));
+  }
+  Outcome done = run("verify run");
+  EXPECT_EQ(done.status, 0) << done.out;
+  EXPECT_NE(done.out.find("run: sound, 1 intact chunks"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("2 000 received, 2 000 stored"), std::string::npos) << done.out;
+  done = run("wv run --channel gyro_x --json");
+  ASSERT_EQ(done.status, 0) << done.errors;
+  EXPECT_EQ(nlohmann::json::parse(done.out)["unit"], "rad/s");
+
+  std::filesystem::remove(folder_ / "run/manifest.json");
+  done = run("verify run --json");
+  EXPECT_EQ(done.status, 1);
+  EXPECT_FALSE(nlohmann::json::parse(done.out)["sound"]);
+  done = run("verify run --repair");
+  EXPECT_EQ(done.status, 0) << done.out;
+  EXPECT_NE(done.out.find("made from the chunks"), std::string::npos) << done.out;
+
+  std::filesystem::resize_file(folder_ / "run/replicate-1/imu0/000001.h5", 3000);
+  done = run("verify run");
+  EXPECT_EQ(done.status, 1);
+  EXPECT_NE(done.out.find("chunk 000001.h5"), std::string::npos) << done.out;
+  EXPECT_EQ(done.errors, "") << "HDF5 is not heard";
 }
 
 }  // namespace

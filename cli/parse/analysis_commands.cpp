@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/parse/commands.h"
+#include "cli/parse/input_options.h"
+
+namespace imunoise::cli {
+namespace {
+
+constexpr const char* kFitExamples = R"help(
+Examples:
+  imunoise fit replicate?_gyro.h5 --channel gyro_x --model "2*AR1 + WN + RW"
+  imunoise fit long.npy --split-into 6 --rate 200 --unit "m/s^2" --report acc.html
+  imunoise fit run?.csv --model "WN + RES + RW" --weights diag --json > fit.json
+
+Models are sums of: WN white noise, QN quantisation noise, RW random walk, DR drift, AR1 and GM Markov
+noise, RES resonance, MA(q), MAVG(n) and BARTLETT(n) filters, FN flicker noise. A value in brackets
+stays fixed: WN(sigma2=1e-6). Values are per sample in SI units; GM's tc is in seconds.)help";
+
+constexpr const char* kWvExamples = R"help(
+Examples:
+  imunoise wv run1.h5                                    every channel, drawn and tabulated
+  imunoise wv run?.csv --channel gyro_x --per-octave 4 --json > wv.json
+  imunoise wv run1.h5 --robust 0.6                       unmoved by outliers)help";
+
+constexpr const char* kTestExamples = R"help(
+Examples:
+  imunoise test run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"
+  imunoise test run?.h5 --model "AR1 + WN" --bootstrap 999 --seed 1 --report test.html
+
+Two questions: does the model's shape fit every replicate, and do its parameters differ between them?)help";
+
+constexpr const char* kSelectExamples = R"help(
+Examples:
+  imunoise select run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"     it and all its sub-models
+  imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      just these
+  imunoise select run?.h5 --splits half --weights diag                   CV-WVIC as published)help";
+
+// What the commands of analysis have in common, as it was typed.
+struct RawAnalysis {
+  RawInput input;
+  std::string model;
+  std::string weights = "full";
+  std::string report;
+  bool json = false;
+};
+
+std::optional<std::filesystem::path> path_from(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+Weighting weighting_from(const std::string& text) {
+  return text == "diag" ? Weighting::kDiagonal : Weighting::kFull;
+}
+
+ShowArguments show_from(const RawAnalysis& raw) { return {raw.json, path_from(raw.report)}; }
+
+void add_json(CLI::App& command, RawAnalysis& raw) {
+  command.add_flag("--json", raw.json, "Print the result as JSON");
+}
+
+void add_report(CLI::App& command, RawAnalysis& raw) {
+  command.add_option("--report", raw.report, "Write one self-contained HTML page")
+      ->type_name("OUT.html");
+}
+
+void add_model(CLI::App& command, RawAnalysis& raw) {
+  command.add_option("--model", raw.model,
+                     fmt::format("The model (default: {})", study::kDefaultModel));
+}
+
+void add_weights(CLI::App& command, RawAnalysis& raw) {
+  command
+      .add_option("--weights", raw.weights,
+                  "full: exact covariance of the moments; diag: as the R packages")
+      ->check(CLI::IsMember({"full", "diag"}))
+      ->capture_default_str();
+}
+
+ParsedCommand wv_command(CLI::App& program) {
+  CLI::App* const wv = program.add_subcommand("wv", "Wavelet variance of recordings");
+  wv->footer(kWvExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  add_input(*wv, raw->input);
+  add_json(*wv, *raw);
+  return {wv, [raw] {
+            return WvArguments{input_from(raw->input), measure_from(raw->input), raw->json};
+          }};
+}
+
+ParsedCommand fit_command(CLI::App& program) {
+  CLI::App* const fit = program.add_subcommand("fit", "Fit a noise model to replicates");
+  fit->footer(kFitExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto estimator = std::make_shared<std::string>("mugmwm");
+  const auto svg = std::make_shared<std::string>();
+  add_input(*fit, raw->input);
+  add_json(*fit, *raw);
+  add_report(*fit, *raw);
+  add_model(*fit, *raw);
+  add_weights(*fit, *raw);
+  fit->add_option("--estimator", *estimator,
+                  "mugmwm: one model for all replicates; agmwm: average of one each")
+      ->check(CLI::IsMember({"mugmwm", "agmwm"}))
+      ->capture_default_str();
+  fit->add_option("--svg", *svg, "Write the noise budget as a picture for papers")
+      ->type_name("OUT.svg");
+  return {fit, [raw, estimator, svg] {
+            FitArguments out;
+            out.input = input_from(raw->input);
+            if (!raw->model.empty()) out.fit.model = raw->model;
+            out.fit.estimator =
+                *estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
+            out.fit.weighting = weighting_from(raw->weights);
+            out.fit.measure = measure_from(raw->input);
+            out.json = raw->json;
+            out.report = path_from(raw->report);
+            out.svg = path_from(*svg);
+            return out;
+          }};
+}
+
+ParsedCommand test_command(CLI::App& program) {
+  CLI::App* const test = program.add_subcommand("test", "Are replicates near-stationary?");
+  test->footer(kTestExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto bootstrap = std::make_shared<BootstrapOptions>();
+  add_input(*test, raw->input);
+  add_json(*test, *raw);
+  add_report(*test, *raw);
+  add_model(*test, *raw);
+  test->add_option("--bootstrap", bootstrap->sets, "Sets of a parametric bootstrap, e.g. 999")
+      ->check(CLI::Range(0, 1'000'000));
+  test->add_option("--seed", bootstrap->seed, "Seed of the bootstrap")->capture_default_str();
+  return {test, [raw, bootstrap] {
+            TestArguments out{input_from(raw->input), {}, show_from(*raw)};
+            if (!raw->model.empty()) out.test.model = raw->model;
+            out.test.bootstrap = *bootstrap;
+            out.test.measure = measure_from(raw->input);
+            return out;
+          }};
+}
+
+ParsedCommand select_command(CLI::App& program) {
+  CLI::App* const select = program.add_subcommand("select", "Which model predicts best?");
+  select->footer(kSelectExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto models = std::make_shared<std::vector<std::string>>();
+  const auto splits = std::make_shared<std::string>("leave-one-out");
+  add_input(*select, raw->input);
+  add_json(*select, *raw);
+  add_report(*select, *raw);
+  add_weights(*select, *raw);
+  select
+      ->add_option("--model", *models,
+                   fmt::format("One: it and its sub-models; several: these (default: {})",
+                               study::kDefaultModel))
+      ->allow_extra_args(false);
+  select->add_option("--splits", *splits, "Which replicates are held out")
+      ->check(CLI::IsMember({"leave-one-out", "half"}))
+      ->capture_default_str();
+  return {select, [raw, models, splits] {
+            SelectArguments out{input_from(raw->input), {}, show_from(*raw)};
+            out.select.models = *models;
+            out.select.choice.splits = *splits == "half" ? Splits::kHalf : Splits::kLeaveOneOut;
+            out.select.choice.weighting = weighting_from(raw->weights);
+            out.select.measure = measure_from(raw->input);
+            return out;
+          }};
+}
+
+}  // namespace
+
+std::vector<ParsedCommand> analysis_commands(CLI::App& program) {
+  return {wv_command(program), fit_command(program), test_command(program),
+          select_command(program)};
+}
+
+}  // namespace imunoise::cli

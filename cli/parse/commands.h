@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+#include "cli/arguments.h"
+
+namespace imunoise::cli {
+
+/// One command: its options, and how they become arguments once it was parsed.
+struct ParsedCommand {
+  CLI::App* app;
+  std::function<Arguments::Command()> arguments;  ///< may throw CLI::ValidationError
+};
+
+// Each adds a group of commands to the program.
+std::vector<ParsedCommand> analysis_commands(CLI::App& program);   ///< wv, fit, test, select
+std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, verify
+std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
+
+}  // namespace imunoise::cli

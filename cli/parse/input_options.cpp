@@ -1,0 +1,81 @@
+#include "cli/parse/input_options.h"
+
+namespace imunoise::cli {
+
+void add_input(CLI::App& command, RawInput& raw) {
+  command
+      .add_option(
+          "FILES", raw.files,
+          "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar; or the "
+          "folder of one recording")
+      ->required()
+      ->check(CLI::ExistingPath);
+  command.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")
+      ->delimiter(',')
+      ->allow_extra_args(false);  // what follows the name is a file again
+  command.add_option("--rate", raw.rate, "Sampling rate in Hz, where the file does not say")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--unit", raw.unit,
+                     "Unit of the channels, e.g. deg/s; wins over what the file says");
+  command.add_option("--delimiter", raw.delimiter,
+                     "Separator of a text file, one character or 'tab' (default: detected)");
+  auto* const header =
+      command.add_flag("--header", raw.header, "The first row of a text file names its columns");
+  command.add_flag("--no-header", raw.no_header, "The first row of a text file holds numbers")
+      ->excludes(header);
+  command
+      .add_option("--split-into", raw.split_into, "Cut each file into K replicates of equal length")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("K");
+  command.add_option("--per-octave", raw.per_octave, "Scales an octave")
+      ->check(CLI::IsMember({1, 2, 4}))
+      ->capture_default_str();
+  command.add_option("--robust", raw.robust, "Robust estimator, by its nominal efficiency")
+      ->check(CLI::IsMember({"0.6", "0.8", "0.9"}));
+  command.add_option("--confidence", raw.confidence, "Of the intervals")
+      ->check(CLI::Range(0.5, 0.9999))
+      ->capture_default_str();
+}
+
+void refuse(const std::string& option, const std::string& why) {
+  throw CLI::ValidationError(option, why);
+}
+
+Unit unit_from(const std::string& text) {
+  const Result<Unit> unit = parse_unit(text);
+  if (!unit) refuse("--unit", unit.error().message);
+  return *unit;
+}
+
+CaptureFormat format_from(const std::string& name) {
+  if (name == "xbus") return CaptureFormat::kXbus;
+  return name == "candump" ? CaptureFormat::kCandump : CaptureFormat::kAdis16405;
+}
+
+InputArguments input_from(const RawInput& raw) {
+  InputArguments out;
+  out.files.assign(raw.files.begin(), raw.files.end());
+  if (!(raw.channels.size() == 1 && raw.channels[0] == "all")) out.import.channels = raw.channels;
+  if (raw.rate > 0.0) out.import.rate = Hertz{raw.rate};
+  if (!raw.unit.empty()) out.import.unit = unit_from(raw.unit);
+  if (!raw.delimiter.empty()) {
+    const bool tab = raw.delimiter == "tab" || raw.delimiter == "\\t";
+    if (!tab && raw.delimiter.size() != 1) refuse("--delimiter", "one character, or 'tab'");
+    out.import.delimiter = tab ? '\t' : raw.delimiter[0];
+  }
+  if (raw.header || raw.no_header) out.import.header = raw.header;
+  out.import.split_into = raw.split_into;
+  return out;
+}
+
+study::MeasureOptions measure_from(const RawInput& raw) {
+  study::MeasureOptions out;
+  out.per_octave = raw.per_octave;
+  out.confidence = raw.confidence;
+  if (raw.robust == "0.6") out.robust = RobustEfficiency::k60;
+  if (raw.robust == "0.8") out.robust = RobustEfficiency::k80;
+  if (raw.robust == "0.9") out.robust = RobustEfficiency::k90;
+  return out;
+}
+
+}  // namespace imunoise::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+
+namespace imunoise::cli {
+
+/// The options of a recording as they were typed; texts need a look-up after parsing.
+struct RawInput {
+  std::vector<std::string> files;
+  std::vector<std::string> channels;
+  double rate = 0.0;
+  std::string unit;
+  std::string delimiter;
+  bool header = false;
+  bool no_header = false;
+  std::size_t split_into = 1;
+  int per_octave = 1;
+  std::string robust;
+  double confidence = 0.95;
+};
+
+/// Adds FILES and everything that says how they are read and measured.
+void add_input(CLI::App& command, RawInput& raw);
+
+// What was typed, looked up. They throw CLI::ValidationError.
+InputArguments input_from(const RawInput& raw);
+study::MeasureOptions measure_from(const RawInput& raw);
+Unit unit_from(const std::string& text);
+[[noreturn]] void refuse(const std::string& option, const std::string& why);
+
+}  // namespace imunoise::cli

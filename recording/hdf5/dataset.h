@@ -1,0 +1,31 @@
+#pragma once
+
+// HDF5 datasets of one dimension, as everything of ours is stored: shuffled, deflated, checksummed.
+
+#include <cstdint>
+#include <string>
+
+#include "core/support/result.h"
+#include "recording/hdf5/handle.h"
+
+namespace imunoise::recording {
+
+/// An open dataset of one dimension that can be read without surprise: its numbers lie in the file
+/// itself, and it claims no more of them than the stored bytes can hold.
+struct OpenDataset {
+  Hdf5Handle id;
+  std::uint64_t size = 0;
+  H5T_class_t type_class = H5T_NO_CLASS;
+  bool has_sign = false;  ///< For integers.
+  std::size_t width = 0;  ///< Bytes a number.
+};
+
+/// Opens dataset `name` of a file or group. Error, without the file's name: what it is instead.
+Result<OpenDataset> open_dataset(hid_t group, const std::string& name);
+
+/// Writes `size` numbers, of type `memory` in memory and `stored` in the file; returns the open
+/// dataset, for attributes. An invalid handle when HDF5 refuses.
+Hdf5Handle write_dataset(hid_t group, const std::string& name, hid_t stored, hid_t memory,
+                         const void* numbers, std::uint64_t size);
+
+}  // namespace imunoise::recording

@@ -1,0 +1,84 @@
+#include "recording/store/device_folder.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "recording/store/layout.h"
+
+namespace imunoise::recording {
+namespace {
+
+// The number that a file of ours begins with, whatever follows: "000012.h5.broken-2" has 12.
+std::uint64_t leading_number(const std::string& name) {
+  const std::string digits = name.substr(0, name.find('.'));
+  return number_of(digits, "").value_or(0);
+}
+
+}  // namespace
+
+Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
+                                                      const std::filesystem::path& root) {
+  const auto names = files.list(root);
+  if (!names) return tl::make_unexpected(names.error());
+  std::map<std::uint32_t, std::string> replicates;
+  for (const std::string& name : *names) {
+    if (!name.ends_with('/')) continue;
+    const std::string folder = name.substr(0, name.size() - 1);
+    if (const auto number = replicate_of(folder)) replicates[*number] = folder;
+  }
+  std::vector<DeviceFolder> out;
+  for (const auto& [number, folder] : replicates) {
+    const auto devices = files.list(root / folder);
+    if (!devices) return tl::make_unexpected(devices.error());
+    for (const std::string& device : *devices) {
+      if (device.ends_with('/'))
+        out.push_back({root, folder + "/" + device.substr(0, device.size() - 1)});
+    }
+  }
+  return out;
+}
+
+Result<DeviceFiles> list_device_files(const FileSystem& files, const DeviceFolder& where) {
+  const auto names = files.list(where.path());
+  if (!names) return tl::make_unexpected(names.error());
+  DeviceFiles out;
+  for (const std::string& name : *names) {
+    if (const auto number = number_of(name, kChunkSuffix)) out.chunks.push_back(*number);
+    if (const auto number = number_of(name, kJournalSuffix)) out.journals.push_back(*number);
+    if (name.ends_with(kPartSuffix)) out.unfinished.push_back(name);
+    out.next_number = std::max(out.next_number, leading_number(name) + 1);
+  }
+  std::sort(out.chunks.begin(), out.chunks.end());
+  std::sort(out.journals.begin(), out.journals.end());
+  return out;
+}
+
+Result<ReadChunk> read_chunk(const FileSystem& files, const DeviceFolder& where,
+                             std::uint64_t number, const Checksums& expected) {
+  const std::string name = numbered(number, kChunkSuffix);
+  const auto trouble = [&](const std::string& what) {
+    return fail(fmt::format("{}: chunk {}: {}", where.folder, name, what));
+  };
+  const auto bytes = files.read(where.path() / name);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  Result<Chunk> chunk = decode_chunk(*bytes);
+  if (!chunk) return trouble(chunk.error().message);
+  const std::string belongs = replicate_folder(chunk->replicate) + "/" + chunk->device.name();
+  if (belongs != where.folder) return trouble("belongs into " + belongs + ": move it back");
+  v1::ChunkEntry entry = chunk_entry(where.file(name), *chunk, *bytes);
+  const auto listed = expected.find(entry.file());
+  if (listed != expected.end() && listed->second != entry.crc32c()) {
+    return trouble(
+        fmt::format("was changed since it was written: checksum {} where the manifest has {}",
+                    entry.crc32c(), listed->second));
+  }
+  return ReadChunk{std::move(*chunk), std::move(entry)};
+}
+
+std::string keep_the_rest(std::size_t intact) {
+  return fmt::format("; the {} chunks before it are intact (imunoise verify --repair keeps them)",
+                     intact);
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,45 @@
+#pragma once
+
+// What lies in a recording's folders, and reading one chunk of it with every check.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "recording/store/seal.h"
+
+namespace imunoise::recording {
+
+/// Checksums that a manifest lists, by the chunk's path inside the recording.
+using Checksums = std::map<std::string, std::string>;
+
+/// The folders of all devices in all replicates, replicates in order. Error: the root cannot be
+/// listed.
+Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
+                                                      const std::filesystem::path& root);
+
+struct DeviceFiles {
+  std::vector<std::uint64_t> chunks;    ///< Numbers, in order.
+  std::vector<std::uint64_t> journals;  ///< Numbers, in order.
+  std::vector<std::string> unfinished;  ///< Names of files whose writing was interrupted.
+  std::uint64_t next_number = 1;        ///< No file has it, not even a broken one.
+};
+Result<DeviceFiles> list_device_files(const FileSystem& files, const DeviceFolder& where);
+
+/// A chunk, and how the manifest lists it.
+struct ReadChunk {
+  Chunk chunk;
+  v1::ChunkEntry entry;
+};
+
+/// Reads chunk `number` once, for its checksum and its contents. Error: "chunk 000012.h5: ..." with
+/// what is wrong: unreadable, damaged, not what the manifest lists, of another folder.
+Result<ReadChunk> read_chunk(const FileSystem& files, const DeviceFolder& where,
+                             std::uint64_t number, const Checksums& expected);
+
+/// The way out for chunk errors: "...; the 11 chunks before it are intact (imunoise verify --repair
+/// keeps them)".
+std::string keep_the_rest(std::size_t intact);
+
+}  // namespace imunoise::recording

@@ -1,0 +1,170 @@
+#include "recording/store/file_system.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "recording/import/file.h"
+
+namespace imunoise::recording {
+namespace {
+
+using Path = std::filesystem::path;
+
+tl::unexpected<Error> trouble(const Path& path, std::string_view what, int error) {
+  std::string_view way_out = "check the disk and the permissions";
+  if (error == ENOSPC || error == EDQUOT) way_out = "free some space";
+  if (error == EROFS) way_out = "record to a disk that can be written";
+  if (error == EIO) way_out = "the disk fails: copy what is on it to another one";
+  return fail(fmt::format("{}: {}: {}; {}", path.string(), what,
+                          std::generic_category().message(error), way_out));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  int get() const { return value_; }
+
+ private:
+  int value_;
+};
+
+class PosixFile final : public WritableFile {
+ public:
+  PosixFile(Path path, Descriptor descriptor)
+      : path_(std::move(path)), descriptor_(std::move(descriptor)) {}
+
+  Result<void> write(std::string_view bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t done = ::write(descriptor_.get(), bytes.data(), bytes.size());
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) return trouble(path_, "cannot be written", errno);
+      bytes.remove_prefix(static_cast<std::size_t>(done));
+    }
+    return {};
+  }
+  Result<void> sync() override {
+    if (::fdatasync(descriptor_.get()) == 0) return {};
+    return trouble(path_, "cannot be synced", errno);
+  }
+
+ private:
+  Path path_;
+  Descriptor descriptor_;
+};
+
+class PosixLock final : public FolderLock {
+ public:
+  explicit PosixLock(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
+
+ private:
+  Descriptor descriptor_;
+};
+
+class PosixFileSystem final : public FileSystem {
+ public:
+  Result<std::unique_ptr<WritableFile>> create(const Path& path) override {
+    Descriptor descriptor(
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644));
+    if (descriptor.get() < 0) return trouble(path, "cannot be created", errno);
+    return std::make_unique<PosixFile>(path, std::move(descriptor));
+  }
+
+  Result<std::string> read(const Path& path) const override {
+    const Result<File> file = File::open(path);
+    if (!file) return tl::make_unexpected(file.error());
+    std::string out(file->size(), '\0');
+    const Result<std::size_t> got = file->read_at(0, out);
+    if (!got) return tl::make_unexpected(got.error());
+    out.resize(*got);
+    return out;
+  }
+
+  Result<std::vector<std::string>> list(const Path& folder) const override {
+    std::vector<std::string> out;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      std::error_code ignored;
+      out.push_back(entry->path().filename().string() + (entry->is_directory(ignored) ? "/" : ""));
+    }
+    if (error) return trouble(folder, "cannot be listed", error.value());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  Result<void> rename(const Path& from, const Path& to) override {
+    if (::rename(from.c_str(), to.c_str()) == 0) return {};
+    return trouble(to, "cannot be renamed into place", errno);
+  }
+
+  Result<void> remove(const Path& path) override {
+    if (::unlink(path.c_str()) == 0) return {};
+    return trouble(path, "cannot be removed", errno);
+  }
+
+  Result<void> make_folder(const Path& path) override {
+    if (::mkdir(path.c_str(), 0755) == 0 || errno == EEXIST) return {};
+    return trouble(path, "cannot be made", errno);
+  }
+
+  Result<void> sync_folder(const Path& path) override {
+    const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (descriptor.get() >= 0 && ::fsync(descriptor.get()) == 0) return {};
+    return trouble(path, "cannot be synced", errno);
+  }
+
+  Result<std::unique_ptr<FolderLock>> lock(const Path& folder) override {
+    Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (descriptor.get() < 0) return trouble(folder, "cannot be opened", errno);
+    if (::flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0) {
+      return std::make_unique<PosixLock>(std::move(descriptor));
+    }
+    if (errno != EWOULDBLOCK) return trouble(folder, "cannot be locked", errno);
+    return fail(fmt::format("{}: another process is recording into it; wait until it has ended",
+                            folder.string()));
+  }
+};
+
+}  // namespace
+
+FileSystem& posix_file_system() {
+  static PosixFileSystem files;
+  return files;
+}
+
+Result<void> replace_file(FileSystem& files, const Path& path, std::string_view bytes) {
+  Path part = path;
+  part += kPartSuffix;
+  {
+    const auto file = files.create(part);
+    if (!file) return tl::make_unexpected(file.error());
+    if (auto done = (*file)->write(bytes); !done) return done;
+    if (auto done = (*file)->sync(); !done) return done;
+  }
+  if (auto done = files.rename(part, path); !done) return done;
+  return files.sync_folder(path.parent_path());
+}
+
+Result<bool> contains(const FileSystem& files, const Path& folder, std::string_view name) {
+  const auto names = files.list(folder);
+  if (!names) return tl::make_unexpected(names.error());
+  return std::find(names->begin(), names->end(), name) != names->end();
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,43 @@
+#include "recording/store/layout.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+
+namespace imunoise::recording {
+namespace {
+
+constexpr std::string_view kReplicate = "replicate-";
+
+template <class Number>
+std::optional<Number> positive(std::string_view digits) {
+  Number out = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, out);
+  if (error != std::errc{} || stop != end || out == 0) return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+std::string replicate_folder(std::uint32_t replicate) {
+  return fmt::format("{}{}", kReplicate, replicate);
+}
+
+std::optional<std::uint32_t> replicate_of(std::string_view folder) {
+  if (!folder.starts_with(kReplicate)) return std::nullopt;
+  return positive<std::uint32_t>(folder.substr(kReplicate.size()));
+}
+
+std::string numbered(std::uint64_t number, std::string_view suffix) {
+  return fmt::format("{:06}{}", number, suffix);
+}
+
+std::optional<std::uint64_t> number_of(std::string_view name, std::string_view suffix) {
+  if (!name.ends_with(suffix)) return std::nullopt;
+  const auto out = positive<std::uint64_t>(name.substr(0, name.size() - suffix.size()));
+  if (!out || numbered(*out, suffix) != name) return std::nullopt;
+  return out;
+}
+
+}  // namespace imunoise::recording

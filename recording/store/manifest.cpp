@@ -1,0 +1,106 @@
+#include "recording/store/manifest.h"
+
+#include <fmt/core.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "recording/store/format_version.h"
+#include "recording/store/layout.h"
+
+namespace imunoise::recording {
+namespace {
+
+// A path that a manifest may name: replicate-N/DEVICE/NNNNNN.h5.
+bool is_chunk_path(const std::string& file) {
+  const std::size_t first = file.find('/');
+  const std::size_t last = file.rfind('/');
+  return first != std::string::npos && last > first && replicate_of(file.substr(0, first)) &&
+         file.find('/', first + 1) == last && file[first + 1] != '.' &&
+         number_of(file.substr(last + 1), kChunkSuffix);
+}
+
+}  // namespace
+
+Result<v1::Manifest> parse_manifest(std::string_view file, std::string_view json) {
+  const auto trouble = [&](const std::string& what) {
+    return fail(
+        fmt::format("{}: {}; imunoise verify --repair makes it again from the chunks", file, what));
+  };
+  v1::Manifest out;
+  google::protobuf::util::JsonParseOptions strict;
+  strict.ignore_unknown_fields = false;
+  const auto status = google::protobuf::util::JsonStringToMessage(
+      google::protobuf::StringPiece(json.data(), json.size()), &out, strict);
+  if (!status.ok()) return trouble(status.message().ToString());
+  if (out.version() != kFormatVersion)
+    return fail(fmt::format("{}: {}", file, other_version(out.version())));
+  for (const v1::RecordedDevice& device : out.devices()) {
+    if (auto good = check_device(device); !good) {
+      return trouble(fmt::format("device {}: {}", device.name(), good.error().message));
+    }
+  }
+  for (const v1::ChunkEntry& chunk : out.chunks()) {
+    if (!is_chunk_path(chunk.file())) {
+      return trouble(fmt::format("'{}' is no chunk of this folder", chunk.file()));
+    }
+  }
+  return out;
+}
+
+std::string print_manifest(const v1::Manifest& manifest) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.add_whitespace = true;
+  options.always_print_primitive_fields = true;
+  options.preserve_proto_field_names = true;
+  std::string out;
+  const auto status = google::protobuf::util::MessageToJsonString(manifest, &out, options);
+  assert(status.ok());
+  (void)status;
+  return out;
+}
+
+Result<std::optional<v1::Manifest>> read_manifest(const FileSystem& files,
+                                                  const std::filesystem::path& root) {
+  const auto there = contains(files, root, kManifestName);
+  if (!there) return tl::make_unexpected(there.error());
+  if (!*there) return std::optional<v1::Manifest>();
+  const auto text = files.read(root / kManifestName);
+  if (!text) return tl::make_unexpected(text.error());
+  Result<v1::Manifest> manifest = parse_manifest((root / kManifestName).string(), *text);
+  if (!manifest) return tl::make_unexpected(manifest.error());
+  return std::optional(std::move(*manifest));
+}
+
+bool of_other_version(const FileSystem& files, const std::filesystem::path& root) {
+  const auto text = files.read(root / kManifestName);
+  if (!text) return false;
+  v1::Manifest out;
+  google::protobuf::util::JsonParseOptions lenient;  // later versions have fields of their own
+  lenient.ignore_unknown_fields = true;
+  const auto status = google::protobuf::util::JsonStringToMessage(*text, &out, lenient);
+  return status.ok() && out.version() != 0 && out.version() != kFormatVersion;
+}
+
+Result<void> write_manifest(FileSystem& files, const std::filesystem::path& root,
+                            const v1::Manifest& manifest) {
+  return replace_file(files, root / kManifestName, print_manifest(manifest));
+}
+
+void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device) {
+  const auto& devices = manifest.devices();
+  if (std::none_of(devices.begin(), devices.end(), [&](const v1::RecordedDevice& other) {
+        return other.name() == device.name();
+      })) {
+    *manifest.add_devices() = device;
+  }
+}
+
+Checksums checksums(const v1::Manifest& manifest) {
+  Checksums out;
+  for (const v1::ChunkEntry& chunk : manifest.chunks()) out[chunk.file()] = chunk.crc32c();
+  return out;
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,35 @@
+#pragma once
+
+// manifest.json: what a recording is, and which chunks belong to it. Chunks are authoritative; a
+// manifest that is lost is made again from them.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "recording/store/device_folder.h"
+
+namespace imunoise::recording {
+
+/// `file` is for messages. Error: not JSON, an unknown field, another version, a device that cannot
+/// be, a chunk's path that leaves the folder.
+Result<v1::Manifest> parse_manifest(std::string_view file, std::string_view json);
+std::string print_manifest(const v1::Manifest& manifest);
+
+/// Nothing when there is none.
+Result<std::optional<v1::Manifest>> read_manifest(const FileSystem& files,
+                                                  const std::filesystem::path& root);
+/// True when there is a manifest of another version of the format: nothing may be repaired then.
+bool of_other_version(const FileSystem& files, const std::filesystem::path& root);
+/// Replaces the manifest; after a power cut there is the old or the new one.
+Result<void> write_manifest(FileSystem& files, const std::filesystem::path& root,
+                            const v1::Manifest& manifest);
+
+/// Adds the device unless it is listed; what is listed stays.
+void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device);
+
+Checksums checksums(const v1::Manifest& manifest);
+
+}  // namespace imunoise::recording

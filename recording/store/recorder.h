@@ -1,0 +1,82 @@
+#pragma once
+
+// Records one replicate of some devices: whoever reads a device hands blocks over, two threads of
+// the recorder write them: one the journals, one the chunks.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/store/journal.h"
+#include "recording/store/manifest.h"
+
+namespace imunoise::recording {
+
+/// What is recorded.
+struct RecordingPlan {
+  std::string campaign;
+  std::uint32_t replicate = 1;
+  std::int64_t started_ns = 0;  ///< ns since 1970-01-01 UTC, for the manifest.
+  std::vector<v1::RecordedDevice> devices;
+};
+
+struct RecorderOptions {
+  SegmentLimits segments;
+  std::uint64_t waiting_rows = 1U << 18U;  ///< A device's rows that may wait for the journal.
+};
+
+/// Rows of one stream so far. After close(), received = stored + refused, whatever happened.
+struct StreamCounts {
+  std::uint64_t received = 0;  ///< Delivered by the device.
+  std::uint64_t stored = 0;    ///< Acknowledged: safe in the journal or in a chunk.
+  std::vector<Refusal> refused;
+};
+
+struct RecorderState {
+  std::vector<std::vector<StreamCounts>> counts;  ///< Of each device's streams.
+  std::vector<std::uint64_t> acknowledged;        ///< Of each device: its last block that is safe.
+  std::optional<Error> trouble;                   ///< The disk's, while it lasts.
+};
+
+/// Functions are thread-safe, except that close() comes after all others; the blocks of one device
+/// come from one thread.
+class Recorder {
+ public:
+  /// Locks the folder (made when missing), recovers what an interrupted recording left, writes the
+  /// manifest. Error: the disk's, somebody is recording into it, a plan that cannot be, a device
+  /// whose replicate is recorded already.
+  static Result<std::unique_ptr<Recorder>> start(FileSystem& files,
+                                                 const std::filesystem::path& folder,
+                                                 const RecordingPlan& plan,
+                                                 const RecorderOptions& options = {});
+  /// Closes, its outcome unheard.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Hands a block over and never waits. False when too many rows wait already: the block's rows
+  /// are then refused (overrun), and the next row of the stream carries kLostBefore. Error: a block
+  /// that does not fit its description.
+  Result<bool> offer(std::size_t device, Block block);
+  /// Hands a block over, waiting for room. Error: as offer(), or the disk's; the block is then not
+  /// taken and may be pushed again.
+  Result<void> push(std::size_t device, const Block& block);
+
+  RecorderState state() const;
+
+  /// Writes everything out, makes the last chunks, closes the manifest. Rows that no disk took are
+  /// not_written in the state that follows (should a failing disk hold them after all, a recovery
+  /// finds them, once). Error: the disk's; what was acknowledged stays in the journals, for
+  /// `imunoise verify --repair`.
+  Result<void> close();
+
+ private:
+  class Threads;
+  explicit Recorder(std::unique_ptr<Threads> threads);
+  std::unique_ptr<Threads> threads_;
+};
+
+}  // namespace imunoise::recording

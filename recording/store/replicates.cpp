@@ -1,0 +1,173 @@
+#include "recording/store/replicates.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "recording/import/select.h"
+#include "recording/store/gaps.h"
+#include "recording/store/layout.h"
+#include "recording/store/reader.h"
+
+namespace imunoise::recording {
+namespace {
+
+// A channel of the recording, and how the user calls it.
+struct Place {
+  std::string device;
+  int stream = 0;
+  int channel = 0;
+};
+
+struct Offers {
+  std::vector<Offer> names;
+  std::vector<Place> places;
+};
+
+// The channels of a recording; with device and stream in front where names alone may be ambiguous.
+Offers offers_of(const v1::Manifest& manifest) {
+  Offers out;
+  const bool single = manifest.devices_size() == 1 && manifest.devices(0).streams_size() == 1;
+  for (const v1::RecordedDevice& device : manifest.devices()) {
+    for (int s = 0; s < device.streams_size(); ++s) {
+      const v1::RecordedStream& stream = device.streams(s);
+      for (int c = 0; c < stream.channels_size(); ++c) {
+        const std::string& name = stream.channels(c).name();
+        out.names.push_back(
+            {single ? name : fmt::format("{}/{}/{}", device.name(), stream.name(), name)});
+        out.places.push_back({device.name(), s, c});
+      }
+    }
+  }
+  return out;
+}
+
+struct Wanted {
+  std::string name;
+  Place place;
+};
+
+Result<std::vector<Wanted>> select(const std::string& file, const v1::Manifest& manifest,
+                                   const ImportOptions& options) {
+  const Offers offers = offers_of(manifest);
+  const auto chosen = select_columns(file, offers.names, options.channels);
+  if (!chosen) return tl::make_unexpected(chosen.error());
+  std::vector<Wanted> out;
+  for (const std::size_t i : *chosen) out.push_back({offers.names[i].name, offers.places[i]});
+  for (const Wanted& one : out) {
+    const Place& first = out.front().place;
+    if (one.place.device == first.device && one.place.stream == first.stream) continue;
+    return fail(
+        fmt::format("{}: {} and {} are of different streams, which have clocks of their own; "
+                    "choose channels of one stream with --channel",
+                    file, out.front().name, one.name));
+  }
+  return out;
+}
+
+// Counts stay counts; what core has no type for becomes a double.
+Samples samples_of(Numbers numbers) {
+  return std::visit(
+      [](auto& values) -> Samples {
+        using Values = std::decay_t<decltype(values)>;
+        if constexpr (std::is_constructible_v<Samples, Values&&>) {
+          return Samples(std::move(values));
+        } else {
+          return std::vector<double>(values.begin(), values.end());
+        }
+      },
+      numbers);
+}
+
+class Importer {
+ public:
+  Importer(const std::filesystem::path& root, const ImportOptions& options,
+           std::vector<Wanted> wanted)
+      : root_(root), options_(options), wanted_(std::move(wanted)) {}
+
+  Result<void> add(DeviceRecording device) {
+    const Place& first = wanted_.front().place;
+    const v1::RecordedStream& stream = device.device.streams(first.stream);
+    Rows& rows = device.streams[static_cast<std::size_t>(first.stream)];
+    const std::vector<Part> parts = parts_between(find_gaps(stream, rows), rows.size());
+    const std::string name = replicate_folder(device.where.replicate());
+    const std::size_t begin = out_.size();
+    const Hertz rate = options_.rate.value_or(Hertz{stream.rate_hz()});
+    std::vector<Part> kept;
+    for (const Part& part : parts) {
+      const std::size_t each = part.count / options_.split_into;
+      for (std::size_t i = 0; i < options_.split_into && each >= kMinimumSamples; ++i) {
+        kept.push_back({part.begin + i * each, each});
+        out_.push_back({kept.size() > 1 ? fmt::format("{}#{}", name, kept.size()) : name,
+                        root_ / device.where.folder,
+                        rate,
+                        {}});
+      }
+    }
+    for (const Wanted& one : wanted_) {
+      const v1::RecordedChannel& channel = stream.channels(one.place.channel);
+      const auto unit = resolve_unit(root_.string(), one.name, channel.units(), options_);
+      if (!unit) return tl::make_unexpected(unit.error());
+      const double scale = channel.has_scale_factor() ? channel.scale_factor() : 1.0;
+      const auto samples = std::make_shared<const Samples>(
+          samples_of(std::move(rows.channels[static_cast<std::size_t>(one.place.channel)])));
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        out_[begin + i].channels.push_back(
+            {one.name, samples, kept[i].begin, kept[i].count, scale * unit->to_si,
+             channel.add_offset() * unit->to_si + unit->si_offset, *unit, rate});
+      }
+    }
+    return {};
+  }
+
+  std::vector<Replicate> take() { return std::move(out_); }
+
+ private:
+  const std::filesystem::path& root_;
+  const ImportOptions& options_;
+  std::vector<Wanted> wanted_;
+  std::vector<Replicate> out_;
+};
+
+}  // namespace
+
+Result<std::vector<Replicate>> import_recording(const FileSystem& files,
+                                                const std::filesystem::path& root,
+                                                const ImportOptions& options,
+                                                const Progress& progress) {
+  const std::string file = root.string();
+  const auto manifest = read_manifest(files, root);
+  if (!manifest) return tl::make_unexpected(manifest.error());
+  if (!*manifest) {
+    return fail(
+        fmt::format("{}: is a folder without a {}: name the files in it, or make the manifest "
+                    "with imunoise verify --repair",
+                    file, kManifestName));
+  }
+  auto wanted = select(file, **manifest, options);
+  if (!wanted) return tl::make_unexpected(wanted.error());
+  const std::string device = wanted->front().place.device;
+  Importer importer(root, options, std::move(*wanted));
+  const auto folders = find_device_folders(files, root);
+  if (!folders) return tl::make_unexpected(folders.error());
+  double done = 0.0;
+  for (const DeviceFolder& where : *folders) {
+    if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", file));
+    progress.report(done++ / static_cast<double>(folders->size()));
+    if (where.device() != device) continue;
+    auto read = read_device(files, where, **manifest);
+    if (!read) return tl::make_unexpected(read.error());
+    if (!read->defects.empty()) return fail(read->defects.front());
+    if (auto added = importer.add(std::move(*read)); !added)
+      return tl::make_unexpected(added.error());
+  }
+  std::vector<Replicate> out = importer.take();
+  if (!out.empty()) return out;
+  return fail(
+      fmt::format("{}: no stretch without a gap has {} samples; imunoise verify shows the gaps",
+                  file, kMinimumSamples));
+}
+
+}  // namespace imunoise::recording

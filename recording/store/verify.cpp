@@ -1,0 +1,121 @@
+#include "recording/store/verify.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "recording/store/integrity.h"
+#include "recording/store/layout.h"
+#include "recording/store/reader.h"
+#include "recording/store/recover.h"
+
+namespace imunoise::recording {
+namespace {
+
+using Path = std::filesystem::path;
+
+void add_defect(v1::VerifyReport& report, const std::string& message, bool repaired) {
+  v1::Defect* const defect = report.add_defects();
+  defect->set_message(message);
+  defect->set_repaired(repaired);
+}
+
+void add_streams(v1::VerifyReport& report, std::uint32_t replicate,
+                 const v1::RecordedDevice& device, const std::vector<Rows>& streams,
+                 const std::vector<std::uint64_t>& in_journal) {
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    v1::StreamIntegrity* const out = report.add_streams();
+    *out = check_stream(device.streams(static_cast<int>(i)), streams[i]);
+    out->set_replicate(replicate);
+    out->set_device(device.name());
+    if (!in_journal.empty()) out->set_in_journal(in_journal[i]);
+  }
+}
+
+void finish(v1::VerifyReport& report) {
+  const auto& defects = report.defects();
+  report.set_sound(std::all_of(defects.begin(), defects.end(),
+                               [](const v1::Defect& one) { return one.repaired(); }));
+}
+
+// The manifest, or an empty one and a defect.
+v1::Manifest manifest_or_defect(const FileSystem& files, const Path& root,
+                                v1::VerifyReport& report) {
+  auto manifest = read_manifest(files, root);
+  const std::string name = (root / kManifestName).string();
+  if (!manifest) {
+    add_defect(report, manifest.error().message, false);
+    return {};
+  }
+  if (!*manifest) {
+    add_defect(report, name + ": is missing; imunoise verify --repair makes it from the chunks",
+               false);
+    return {};
+  }
+  if (!(*manifest)->closed()) {
+    add_defect(report,
+               name +
+                   ": the recording was not closed: it is still running, or was interrupted "
+                   "(imunoise verify --repair closes it)",
+               false);
+  }
+  return std::move(**manifest);
+}
+
+}  // namespace
+
+Result<v1::VerifyReport> verify_recording(FileSystem& files, const Path& folder, bool repair) {
+  v1::VerifyReport report;
+  report.set_folder(folder.string());
+  const auto folders = find_device_folders(files, folder);
+  if (!folders) return tl::make_unexpected(folders.error());
+  const auto listed = contains(files, folder, kManifestName);
+  if (!listed) return tl::make_unexpected(listed.error());
+  if (!*listed && folders->empty()) {
+    return fail(
+        fmt::format("{}: is not a recording: it has neither a {} nor a folder {}; name the "
+                    "folder that has",
+                    folder.string(), kManifestName, replicate_folder(1)));
+  }
+  if (repair) {
+    const auto lock = files.lock(folder);
+    if (!lock) return tl::make_unexpected(lock.error());
+    const auto recovered = recover_recording(files, folder);
+    if (!recovered) return tl::make_unexpected(recovered.error());
+    for (const std::string& what : recovered->repaired) add_defect(report, what, true);
+  }
+  const v1::Manifest manifest = manifest_or_defect(files, folder, report);
+  std::uint32_t chunks = 0;
+  for (const DeviceFolder& where : *folders) {
+    const auto device = read_device(files, where, manifest);
+    if (!device) return tl::make_unexpected(device.error());
+    for (const std::string& defect : device->defects) add_defect(report, defect, false);
+    chunks += static_cast<std::uint32_t>(device->chunks);
+    add_streams(report, where.replicate(), device->device, device->streams, device->in_journal);
+  }
+  report.set_chunks(chunks);
+  finish(report);
+  return report;
+}
+
+Result<v1::VerifyReport> verify_chunk(const FileSystem& files, const Path& file) {
+  v1::VerifyReport report;
+  report.set_folder(file.string());
+  const auto bytes = files.read(file);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  const auto chunk = decode_chunk(*bytes);
+  if (!chunk) {
+    add_defect(report,
+               fmt::format("chunk {}: {}; verify the folder of the recording to see what of it is "
+                           "intact",
+                           file.string(), chunk.error().message),
+               false);
+  } else {
+    report.set_chunks(1);
+    add_streams(report, chunk->replicate, chunk->device, chunk->streams, {});
+  }
+  finish(report);
+  return report;
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,75 @@
+#pragma once
+
+// A disk in memory that forgets what was not synced, gets full, fails, or cannot be written.
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <random>
+
+#include "recording/store/file_system.h"
+
+namespace imunoise::recording {
+
+/// Thread-safe. Survives as ext4 and xfs promise: the contents of a file up to its last sync, the
+/// names in a folder up to its last sync; a rename happens whole or not at all; anything else may
+/// or may not.
+class FakeDisk final : public FileSystem {
+ public:
+  using Path = std::filesystem::path;
+
+  Result<std::unique_ptr<WritableFile>> create(const Path& path) override;
+  Result<std::string> read(const Path& path) const override;
+  Result<std::vector<std::string>> list(const Path& folder) const override;
+  Result<void> rename(const Path& from, const Path& to) override;
+  Result<void> remove(const Path& path) override;
+  Result<void> make_folder(const Path& path) override;
+  Result<void> sync_folder(const Path& path) override;
+  Result<std::unique_ptr<FolderLock>> lock(const Path& folder) override;
+
+  /// Calls that change something (or sync) from now on until the power fails: they and all later
+  /// ones return errors.
+  void cut_power_after(int calls);
+  /// Changing calls so far.
+  int calls() const;
+  /// What happens to what was not synced.
+  enum class Unsynced { kLost, kKept, kAny };
+  /// The disk as it is found when the power is back.
+  void restore_power(Unsynced unsynced, std::uint64_t seed);
+
+  void set_capacity(std::size_t bytes);  ///< Of all files; a write beyond it is cut short.
+  void set_read_only(bool read_only);
+  void fail_syncs(bool fail);  ///< EIO; what was written stays readable.
+
+  /// For tests that damage a file.
+  void overwrite(const Path& path, const std::string& bytes);
+
+ private:
+  struct Content {
+    std::string live;
+    std::string synced;
+  };
+  using Names = std::map<std::string, std::shared_ptr<Content>>;  // of a folder: null
+  // Of a folder: names set or (without a value) removed, all or none.
+  using Change = std::vector<std::pair<std::string, std::optional<std::shared_ptr<Content>>>>;
+  struct Folder {
+    Names live;
+    Names synced;
+    std::vector<Change> since;  // the last sync
+  };
+  class File;
+
+  Result<void> begin(const Path& path);  // counts a changing call; the lock is held
+  Result<Folder*> parent(const Path& path);
+  std::size_t used() const;
+
+  mutable std::mutex mutex_;
+  std::map<Path, Folder> folders_ = {{"/", {}}};
+  int calls_ = 0;
+  int left_ = -1;  // calls until the power fails; negative: it does not
+  std::size_t capacity_ = SIZE_MAX;
+  bool read_only_ = false;
+  bool fail_syncs_ = false;
+};
+
+}  // namespace imunoise::recording
