@@ -53,8 +53,9 @@ Result<double> gyro_range(std::uint16_t sensitivity_averaging) {
     unsigned least_filter;
   };
   constexpr std::array kRanges = {Range{4, 300.0, 0}, Range{2, 150.0, 2}, Range{1, 75.0, 4}};
-  const unsigned code = sensitivity_averaging >> 8U & 7U;
-  const unsigned filter = sensitivity_averaging & 7U;
+  const unsigned bits = sensitivity_averaging;
+  const unsigned code = bits >> 8U & 7U;
+  const unsigned filter = bits & 7U;
   const auto* const found = std::find_if(kRanges.begin(), kRanges.end(),
                                          [&](const Range& range) { return range.code == code; });
   if (found == kRanges.end()) {
@@ -74,8 +75,9 @@ Result<double> gyro_range(std::uint16_t sensitivity_averaging) {
 
 std::vector<std::string_view> diagnosis(std::uint16_t diagnostic_status) {
   std::vector<std::string_view> out;
+  const unsigned bits = diagnostic_status;
   for (const Bit& known : kDiagnosis) {
-    const bool set = (diagnostic_status >> known.bit & 1U) != 0;
+    const bool set = (bits >> known.bit & 1U) != 0;
     if (set && (out.empty() || out.back() != known.word)) out.push_back(known.word);
   }
   return out;

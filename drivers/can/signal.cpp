@@ -53,7 +53,7 @@ std::uint64_t extract_bits(Bytes data, const BitField& field) {
   std::uint64_t out = 0;
   std::size_t done = 0;
   for_each_part(field, [&](std::size_t byte, std::size_t shift, std::size_t count) {
-    out |= (data[byte] >> shift & low_bits(count)) << done;
+    out |= (std::uint64_t{data[byte]} >> shift & low_bits(count)) << done;
     done += count;
   });
   return out;

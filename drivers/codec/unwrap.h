@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <utility>
 
 namespace imunoise::drivers {
 
@@ -13,11 +13,11 @@ class Unwrapper {
   /// The unwrapped count: whatever lies nearest to the last one, before or after it. The first
   /// counts as it is. `raw` is below the modulus.
   std::int64_t operator()(std::int64_t raw) {
-    if (!last_) return *(last_ = raw);
-    std::int64_t step = (raw - *last_) % modulus_;
+    if (!std::exchange(started_, true)) return last_ = raw;
+    std::int64_t step = (raw - last_) % modulus_;
     if (step < -modulus_ / 2) step += modulus_;
     if (step >= (modulus_ + 1) / 2) step -= modulus_;
-    return *(last_ = *last_ + step);
+    return last_ += step;
   }
 
   /// From now on the counter is known to go on to `modulus`.
@@ -26,7 +26,8 @@ class Unwrapper {
 
  private:
   std::int64_t modulus_;
-  std::optional<std::int64_t> last_;
+  std::int64_t last_ = 0;
+  bool started_ = false;
 };
 
 }  // namespace imunoise::drivers

@@ -137,8 +137,8 @@ TEST(Adis16405Vectors, EveryBurstDecodesToItsValues) {
     expect(10, counts["temp"], decoded["temp_C"]);
     expect(11, counts["aux_adc"], decoded["aux_adc_V"]);
     for (std::size_t i = 0; i < kBurstChannels; ++i) {
-      EXPECT_EQ(got->is_new >> i & 1U, entry["nd"][i].get<unsigned>());
-      EXPECT_EQ(got->alarm >> i & 1U, entry["ea"][i].get<unsigned>());
+      EXPECT_EQ(std::uint32_t{got->is_new} >> i & 1U, entry["nd"][i].get<unsigned>());
+      EXPECT_EQ(std::uint32_t{got->alarm} >> i & 1U, entry["ea"][i].get<unsigned>());
     }
   }
   EXPECT_EQ(stale, 1U);

@@ -52,7 +52,7 @@ TEST(CanBits, AgreeWithAWalkOverSingleBits) {
     const auto where = places(field);
     for (std::size_t i = 0; i < where.size(); ++i) {
       const auto [byte, bit] = where[i];
-      wanted |= std::uint64_t{data[byte] >> bit & 1U} << i;
+      wanted |= (std::uint64_t{data[byte]} >> bit & 1U) << i;
       last = std::max(last, byte);
     }
     ASSERT_EQ(extract_bits(data, field), wanted)
