@@ -21,8 +21,8 @@ struct Whitening {
 /// < n).
 Whitening whiten(const MatrixRef& covariance);
 
-/// R with R·Rᵀ = S, for a symmetric positive semidefinite S (n × n); negative eigenvalues, which are
-/// rounding, count as zero.
+/// R with R·Rᵀ = S, for a symmetric positive semidefinite S (n × n); negative eigenvalues, which
+/// are rounding, count as zero.
 Eigen::MatrixXd square_root(const MatrixRef& symmetric);
 
 /// A symmetric positive semidefinite matrix inverted on the space where it is not zero.
