@@ -1,0 +1,168 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "core/wavelet/discrete_quadrature.h"
+#include "core/wavelet/sum_covariance.h"
+#include "core/wavelet/sum_covariance_terms.h"
+
+namespace imunoise {
+
+/// γ_jk(s) = E[W_{j,t+s} W_{k,t}] of one noise process for one pair of scales, as a function of a
+/// real lag s, and how finely it must be sampled to be summed over every integer.
+class ScaleCovariance {
+ public:
+  ScaleCovariance(const SumCovariance& process, std::int64_t mj, std::int64_t mk)
+      : process_(process),
+        mj_(static_cast<double>(mj)),
+        mk_(static_cast<double>(mk)),
+        linear_(process.linear),
+        cubic_(process.cubic) {
+    for (const ExponentialCovariance& part : process.exponentials) {
+      Exponential e{};
+      e.rate = -part.log_root;
+      e.kernel = -part.amplitude * part.root / (part.one_minus_root * part.one_minus_root);
+      e.real = e.rate.imag() == 0.0 && e.kernel.imag() == 0.0;
+      e.split = std::abs(e.rate) * 2.0 * (mj_ + mk_) < kSmooth;
+      if (e.split) {
+        linear_ += (e.kernel * sinh_minus_argument(e.rate)).real();
+        cubic_ -= (e.kernel * e.rate * e.rate * e.rate / 6.0).real();
+      } else {
+        linear_ -= (part.amplitude * (1.0 + part.root) / (2.0 * part.one_minus_root)).real();
+      }
+      const Complex wj = stable_expm1(-e.rate * mj_);
+      const Complex wk = stable_expm1(-e.rate * mk_);
+      e.tail = e.kernel * wj * wj * wk * wk;
+      exponentials_.push_back(e);
+    }
+  }
+
+  double operator()(double s) const {
+    const double beyond = std::max(s - 2.0 * mj_, -s - 2.0 * mk_);  // distance outside the support
+    double sum = 0.0;
+    if (beyond <= 0.0) {
+      for_each_lag(s, [&](double weight, double lag) {
+        sum += weight * lag * (linear_ + cubic_ * lag * lag);
+      });
+    }
+    if (beyond < static_cast<double>(process_.near.size())) {
+      for_each_lag(s, [&](double weight, double lag) {
+        const auto at = static_cast<std::size_t>(lag);
+        if (at < process_.near.size()) sum += weight * process_.near[at];
+      });
+    }
+    for (const Exponential& e : exponentials_) sum += exponential(e, s, beyond);
+    if (process_.flicker > 0.0) sum += process_.flicker * flicker(s, beyond);
+    return sum / (4.0 * mj_ * mk_);
+  }
+
+  // Lags next to a kink of γ that must be summed one by one.
+  std::int64_t direct_reach() const {
+    double reach = std::max(12.0, static_cast<double>(process_.near.size()));
+    for (const Exponential& e : exponentials_) {
+      if (longest_panel(e) < kLeastPanel) reach = std::max(reach, kForgotten / e.rate.real());
+    }
+    return static_cast<std::int64_t>(std::min(reach, 1e9));
+  }
+
+  // Longest quadrature panel that follows the oscillations at a distance from the nearest kink.
+  double panel_limit(double distance) const {
+    double limit = 1e300;
+    for (const Exponential& e : exponentials_) {
+      if (distance * e.rate.real() < kForgotten) limit = std::min(limit, longest_panel(e));
+    }
+    return std::max(limit, kLeastPanel);
+  }
+
+  // Lags beyond the support after which γ is negligible.
+  double tail_reach() const {
+    auto reach = static_cast<double>(process_.near.size());
+    for (const Exponential& e : exponentials_) reach = std::max(reach, kForgotten / e.rate.real());
+    if (process_.flicker > 0.0) reach = std::max(reach, 256.0 * (mj_ + mk_));
+    return reach;
+  }
+
+ private:
+  using Complex = std::complex<double>;
+  static constexpr std::array<double, 3> kDifference = {1.0, -2.0,
+                                                        1.0};  // p of the Haar wavelet on sums
+  static constexpr auto kLeastPanel = static_cast<double>(DiscreteRule::kLeastPoints);
+  static constexpr double kForgotten =
+      27.0;  // e^-27: an exponential counts as zero after this many lengths
+  static constexpr double kNothing = 45.0;  // e^-45: below the rounding of anything it is added to
+  static constexpr double kSmooth = 16.0;   // |log root|·lag below which polynomials are split off
+
+  struct Exponential {
+    Complex rate;    // L = -log root
+    Complex kernel;  // factor of e^{-L|s|} in Γ
+    Complex tail;    // the same after both wavelets, beyond the support
+    bool real;
+    bool split;  // polynomials split off, see sum_covariance_terms.h
+  };
+
+  template <class Visit>
+  void for_each_lag(double s, const Visit& visit) const {
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) {
+        const double lag = s - static_cast<double>(a) * mj_ + static_cast<double>(b) * mk_;
+        visit(kDifference[a] * kDifference[b], std::abs(lag));
+      }
+    }
+  }
+
+  static double longest_panel(const Exponential& e) {
+    const double turn = std::abs(e.rate.imag());
+    return turn > 0.0 ? 6.0 / turn : 1e300;
+  }
+
+  double exponential(const Exponential& e, double s, double beyond) const {
+    if (beyond > 0.0) {
+      if (e.real) return e.tail.real() * std::exp(-e.rate.real() * beyond);
+      return (e.tail * std::exp(-e.rate * beyond)).real();
+    }
+    double sum = 0.0;
+    if (e.real) {
+      const double rate = e.rate.real();
+      for_each_lag(s, [&](double weight, double lag) {
+        const double x = rate * lag;
+        if (e.split) {
+          sum += weight * exponential_remainder(x);
+        } else if (x < kNothing) {
+          sum += weight * std::exp(-x);
+        }
+      });
+      return sum * e.kernel.real();
+    }
+    for_each_lag(s, [&](double weight, double lag) {
+      const Complex value = e.split ? exponential_remainder(e.rate * lag) : std::exp(-e.rate * lag);
+      sum += weight * (e.kernel * value).real();
+    });
+    return sum;
+  }
+
+  double flicker(double s, double beyond) const {
+    double sum = 0.0;
+    if (beyond > 4.0 * (mj_ + mk_)) {  // Φ'''' = -1/(π s²), where differences would cancel
+      const double centre = s - mj_ + mk_;
+      return -mj_ * mj_ * mk_ * mk_ / (std::numbers::pi * centre * centre);
+    }
+    for_each_lag(s,
+                 [&](double weight, double lag) { sum += weight * flicker_sum_covariance(lag); });
+    return sum;
+  }
+
+  const SumCovariance& process_;
+  double mj_;
+  double mk_;
+  double linear_;
+  double cubic_;
+  std::vector<Exponential> exponentials_;
+};
+
+}  // namespace imunoise
