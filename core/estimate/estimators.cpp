@@ -1,7 +1,6 @@
 #include "core/estimate/estimators.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "core/support/linear_algebra.h"
 #include "core/wavelet/moment_covariance.h"
@@ -51,8 +50,8 @@ std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> rep
 
 Problem tied_problem(const Model& model, std::span<const WaveletVariance> replicates,
                      std::span<const Eigen::MatrixXd> weight_roots) {
-  std::vector<std::size_t> all(model.terms.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Share> all;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) all.push_back({t, 0});
   Problem out{model, {}};
   double within = 0.0;  // Σ over replicates of their distance from the average they enter as
   std::vector<bool> done(replicates.size(), false);
@@ -74,13 +73,12 @@ Problem tied_problem(const Model& model, std::span<const WaveletVariance> replic
     for (const std::size_t l : group) {
       within += (weight_roots[l] * (replicates[l].variance.matrix() - mean)).squaredNorm();
     }
-    out.blocks.push_back({replicates[k].scales, mean, std::sqrt(count) * weight_roots[k], all});
+    out.blocks.push_back({{{replicates[k].scales, all}}, mean, std::sqrt(count) * weight_roots[k]});
   }
   // A moment that no term explains adds this constant to the objective.
-  out.blocks.push_back({Scales({1}),
+  out.blocks.push_back({{{Scales({1}), {}}},
                         Eigen::VectorXd::Constant(1, std::sqrt(within)),
-                        Eigen::MatrixXd::Identity(1, 1),
-                        {}});
+                        Eigen::MatrixXd::Identity(1, 1)});
   return out;
 }
 
@@ -104,7 +102,7 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
     const Eigen::ArrayXd after = variance(found.model, replicates[0].scales.half_widths());
     if (((after - before).abs() <= 1e-7 * after).all()) break;
   }
-  out.model = std::move(found.model);
+  out.model = sorted(std::move(found.model));
   out.objective = found.objective;
   out.termination = found.termination;
   return out;

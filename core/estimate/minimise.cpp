@@ -91,8 +91,10 @@ Problem without(const Problem& problem, std::size_t dropped) {
   Problem out = problem;
   out.model.terms.erase(out.model.terms.begin() + static_cast<std::ptrdiff_t>(dropped));
   for (MomentBlock& block : out.blocks) {
-    std::erase(block.terms, dropped);
-    for (std::size_t& t : block.terms) t -= t > dropped ? 1 : 0;
+    for (Segment& segment : block.segments) {
+      std::erase_if(segment.shares, [&](const Share& share) { return share.term == dropped; });
+      for (Share& share : segment.shares) share.term -= share.term > dropped ? 1 : 0;
+    }
   }
   return out;
 }
@@ -143,8 +145,8 @@ std::string_view describe(Termination termination) {
 namespace {
 
 Minimum at_point(const Profile& profile, const Refined& found, const Progress& progress) {
-  const Profile::Point point = profile.at(found.x);
-  return {sorted(point.model), point.objective,
+  Profile::Point point = profile.at(found.x);
+  return {std::move(point.model), std::move(point.matrix_powers), point.objective,
           progress.stopped() ? Termination::kStopped : found.termination};
 }
 
@@ -158,10 +160,13 @@ Minimum minimise(const Problem& problem, const Progress& progress) {
   return at_point(profile, linear ? nothing_to_search() : search(problem, progress), progress);
 }
 
-Minimum minimise_from(const Problem& problem, const Model& start, const Progress& progress) {
+Minimum minimise_from(const Problem& problem, std::span<const Model> starts,
+                      const Progress& progress) {
   const Profile profile(problem);
   if (profile.coordinates().empty()) return at_point(profile, nothing_to_search(), progress);
-  return at_point(profile, refine(profile, profile.coordinates_of(start), progress), progress);
+  std::vector<std::vector<double>> points;
+  for (const Model& start : starts) points.push_back(profile.coordinates_of(start));
+  return at_point(profile, best_of(profile, points, progress), progress);
 }
 
 Minimum minimise_roughly(const Problem& problem, const Progress& progress) {

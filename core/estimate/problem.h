@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -9,20 +11,36 @@
 
 namespace imunoise {
 
-/// Measured moments of one signal, which the model must meet.
-struct MomentBlock {
+/// A term of the model that acts on some moments, with one entry of its power matrix.
+struct Share {
+  std::size_t term = 0;
+  Eigen::Index entry = 0;  ///< in the packed upper triangle; 0 for a power that is a number
+  friend bool operator==(const Share&, const Share&) = default;
+};
+
+/// The wavelet variances of one signal, or the cross-covariances of two: the model expects
+/// Σ power(share) · shape_term(m).
+struct Segment {
   Scales scales;
-  Eigen::VectorXd measured;        ///< n wavelet variances ν̂, in unit²
-  Eigen::MatrixXd weight_root;     ///< r × n: Ω = rootᵀ·root
-  std::vector<std::size_t> terms;  ///< indices of the model's terms that act on this signal
+  std::vector<Share> shares;
+};
+
+/// Measured moments that are weighted together.
+struct MomentBlock {
+  std::vector<Segment> segments;
+  Eigen::VectorXd measured;     ///< n moments, segment after segment, in unit²
+  Eigen::MatrixXd weight_root;  ///< r × n: Ω = rootᵀ·root
 };
 
 /// The one estimation problem: θ̂ = argmin Σ_b (ν̂_b - ν_b(θ))ᵀ Ω_b (ν̂_b - ν_b(θ)). Every estimator
-/// of the house builds one: which terms a block names is the tying map (a term named by several
-/// blocks is shared by them).
+/// of the house builds one: which terms a segment names is the tying map (a term named by several
+/// segments is shared by them).
 struct Problem {
   Model model;  ///< parameters that are given stay as they are
   std::vector<MomentBlock> blocks;
+  /// Terms whose power is a symmetric positive semidefinite matrix rather than a number: its size.
+  /// Such a term's own power is not given; it is 1 in every result.
+  std::map<std::size_t, Eigen::Index> matrix_powers{};
 };
 
 /// How the search ended.
@@ -35,19 +53,28 @@ enum class Termination {
 std::string_view describe(Termination termination);
 
 struct Minimum {
-  Model model;  ///< with all values set, sorted
+  Model model;  ///< with all values set
+  std::map<std::size_t, Eigen::MatrixXd> matrix_powers{};
   double objective = 0.0;
   Termination termination = Termination::kLinear;
 };
 
-/// Solves the problem. Powers are found exactly by non-negative least squares for each trial of the
+/// Solves a problem without matrix powers, of at most 64 terms. Powers are found exactly by
+/// non-negative least squares for each trial of the
 /// other parameters, which are scanned on a grid and then refined from the best points of it, and
 /// from the best smaller model plus one more term. No random numbers: the same answer on every run
 /// and for any number of threads.
 Minimum minimise(const Problem& problem, const Progress& progress = {});
 
-/// Refines one point only: the shapes of `start`, a model of the same terms.
-Minimum minimise_from(const Problem& problem, const Model& start, const Progress& progress = {});
+/// Refines given points only, the shapes of models of the same terms, and returns the best.
+/// Precondition: at least one.
+Minimum minimise_from(const Problem& problem, std::span<const Model> starts,
+                      const Progress& progress = {});
+
+inline Minimum minimise_from(const Problem& problem, const Model& start,
+                             const Progress& progress = {}) {
+  return minimise_from(problem, std::span(&start, 1), progress);
+}
 
 /// Refines the best point of the scan only: good enough to make weights from, at a fraction of the
 /// cost.

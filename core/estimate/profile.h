@@ -29,6 +29,7 @@ class Profile {
   /// The model at a point, with its powers solved for.
   struct Point {
     Model model;
+    std::map<std::size_t, Eigen::MatrixXd> matrix_powers;
     double objective;
   };
   /// Objective at the point, and its gradient where wanted (same length as x).
@@ -37,28 +38,32 @@ class Profile {
   /// The search coordinates of a model's shapes.
   std::vector<double> coordinates_of(const Model& model) const;
 
-  /// Whitened column of one term's unit-power variance over all blocks: Σ r_b rows.
-  Eigen::VectorXd column(std::size_t term, const Process& process) const;
+  /// Whitened column of what one entry of a term's power contributes over all blocks when it is 1:
+  /// Σ r_b rows.
+  Eigen::VectorXd column(Share share, const Process& process) const;
   /// Whitened measured moments, less what terms of given power explain.
   Eigen::VectorXd target(const Model& model) const;
-  /// Terms whose power is free.
-  const std::vector<std::size_t>& free_powers() const { return free_powers_; }
-
   const Problem& problem() const { return problem_; }
 
  private:
-  Eigen::VectorXd whitened(std::size_t term, const std::vector<Eigen::ArrayXd>& per_grid) const;
+  // A power that is solved for: a number, or the matrix of a term.
+  struct FreePower {
+    std::size_t term;
+    Eigen::Index size;   // of the matrix; 1 for a number
+    Eigen::Index begin;  // its first column
+  };
+  Eigen::VectorXd whitened(Share share, const std::vector<Eigen::ArrayXd>& per_grid) const;
+  Eigen::VectorXd solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target) const;
+  void set_powers(const Eigen::VectorXd& powers, Point& point) const;
 
   const Problem& problem_;
   std::vector<Coordinate> coordinates_;
-  std::vector<std::size_t> free_powers_;
+  std::vector<FreePower> free_powers_;
+  Eigen::Index free_columns_ = 0;
   Eigen::VectorXd measured_;  // whitened
   Eigen::Index rows_ = 0;
-  std::vector<Eigen::ArrayXd> grids_;  // distinct half-widths
-  std::vector<std::size_t> grid_of_block_;
+  std::vector<Eigen::ArrayXd> grids_;              // distinct half-widths
+  std::vector<std::vector<std::size_t>> grid_of_;  // of each segment of each block
 };
-
-/// Non-negative powers that minimise |target - columns·powers|²; columns are scaled inside.
-Eigen::VectorXd solve_powers(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target);
 
 }  // namespace imunoise

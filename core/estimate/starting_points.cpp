@@ -18,6 +18,18 @@ struct Trial {
   Eigen::Index column;
 };
 
+Scales longest_scales(const Problem& problem) {
+  Scales longest;
+  for (const MomentBlock& block : problem.blocks) {
+    for (const Segment& segment : block.segments) {
+      if (longest.empty() || segment.scales.largest() > longest.largest()) {
+        longest = segment.scales;
+      }
+    }
+  }
+  return longest;
+}
+
 // All trials of all nonlinear terms, and the Gram matrix of every column that can occur, so that a
 // combination costs only a small non-negative least-squares problem.
 class Dictionary {
@@ -34,7 +46,7 @@ class Dictionary {
         Process process = model.terms[t].process;
         set_values(process, v);
         trials.push_back({v, static_cast<Eigen::Index>(columns.size())});
-        columns.push_back(profile.column(t, process));
+        columns.push_back(profile.column({t, 0}, process));
       }
       trials_.push_back(std::move(trials));
     }
@@ -81,12 +93,8 @@ class Dictionary {
  private:
   std::vector<std::vector<double>> scanned_values(std::size_t term) const {
     const Term& open = profile_.problem().model.terms[term];
-    Scales longest;
-    for (const MomentBlock& block : profile_.problem().blocks) {
-      if (longest.empty() || block.scales.largest() > longest.largest()) longest = block.scales;
-    }
     std::vector<std::vector<double>> out;
-    for (const std::vector<double>& shapes : scan(open.process, longest)) {
+    for (const auto& shapes : scan(open.process, longest_scales(profile_.problem()))) {
       std::vector<double> v = values(open.process);
       for (std::size_t p = 1; p < v.size(); ++p) {
         if (!open.given[p]) v[p] = shapes[p - 1];
@@ -137,12 +145,16 @@ std::vector<Combination> distinct(const std::vector<Combination>& sorted, std::s
 
 bool exchangeable(const Problem& problem, std::size_t a, std::size_t b) {
   if (!(problem.model.terms[a] == problem.model.terms[b])) return false;
-  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [&](const MomentBlock& block) {
-    const auto has = [&](std::size_t t) {
-      return std::find(block.terms.begin(), block.terms.end(), t) != block.terms.end();
-    };
-    return has(a) == has(b);
-  });
+  for (const MomentBlock& block : problem.blocks) {
+    for (const Segment& segment : block.segments) {
+      const auto has = [&](std::size_t t) {
+        return std::find(segment.shares.begin(), segment.shares.end(), Share{t, 0}) !=
+               segment.shares.end();
+      };
+      if (has(a) != has(b)) return false;
+    }
+  }
+  return true;
 }
 
 std::vector<double> coordinates_of(const Profile& profile, const Dictionary& dictionary,
@@ -202,11 +214,7 @@ std::vector<std::vector<double>> starting_points(const Profile& profile, std::si
     std::vector<double> x;
   };
   std::vector<Scored> all;
-  Scales longest;
-  for (const MomentBlock& block : problem.blocks) {
-    if (longest.empty() || block.scales.largest() > longest.largest()) longest = block.scales;
-  }
-  for (const std::vector<double>& shapes : scan(problem.model.terms[added].process, longest)) {
+  for (const auto& shapes : scan(problem.model.terms[added].process, longest_scales(problem))) {
     std::vector<double> x = base;
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Profile::Coordinate& c = profile.coordinates()[i];

@@ -82,7 +82,8 @@ Eigen::ArrayXd held_out(const Model& fitted, std::span<const Eigen::MatrixXd> ro
       training.push_back(replicates[k]);
       training_roots.push_back(roots[k]);
     }
-    const Model model = minimise_from(tied_problem(fitted, training, training_roots), fitted).model;
+    const Model model =
+        sorted(minimise_from(tied_problem(fitted, training, training_roots), fitted).model);
     for (std::size_t k = 0; k < fold.size(); ++k) {
       if (!fold[k]) continue;
       sum(static_cast<Eigen::Index>(k)) += distance(k, model) / distance.floor(k);

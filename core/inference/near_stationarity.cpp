@@ -45,14 +45,16 @@ TestOutcome heterogeneity_test(const ScoreBlocks& blocks) {
 Statistics statistics(const Frame& frame, Replicates replicates) {
   Statistics out;
   const Problem all = tied_problem(frame.pooled, replicates, frame.roots);
-  out.pooled = minimise_from(all, frame.pooled).model;
+  out.pooled = sorted(minimise_from(all, frame.pooled).model);
   out.heterogeneity = heterogeneity_test(ScoreBlocks(out.pooled, replicates, frame.scores));
   double misfit = 0.0;
   Eigen::Index degrees = 0;
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const Replicates one = replicates.subspan(k, 1);
     const std::span<const Eigen::MatrixXd> root(&frame.roots[k], 1);
-    out.separate.push_back(minimise_from(tied_problem(frame.pooled, one, root), out.pooled));
+    Minimum separate = minimise_from(tied_problem(frame.pooled, one, root), out.pooled);
+    separate.model = sorted(std::move(separate.model));
+    out.separate.push_back(std::move(separate));
     const auto scores =
         PerReplicate<NormalScores>::of(one, [&](std::size_t) { return frame.scores[k]; });
     const TestOutcome own = goodness_of_fit(ScoreBlocks(out.separate[k].model, one, scores));

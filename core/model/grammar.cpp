@@ -31,7 +31,7 @@ std::string known_names() {
 // Recursive descent over the text; every failure names the place.
 class Parser {
  public:
-  Parser(std::string_view text, Hertz rate) : text_(text), rate_(rate) {}
+  Parser(std::string_view text, Hertz rate, bool array) : text_(text), rate_(rate), array_(array) {}
 
   Result<Model> model() {
     Model out;
@@ -79,8 +79,13 @@ class Parser {
     Process process = *found;
     if (auto* markov = std::get_if<GaussMarkov>(&process)) markov->rate = rate_;
     Term out(process);
-    if (!accept('(')) return out;
-    if (accept(')')) return out;
+    if (auto done = arguments(out); !done) return tl::unexpected(done.error());
+    if (auto done = sharing(out); !done) return tl::unexpected(done.error());
+    return out;
+  }
+
+  Result<void> arguments(Term& out) {
+    if (!accept('(') || accept(')')) return {};
     bool first = true;
     do {
       skip_space();
@@ -91,7 +96,28 @@ class Parser {
       first = false;
     } while (accept(','));
     if (!accept(')')) return error(at_, "expected ',' or ')'");
-    return out;
+    return {};
+  }
+
+  Result<void> sharing(Term& term) {
+    if (!accept('[')) return {};
+    skip_space();
+    const std::size_t begin = at_;
+    if (!array_) return error(begin, "processes are shared only among the sensors of an array");
+    const std::string name = upper(word());
+    for (const Sharing one : {Sharing::kCorrelated, Sharing::kGroup, Sharing::kAll}) {
+      if (name == upper(word_of(one))) term.sharing = one;
+    }
+    if (term.sharing == Sharing::kOwn) {
+      return error(begin,
+                   "expected how the sensors of an array share the process: corr, group or "
+                   "all");
+    }
+    if (term.sharing == Sharing::kCorrelated && term.given[0]) {
+      return error(begin, "a correlated process has a matrix of powers, which cannot be given");
+    }
+    if (!accept(']')) return error(at_, "expected ']'");
+    return {};
   }
 
   Result<void> structure(Term& term) {
@@ -189,6 +215,7 @@ class Parser {
 
   std::string_view text_;
   Hertz rate_;
+  bool array_;
   std::size_t at_ = 0;
 };
 
@@ -202,8 +229,10 @@ std::string print_term(const Term& term, bool all) {
     inside += fmt::format("{}{}={}", inside.empty() ? "" : ", ", about[i].name,
                           at[i]);  // shortest exact form
   }
-  const std::string name(info(term.process).name);
-  return inside.empty() ? name : name + "(" + inside + ")";
+  std::string out(info(term.process).name);
+  if (!inside.empty()) out += "(" + inside + ")";
+  if (term.sharing != Sharing::kOwn) out += fmt::format("[{}]", word_of(term.sharing));
+  return out;
 }
 
 std::string print(const Model& model, bool all) {
@@ -221,7 +250,12 @@ std::string print(const Model& model, bool all) {
 
 }  // namespace
 
-Result<Model> parse_model(std::string_view text, Hertz rate) { return Parser(text, rate).model(); }
+Result<Model> parse_model(std::string_view text, Hertz rate) {
+  return Parser(text, rate, false).model();
+}
+Result<Model> parse_array_model(std::string_view text, Hertz rate) {
+  return Parser(text, rate, true).model();
+}
 
 std::string print(const Model& model) { return print(model, false); }
 std::string print_with_values(const Model& model) { return print(model, true); }

@@ -10,6 +10,20 @@ std::size_t parameter_count(const Model& model) {
   return out;
 }
 
+std::string_view word_of(Sharing sharing) {
+  switch (sharing) {
+    case Sharing::kOwn:
+      break;
+    case Sharing::kCorrelated:
+      return "corr";
+    case Sharing::kGroup:
+      return "group";
+    case Sharing::kAll:
+      return "all";
+  }
+  return "";
+}
+
 bool complete(const Model& model) {
   return std::all_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
     return std::find(term.given.begin(), term.given.end(), false) == term.given.end();
@@ -51,7 +65,7 @@ Model sorted(Model model) {
     for (std::size_t k = i + 1; k < model.terms.size(); ++k) {
       Term& a = model.terms[i];
       Term& b = model.terms[k];
-      if (a.process.index() == b.process.index() && a.given == b.given &&
+      if (a.process.index() == b.process.index() && a.given == b.given && a.sharing == b.sharing &&
           shape_of(a) < shape_of(b)) {
         std::swap(a, b);
       }

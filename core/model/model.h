@@ -10,11 +10,22 @@
 
 namespace imunoise {
 
+/// Whose a term is when several sensors are modelled together.
+enum class Sharing {
+  kOwn,         ///< each sensor has a process of its own, independent of the others': RW
+  kCorrelated,  ///< each has its own, of one shape, correlated at equal times: RW[corr]
+  kGroup,       ///< one process, the same in every sensor of a group: RW[group]
+  kAll,         ///< one process, the same in every sensor: RW[all]
+};
+/// "corr", "group", "all"; "" for kOwn.
+std::string_view word_of(Sharing sharing);
+
 /// One term of a model: a process, and which of its parameters the user gave (they stay as they
 /// are).
 struct Term {
   Process process;
   std::vector<bool> given;  ///< one entry a parameter
+  Sharing sharing = Sharing::kOwn;
 
   explicit Term(Process p) : process(std::move(p)), given(parameters(process).size(), false) {}
   friend bool operator==(const Term&, const Term&) = default;
@@ -29,10 +40,12 @@ struct Model {
 /// Reads a model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`, `MA(2) +
 /// RW`.
 ///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value }
-///   ')' ]
+///   ')' ] [ '[' sharing ']' ];  sharing := corr | group | all
 /// Parameters are per sample, in SI units; GM's tc is in seconds (hence the rate). Names ignore
 /// case. Error: what is wrong, with the text and a caret under the character.
 Result<Model> parse_model(std::string_view text, Hertz rate);
+/// The same for several sensors: only such a model may say how a process is shared.
+Result<Model> parse_array_model(std::string_view text, Hertz rate);
 
 /// The model in the grammar, with the values that were given: parse_model(print(m)) == m.
 std::string print(const Model& model);

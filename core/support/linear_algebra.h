@@ -4,6 +4,7 @@
 // door.
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace imunoise {
 
@@ -39,8 +40,24 @@ struct PseudoInverse {
 PseudoInverse pseudo_inverse(const MatrixRef& symmetric, double tolerance = 1e-11);
 
 /// Non-negative least squares in normal form: the minimiser of βᵀGβ - 2cᵀβ over β ≥ 0, with G = AᵀA
-/// (p × p, p ≤ 24, unit diagonal advised) and c = Aᵀb. Columns that depend linearly on those in use
+/// (p × p, p ≤ 64, unit diagonal advised) and c = Aᵀb. Columns that depend linearly on those in use
 /// stay at zero. Active set of Lawson & Hanson (1974), chapter 23; deterministic.
 Eigen::VectorXd nonnegative_least_squares(const MatrixRef& gram, const VectorRef& moment);
+
+/// The same over a product of cones: β holds the upper triangles of symmetric matrices of the given
+/// sizes, row by row (packed_index), each of which must be positive semidefinite; size 1 is a
+/// number ≥ 0. Exact where no matrix is singular; else by alternating directions (Boyd et al. 2011,
+/// §5.2) to about 1e-9 of the largest entry. Deterministic.
+Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& moment,
+                                    const std::vector<Eigen::Index>& sizes);
+
+/// Where entry (row, column) of a symmetric n × n matrix is in its packed upper triangle.
+constexpr Eigen::Index packed_index(Eigen::Index n, Eigen::Index row, Eigen::Index column) {
+  const Eigen::Index low = row < column ? row : column;
+  const Eigen::Index high = row < column ? column : row;
+  return low * n - low * (low - 1) / 2 + high - low;
+}
+/// Number of entries of a packed upper triangle.
+constexpr Eigen::Index packed_size(Eigen::Index n) { return n * (n + 1) / 2; }
 
 }  // namespace imunoise

@@ -40,7 +40,7 @@ std::vector<Model> trained(const Model& open, const std::vector<WaveletVariance>
       if (!out[k]) training.push_back(moments[k]);
     }
     const std::vector<Eigen::MatrixXd> roots(training.size(), root);
-    models.push_back(minimise(tied_problem(open, training, roots)).model);
+    models.push_back(sorted(minimise(tied_problem(open, training, roots)).model));
   } while (std::prev_permutation(out.begin(), out.end()));
   return models;
 }

@@ -51,6 +51,21 @@ TEST(Grammar, PointsAtTheCharacter) {
   }
 }
 
+TEST(Grammar, SensorsShareProcessesInArraysOnly) {
+  const auto model = parse_array_model("RW[corr] + ar1(phi=0.5)[ all ]+WN", Hertz{100.0});
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->terms[0].sharing, Sharing::kCorrelated);
+  EXPECT_EQ(model->terms[1].sharing, Sharing::kAll);
+  EXPECT_EQ(model->terms[2].sharing, Sharing::kOwn);
+  EXPECT_EQ(print(*model), "RW[corr] + AR1(phi=0.5)[all] + WN");
+  EXPECT_EQ(parse_array_model(print(*model), Hertz{100.0}).value(), *model);
+  EXPECT_EQ(parse_model("RW[corr]", Hertz{1.0}).error().message,
+            "model: processes are shared only among the sensors of an array\n  RW[corr]\n     ^");
+  for (const char* wrong : {"RW[]", "RW[corr", "RW[mine]", "RW(gamma2=1)[corr]", "RW[corr][all]"}) {
+    EXPECT_FALSE(parse_array_model(wrong, Hertz{1.0})) << wrong;
+  }
+}
+
 TEST(Grammar, PrintsBackWhatItParsed) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(0.06, 0.95);

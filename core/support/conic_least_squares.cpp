@@ -1,0 +1,124 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "core/support/linear_algebra.h"
+
+namespace imunoise {
+namespace {
+
+constexpr int kMostRounds = 20'000;
+constexpr double kClose = 1e-11;
+
+// A matrix of the cone in coordinates in which the Euclidean length is Frobenius' norm and the
+// least-squares problem is well scaled: entry (i, j) times scale_i scale_j, and √2 off the
+// diagonal.
+class ScaledCones {
+ public:
+  ScaledCones(const MatrixRef& gram, const std::vector<Eigen::Index>& sizes) : sizes_(sizes) {
+    factor_.resize(gram.rows());
+    Eigen::Index begin = 0;
+    for (const Eigen::Index n : sizes) {
+      Eigen::VectorXd scale(n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Eigen::Index at = begin + packed_index(n, i, i);
+        scale(i) = gram(at, at) > 0.0 ? std::pow(gram(at, at), 0.25) : 1.0;
+      }
+      for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index j = i; j < n; ++j) {
+          factor_(begin + packed_index(n, i, j)) =
+              scale(i) * scale(j) * (i == j ? 1.0 : std::numbers::sqrt2);
+        }
+      }
+      begin += packed_size(n);
+    }
+  }
+
+  /// Scaled coordinates are factor() times the packed entries.
+  const Eigen::VectorXd& factor() const { return factor_; }
+
+  /// Nearest point of the cones; `inside` tells whether the point was there already.
+  Eigen::VectorXd project(const Eigen::VectorXd& x, bool& inside) const {
+    Eigen::VectorXd out = x;
+    inside = true;
+    Eigen::Index begin = 0;
+    for (const Eigen::Index n : sizes_) {
+      if (n == 1) {
+        inside = inside && x(begin) >= 0.0;
+        out(begin) = std::max(x(begin), 0.0);
+      } else {
+        project_matrix(n, begin, out, inside);
+      }
+      begin += packed_size(n);
+    }
+    return out;
+  }
+
+ private:
+  static double weight(Eigen::Index i, Eigen::Index j) {
+    return i == j ? 1.0 : std::numbers::sqrt2;
+  }
+
+  static void project_matrix(Eigen::Index n, Eigen::Index begin, Eigen::VectorXd& x, bool& inside) {
+    Eigen::MatrixXd full(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j < n; ++j) {
+        full(i, j) = x(begin + packed_index(n, i, j)) / weight(i, j);
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(full);
+    if (eigen.eigenvalues()(0) >= 0.0) return;
+    inside = false;
+    full = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+           eigen.eigenvectors().transpose();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = i; j < n; ++j) {
+        x(begin + packed_index(n, i, j)) = full(i, j) * weight(i, j);
+      }
+    }
+  }
+
+  std::vector<Eigen::Index> sizes_;
+  Eigen::VectorXd factor_;
+};
+
+}  // namespace
+
+Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& moment,
+                                    const std::vector<Eigen::Index>& sizes) {
+  const ScaledCones cones(gram, sizes);
+  const Eigen::VectorXd shrink = cones.factor().cwiseInverse();
+  const Eigen::MatrixXd g = shrink.asDiagonal() * gram * shrink.asDiagonal();
+  const Eigen::VectorXd c = shrink.asDiagonal() * moment;
+  const Eigen::Index n = g.rows();
+
+  const Eigen::LDLT<Eigen::MatrixXd> plain(g);
+  Eigen::VectorXd x = plain.solve(c);
+  bool inside = false;
+  Eigen::VectorXd z = cones.project(x, inside);
+  const bool solved = x.allFinite() && (g * x - c).norm() <= 1e-9 * c.norm();
+  if (solved && inside) return shrink.asDiagonal() * x;
+  if (!x.allFinite()) z.setZero();
+
+  // The penalty of least iterations for a quadratic lies between the extreme eigenvalues of G.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(g);
+  const double largest = eigen.eigenvalues()(n - 1);
+  const double rho = std::sqrt(largest * std::max(eigen.eigenvalues()(0), 1e-6 * largest));
+  const Eigen::VectorXd damped = (eigen.eigenvalues().array() + rho).inverse();
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+  for (int round = 0; round < kMostRounds; ++round) {
+    x = eigen.eigenvectors() *
+        (damped.asDiagonal() * (eigen.eigenvectors().transpose() * (c + rho * (z - u))));
+    const Eigen::VectorXd before = z;
+    z = cones.project(x + u, inside);
+    u += x - z;
+    const double size = std::max(z.cwiseAbs().maxCoeff(), 1e-300);
+    const double moved =
+        std::max((x - z).cwiseAbs().maxCoeff(), (z - before).cwiseAbs().maxCoeff());
+    if (moved <= kClose * size) break;
+  }
+  return shrink.asDiagonal() * z;
+}
+
+}  // namespace imunoise
