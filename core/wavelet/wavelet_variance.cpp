@@ -53,10 +53,13 @@ WaveletVariance wavelet_variance(const Signal& signal, const Scales& scales, dou
   return out;
 }
 
+Eigen::ArrayXd equivalent_degrees(const Scales& scales, std::size_t samples) {
+  const Eigen::ArrayXd m = scales.half_widths();
+  return ((static_cast<double>(samples) - 2.0 * m + 1.0) / (2.0 * m)).max(1.0);
+}
+
 void set_chi_square_interval(WaveletVariance& wv) {
-  const Eigen::ArrayXd m = wv.scales.half_widths();
-  const auto samples = static_cast<double>(wv.samples);
-  wv.edof = ((samples - 2.0 * m + 1.0) / (2.0 * m)).max(1.0);
+  wv.edof = equivalent_degrees(wv.scales, wv.samples);
   fill_interval(wv);
 }
 

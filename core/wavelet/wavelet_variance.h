@@ -33,6 +33,8 @@ struct WaveletVariance {
 WaveletVariance wavelet_variance(const Signal& signal, const Scales& scales,
                                  double confidence = 0.95, const Progress& progress = {});
 
+/// Equivalent degrees of freedom max(M/2m, 1) of each scale (Percival & Walden 2000, η3).
+Eigen::ArrayXd equivalent_degrees(const Scales& scales, std::size_t samples);
 /// Fills edof from scales and samples, and then the interval.
 void set_chi_square_interval(WaveletVariance& wv);
 /// Fills lower and upper from variance, edof, confidence and efficiency. The robust estimator's

@@ -1,0 +1,161 @@
+#include "core/wavelet/wavelet_covariance.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+#include "core/support/distributions.h"
+#include "core/support/parallel.h"
+#include "core/wavelet/squared_coefficients.h"
+#include "core/wavelet/wavelet_variance.h"
+
+namespace imunoise {
+namespace {
+
+constexpr std::size_t kSegmentBlocks = 64;
+
+// 2m·W_t of one signal at one scale, block after block.
+class Coefficients {
+ public:
+  virtual ~Coefficients() = default;
+  /// Moves on to a block of prefix sums and writes the coefficients of t in [begin, end) within it.
+  virtual void read(std::size_t block, std::size_t begin, std::size_t end, double* out) = 0;
+};
+
+template <class Prefix>
+class CoefficientsOf : public Coefficients {
+ public:
+  CoefficientsOf(const Prefix& prefix, std::size_t m)
+      : m_(m), now_(prefix, 0, 0), middle_(prefix, m, 0), far_(prefix, 2 * m, 0) {}
+
+  void read(std::size_t block, std::size_t begin, std::size_t end, double* out) override {
+    for (auto* window : {&now_, &middle_, &far_}) window->advance(block);
+    const auto* a = now_.at(begin);
+    const auto* b = middle_.at(begin - m_);
+    const auto* c = far_.at(begin - 2 * m_);
+    for (std::size_t i = 0; i < end - begin; ++i) {
+      out[i] = static_cast<double>(a[i] - 2 * b[i] + c[i]);
+    }
+  }
+
+ private:
+  std::size_t m_;
+  PrefixWindow<Prefix> now_;
+  PrefixWindow<Prefix> middle_;
+  PrefixWindow<Prefix> far_;
+};
+
+// A signal's prefix sums, whatever its samples are.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual std::unique_ptr<Coefficients> at_scale(std::size_t m) const = 0;
+};
+
+template <class Sample>
+class SourceOf : public Source {
+ public:
+  using Prefix =
+      PrefixSums<Sample, std::conditional_t<std::is_same_v<Sample, double>, double, std::int64_t>>;
+  explicit SourceOf(std::span<const Sample> samples) : prefix_(samples) {}
+  std::unique_ptr<Coefficients> at_scale(std::size_t m) const override {
+    return std::make_unique<CoefficientsOf<Prefix>>(prefix_, m);
+  }
+
+ private:
+  Prefix prefix_;
+};
+
+std::unique_ptr<Source> source_of(const Signal& signal) {
+  return std::visit(
+      []<class Sample>(std::span<const Sample> samples) -> std::unique_ptr<Source> {
+        return std::make_unique<SourceOf<Sample>>(samples);
+      },
+      signal.samples());
+}
+
+// Σ_t of the products of all pairs over one segment of blocks, times 4m² and in stored units.
+Eigen::MatrixXd segment_products(const std::vector<std::unique_ptr<Source>>& sources,
+                                 std::size_t samples, std::size_t m, std::size_t first_block,
+                                 std::size_t end_block) {
+  const auto count = static_cast<Eigen::Index>(sources.size());
+  std::vector<std::unique_ptr<Coefficients>> coefficients;
+  for (const auto& source : sources) coefficients.push_back(source->at_scale(m));
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
+  Eigen::MatrixXd values(kBlock, count);
+  for (std::size_t block = first_block; block < end_block; ++block) {
+    const std::size_t begin = std::max(block * kBlock, 2 * m);
+    const std::size_t end = std::min(samples + 1, (block + 1) * kBlock);
+    if (begin >= end) continue;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      coefficients[static_cast<std::size_t>(i)]->read(block, begin, end, values.col(i).data());
+    }
+    const auto used = values.topRows(static_cast<Eigen::Index>(end - begin));
+    sum.selfadjointView<Eigen::Lower>().rankUpdate(used.transpose());
+  }
+  return sum.selfadjointView<Eigen::Lower>();
+}
+
+}  // namespace
+
+Eigen::ArrayXd WaveletCovariance::of(Eigen::Index a, Eigen::Index b) const {
+  Eigen::ArrayXd out(static_cast<Eigen::Index>(covariance.size()));
+  for (std::size_t j = 0; j < covariance.size(); ++j) {
+    out(static_cast<Eigen::Index>(j)) = covariance[j](a, b);
+  }
+  return out;
+}
+
+WaveletCovariance wavelet_covariance(std::span<const Signal> signals, const Scales& scales,
+                                     const Progress& progress) {
+  assert(!signals.empty());
+  const std::size_t samples = signals.front().size();
+  assert(scales.empty() || static_cast<std::size_t>(2 * scales.largest()) <= samples);
+  WaveletCovariance out;
+  out.scales = scales;
+  out.samples = samples;
+  out.rate = signals.front().rate();
+  out.quantity = signals.front().quantity();
+  std::vector<std::unique_ptr<Source>> sources;
+  Eigen::VectorXd unit(static_cast<Eigen::Index>(signals.size()));
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    assert(signals[i].size() == samples);
+    sources.push_back(source_of(signals[i]));
+    unit(static_cast<Eigen::Index>(i)) = signals[i].scale();
+  }
+
+  const std::size_t blocks = samples / kBlock + 1;
+  const std::size_t segments = (blocks + kSegmentBlocks - 1) / kSegmentBlocks;
+  std::vector<Eigen::MatrixXd> parts(scales.size() * segments);
+  for_each_index(parts.size(), [&](std::size_t item) {
+    if (progress.stopped()) return;
+    const std::size_t first = item % segments * kSegmentBlocks;
+    parts[item] =
+        segment_products(sources, samples, static_cast<std::size_t>(scales[item / segments]), first,
+                         std::min(blocks, first + kSegmentBlocks));
+    progress.report(static_cast<double>(item + 1) / static_cast<double>(parts.size()));
+  });
+  for (std::size_t j = 0; j < scales.size(); ++j) {
+    const auto m = static_cast<double>(scales[j]);
+    const double pairs = static_cast<double>(samples) - 2.0 * m + 1.0;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(unit.size(), unit.size());
+    for (std::size_t s = 0; s < segments && !progress.stopped(); ++s)
+      sum += parts[j * segments + s];
+    out.covariance.emplace_back(unit.asDiagonal() * sum * unit.asDiagonal() /
+                                (pairs * 4.0 * m * m));
+  }
+  return out;
+}
+
+CovarianceInterval covariance_interval(const WaveletCovariance& measured, Eigen::Index a,
+                                       Eigen::Index b, double confidence) {
+  const Eigen::ArrayXd own = measured.of(a, b);
+  const Eigen::ArrayXd width = normal_quantile(0.5 + 0.5 * confidence) *
+                               ((measured.of(a, a) * measured.of(b, b) + own.square()) /
+                                equivalent_degrees(measured.scales, measured.samples))
+                                   .sqrt();
+  return {own - width, own + width};
+}
+
+}  // namespace imunoise

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/signal/signal.h"
+#include "core/support/progress.h"
+#include "core/wavelet/scales.h"
+
+namespace imunoise {
+
+/// Measured Haar MODWT wavelet cross-covariances of I signals recorded together:
+/// ν̂_ab(m) = mean_t W^a_t W^b_t over the M = T - 2m + 1 coefficients inside the signals. The
+/// diagonal holds the wavelet variances. In (SI unit)², of a times b.
+struct WaveletCovariance {
+  Scales scales;
+  std::vector<Eigen::MatrixXd> covariance;  ///< one symmetric I × I matrix a scale
+  std::size_t samples = 0;                  ///< T
+  Hertz rate;
+  Quantity quantity = Quantity::kUnknown;  ///< of the first signal
+
+  Eigen::Index signals() const { return covariance.empty() ? 0 : covariance.front().rows(); }
+  /// The entries of one pair of signals, one a scale.
+  Eigen::ArrayXd of(Eigen::Index a, Eigen::Index b) const;
+};
+
+/// Integer samples are summed exactly and coefficients formed without rounding; the result does not
+/// depend on the number of threads. Precondition: at least one signal, all of one length T ≥ 2m and
+/// one rate. Cost: three reads of each signal a scale and I²/2 products a coefficient; memory: a
+/// few blocks a signal. Thread-safe.
+WaveletCovariance wavelet_covariance(std::span<const Signal> signals, const Scales& scales,
+                                     const Progress& progress = {});
+
+/// Interval of one entry without a model: normal, with variance (ν_aa ν_bb + ν_ab²) / edof, the law
+/// of Gaussian signals whose coefficients count as max(M/2m, 1) independent pairs; on the diagonal
+/// it has the variance of the χ² law.
+struct CovarianceInterval {
+  Eigen::ArrayXd lower;
+  Eigen::ArrayXd upper;
+};
+CovarianceInterval covariance_interval(const WaveletCovariance& measured, Eigen::Index a,
+                                       Eigen::Index b, double confidence = 0.95);
+
+}  // namespace imunoise
