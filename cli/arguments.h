@@ -11,6 +11,7 @@
 
 #include "cli/show.h"
 #include "recording/import/import.h"
+#include "study/analysis/array_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
@@ -61,6 +62,12 @@ struct SelectArguments {
   ShowArguments show;
 };
 
+struct ArrayArguments {
+  InputArguments input;
+  study::ArraySeriesOptions array;
+  ShowArguments show;
+};
+
 struct DriversArguments {
   std::vector<std::filesystem::path> folders;  ///< searched before all others
   bool json = false;
@@ -87,8 +94,8 @@ struct VerifyArguments {
 
 struct Arguments {
   using Command =
-      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, SimulateArguments,
-                   VerifyArguments, DriversArguments, DecodeArguments>;
+      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
+                   SimulateArguments, VerifyArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

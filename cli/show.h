@@ -19,14 +19,19 @@ struct ShowArguments {
 /// the list around it) or for people. Returns the exit status.
 template <class Reports>
 int show(const Reports& reports, const ShowArguments& arguments) {
+  const auto json = [&] {
+    if constexpr (requires { reports.channels_size(); }) {
+      if (reports.channels_size() == 1) return report::to_json(reports.channels(0));
+    }
+    return report::to_json(reports);
+  };
   if (arguments.report) {
     const auto page = report::html_page(report::document(reports, report::Digits::kTypeset));
     if (auto done = write_file(*arguments.report, page); !done) return print_error(done.error());
     fmt::print(stderr, "wrote {}\n", arguments.report->string());
   }
   if (arguments.json) {
-    const bool single = reports.channels_size() == 1;
-    print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));
+    print(json());
     return 0;
   }
   print(report::text(report::document(reports, report::Digits::kPlain), terminal_style()));

@@ -37,6 +37,16 @@ Examples:
   imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      just these
   imunoise select run?.h5 --splits half --weights diag                   CV-WVIC as published)help";
 
+constexpr const char* kArrayExamples = R"help(
+Examples:
+  imunoise array run?.h5 --channel gyro_a,gyro_b,gyro_c --model "RW[corr] + WN"
+  imunoise array run?.csv --optimise long --rule non-negative --report array.html
+  imunoise array run?.csv --model "AR1[all] + AR1[group] + WN" --group a,b --group c,d
+
+A sensor is a channel, a file a replicate of all of them. Each sensor has processes of its own unless
+the model says: [corr] one of one shape in each sensor, correlated; [group] the same in all sensors
+of a group; [all] the same in all.)help";
+
 // What the commands of analysis have in common, as it was typed.
 struct RawAnalysis {
   RawInput input;
@@ -171,11 +181,64 @@ ParsedCommand select_command(CLI::App& program) {
           }};
 }
 
+WeightRule rule_from(const std::string& text) {
+  if (text == "non-negative") return WeightRule::kNonnegative;
+  return text == "unit-length" ? WeightRule::kUnitLength : WeightRule::kUnitGain;
+}
+
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> out;
+  for (const std::string& name : CLI::detail::split(list, ',')) {
+    if (!name.empty()) out.push_back(name);
+  }
+  return out;
+}
+
+ParsedCommand array_command(CLI::App& program) {
+  CLI::App* const array =
+      program.add_subcommand("array", "Shared noise and the best virtual sensor of an array");
+  array->footer(kArrayExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto groups = std::make_shared<std::vector<std::string>>();
+  const auto options = std::make_shared<study::ArraySeriesOptions>();
+  const auto rule = std::make_shared<std::string>("unit-gain");
+  add_input(*array, raw->input);
+  add_json(*array, *raw);
+  add_report(*array, *raw);
+  add_weights(*array, *raw);
+  array->add_option("--model", raw->model,
+                    fmt::format("The model (default: {})", study::kDefaultArrayModel));
+  array
+      ->add_option("--group", *groups,
+                   "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
+      ->allow_extra_args(false);
+  array->add_flag("!--no-cross", options->cross, "Fit each sensor's own variances only");
+  array
+      ->add_option("--optimise", options->scales,
+                   "Averaging times at which the virtual sensor is to be quiet: short, long, all, "
+                   "or one weight a scale")
+      ->capture_default_str();
+  array->add_option("--rule", *rule, "What its weights must satisfy")
+      ->check(CLI::IsMember({"unit-gain", "non-negative", "unit-length"}))
+      ->capture_default_str();
+  return {array, [raw, groups, options, rule] {
+            if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
+            ArrayArguments out{input_from(raw->input), *options, show_from(*raw)};
+            if (!raw->model.empty()) out.array.model = raw->model;
+            for (const std::string& group : *groups) out.array.groups.push_back(names_in(group));
+            out.array.per_octave = raw->input.per_octave;
+            out.array.confidence = raw->input.confidence;
+            out.array.weighting = weighting_from(raw->weights);
+            out.array.rule = rule_from(*rule);
+            return out;
+          }};
+}
+
 }  // namespace
 
 std::vector<ParsedCommand> analysis_commands(CLI::App& program) {
-  return {wv_command(program), fit_command(program), test_command(program),
-          select_command(program)};
+  return {wv_command(program), fit_command(program), test_command(program), select_command(program),
+          array_command(program)};
 }
 
 }  // namespace imunoise::cli

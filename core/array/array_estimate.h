@@ -43,4 +43,7 @@ ArrayFit fit_array(const Model& written, const ArrayLayout& layout,
                    std::span<const WaveletCovariance> replicates, const ArrayOptions& options = {},
                    const Progress& progress = {});
 
+/// d moments / d parameters of a fit: the moments as in moments_of(), one column a parameter.
+Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const Scales& scales);
+
 }  // namespace imunoise

@@ -80,19 +80,16 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
   return out;
 }
 
-// Upper bound of a power that may be zero: the largest one that could have been estimated as this
-// little. Its own standard error counts, which grows with it, not the one that goes with the small
-// estimate.
-double upper_bound(double value, double upper, double z, Eigen::Index column,
-                   const PowerError& power_error) {
+}  // namespace
+
+double upper_bound(double value, double upper, double z,
+                   const std::function<double(double)>& error_at) {
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds && std::isfinite(upper) && upper > 0.0; ++round) {
-    upper = std::max(upper, value + z * power_error(column, upper));
+    upper = std::max(upper, value + z * error_at(upper));
   }
   return upper;
 }
-
-}  // namespace
 
 ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
                            double standard_error, double confidence) {
@@ -159,7 +156,8 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
       }
     }
     if (row[0].observability == Observability::kUpperBound) {
-      row[0].upper = upper_bound(row[0].value, row[0].upper, z, first, power_error);
+      row[0].upper = upper_bound(row[0].value, row[0].upper, z,
+                                 [&](double at) { return power_error(first, at); });
     }
     std::vector<DerivedEstimate> quantities;
     for (const DerivedQuantity& quantity : derived(term.process, rate)) {

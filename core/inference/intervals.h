@@ -12,6 +12,12 @@ namespace imunoise {
 ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
                            double standard_error, double confidence);
 
+/// Upper end of the interval of a power that may be zero, from a first guess `upper`: the largest
+/// one that could have been estimated as this little. Its own standard error counts, which grows
+/// with it (error_at), not the one that goes with the small estimate.
+double upper_bound(double value, double upper, double z,
+                   const std::function<double(double)>& error_at);
+
 /// Standard error that a power (by its column) would have if it were worth `value`, all else as
 /// fitted; infinite when it cannot be told apart.
 using PowerError = std::function<double(Eigen::Index column, double value)>;

@@ -1,13 +1,15 @@
 #pragma once
 
+#include "imunoise/v1/array.pb.h"
 #include "imunoise/v1/inference.pb.h"
 #include "study/report/document.h"
 #include "study/report/number.h"
 
 namespace imunoise::report {
 
-/// What `imunoise test` and `imunoise select` say, for page and terminal.
+/// What `imunoise test`, `imunoise select` and `imunoise array` say, for page and terminal.
 Document document(const v1::StationarityReports& reports, Digits digits);
 Document document(const v1::ChoiceReports& reports, Digits digits);
+Document document(const v1::ArrayReport& report, Digits digits);
 
 }  // namespace imunoise::report

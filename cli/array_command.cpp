@@ -1,0 +1,17 @@
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/progress_line.h"
+#include "cli/show.h"
+
+namespace imunoise::cli {
+
+int run(const ArrayArguments& arguments) {
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return print_error(replicates.error());
+  ProgressLine line("array");
+  const auto done = study::array_series(all_series(*replicates), arguments.array, line.progress());
+  if (!done) return print_error(done.error());
+  return show(*done, arguments.show);
+}
+
+}  // namespace imunoise::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/array/array_moments.h"
+
+namespace imunoise {
+
+/// Replicates of one length, and the average of their cross-covariances.
+struct ReplicateGroup {
+  Scales scales;
+  std::size_t samples;
+  double count;
+  std::vector<Eigen::MatrixXd> mean;
+};
+std::vector<ReplicateGroup> groups_of(std::span<const WaveletCovariance> replicates);
+
+/// Moments that are weighted together. Borrows its group.
+struct ArrayBlock {
+  const ReplicateGroup* group;
+  Pairs pairs;
+};
+
+/// All pairs of a group together while they have at most 1,200 moments, else each by itself.
+std::vector<ArrayBlock> blocks_of(const std::vector<ReplicateGroup>& groups, const Pairs& pairs);
+
+/// Weights of the inverse variances of covariance_interval(), without a model: Ω = rootᵀ·root.
+Eigen::MatrixXd diagonal_root(const ArrayBlock& block);
+
+/// Exact covariance of a block's averaged moments under the model.
+Eigen::MatrixXd covariance_of(const ArrayModel& model, const ArrayBlock& block);
+
+}  // namespace imunoise

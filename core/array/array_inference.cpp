@@ -1,0 +1,133 @@
+#include "core/array/array_inference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/inference/intervals.h"
+#include "core/support/distributions.h"
+#include "core/support/linear_algebra.h"
+
+namespace imunoise {
+namespace {
+
+bool acts_on(const Latent& latent, Eigen::Index sensor) {
+  return std::find(latent.sensors.begin(), latent.sensors.end(), sensor) != latent.sensors.end();
+}
+
+// Every free parameter of a model.
+std::vector<ArrayParameter> parameters_of(const ArrayModel& model) {
+  std::vector<ArrayParameter> out;
+  for (std::size_t t = 0; t < model.latents.size(); ++t) {
+    const Latent& latent = model.latents[t];
+    const Eigen::Index first = latent.sensors.front();
+    if (latent.matrix()) {
+      for (const auto& [a, b] : all_pairs(model.sensors)) out.push_back({t, 0, a, b, {}});
+    } else if (!latent.term.given[0]) {
+      out.push_back({t, 0, first, first, {}});
+    }
+    for (std::size_t p = 1; p < latent.term.given.size(); ++p) {
+      if (!latent.term.given[p]) out.push_back({t, p, first, first, {}});
+    }
+  }
+  return out;
+}
+
+double value_of(const ArrayModel& model, const ArrayParameter& parameter) {
+  const Latent& latent = model.latents[parameter.latent];
+  if (parameter.parameter > 0) return values(latent.term.process)[parameter.parameter];
+  return latent.power(parameter.row, parameter.column);
+}
+
+// By how much the cross-covariance of a pair moves with a parameter, per unit of what its process
+// contributes.
+double factor(const Latent& latent, const ArrayParameter& parameter, const Pair& pair) {
+  if (parameter.parameter > 0) return latent.power(pair.a, pair.b);
+  if (latent.matrix()) return pair.a == parameter.row && pair.b == parameter.column ? 1.0 : 0.0;
+  return acts_on(latent, pair.a) && acts_on(latent, pair.b) ? 1.0 : 0.0;
+}
+
+// The sandwich of a fit's parameters, were the moments to scatter as under `scatter`.
+struct Sandwich {
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd null_share;
+};
+
+Sandwich sandwich(const ArrayFit& fit, const ArrayModel& scatter,
+                  const std::vector<ArrayBlock>& blocks,
+                  const std::vector<Eigen::MatrixXd>& roots) {
+  const auto p = static_cast<Eigen::Index>(fit.parameters.size());
+  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(p, p);
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(p, p);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Eigen::MatrixXd slope =
+        roots[b] * parameter_slopes(fit, blocks[b].pairs, blocks[b].group->scales);
+    const Eigen::MatrixXd spread =
+        roots[b] * covariance_of(scatter, blocks[b]) * roots[b].transpose();
+    bread += slope.transpose() * slope;
+    meat += slope.transpose() * spread * slope;
+  }
+  const PseudoInverse inverse = pseudo_inverse(bread);
+  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+}
+
+}  // namespace
+
+Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const Scales& scales) {
+  const Eigen::ArrayXd m = scales.half_widths();
+  const auto n = m.size();
+  Eigen::MatrixXd out(n * static_cast<Eigen::Index>(pairs.size()),
+                      static_cast<Eigen::Index>(fit.parameters.size()));
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const ArrayParameter& parameter = fit.parameters[i];
+    const Latent& latent = fit.model.latents[parameter.latent];
+    const Eigen::VectorXd change =
+        jacobian(latent.term.process, m).col(static_cast<Eigen::Index>(parameter.parameter));
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      out.col(static_cast<Eigen::Index>(i)).segment(static_cast<Eigen::Index>(p) * n, n) =
+          factor(latent, parameter, pairs[p]) * change;
+    }
+  }
+  return out;
+}
+
+void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
+           const std::vector<Eigen::MatrixXd>& roots, double confidence) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kHidden = 0.2;  // share of a parameter that other parameters can imitate
+  fit.parameters = parameters_of(fit.model);
+  const Sandwich here = sandwich(fit, fit.model, blocks, roots);
+  fit.covariance = here.covariance;
+  const double z = normal_quantile(0.5 + 0.5 * confidence);
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    ArrayParameter& parameter = fit.parameters[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const Latent& latent = fit.model.latents[parameter.latent];
+    const double value = value_of(fit.model, parameter);
+    const bool hidden = here.null_share(at) > kHidden;
+    const double error = hidden ? kInfinity : std::sqrt(std::max(fit.covariance(at, at), 0.0));
+    if (hidden || parameter.row != parameter.column) {  // a covariance has no sign to respect
+      parameter.estimate = {value, error, value - z * error, value + z * error,
+                            hidden ? Observability::kIndistinguishable : Observability::kObserved};
+      continue;
+    }
+    const ParameterInfo about = parameters(latent.term.process)[parameter.parameter];
+    parameter.estimate = interval(about, parameter.parameter, value, error, confidence);
+    if (parameter.parameter == 0 &&
+        parameter.estimate.observability == Observability::kUpperBound) {
+      const auto error_at = [&](double power) {
+        ArrayModel moved = fit.model;
+        Latent& grown = moved.latents[parameter.latent];
+        if (grown.matrix()) {
+          grown.power(parameter.row, parameter.row) = power;
+        } else {
+          grown.set_scalar(power);
+        }
+        return std::sqrt(std::max(sandwich(fit, moved, blocks, roots).covariance(at, at), 0.0));
+      };
+      parameter.estimate.upper = upper_bound(value, parameter.estimate.upper, z, error_at);
+    }
+  }
+}
+
+}  // namespace imunoise

@@ -1,0 +1,353 @@
+#include "study/analysis/array_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/array/dependence.h"
+#include "core/support/distributions.h"
+#include "study/analysis/vocabulary.h"
+
+namespace imunoise::study {
+namespace {
+
+constexpr double kLevel = 0.05;
+constexpr std::size_t kPreset = 3;  // scales of "short" and "long"
+
+using Measured = std::vector<WaveletCovariance>;
+
+Result<void> check_sensors(const std::vector<Series>& sensors) {
+  if (sensors.size() < 2) {
+    return fail("an array needs at least two sensors: name more channels, or use imunoise fit");
+  }
+  const Quantity first = sensors.front().replicates.front().quantity();
+  for (const Series& one : sensors) {
+    const Quantity quantity = one.replicates.front().quantity();
+    if (quantity == first) continue;
+    return fail(fmt::format(
+        "{} is in {} and {} is in {}: the sensors of an array measure the same thing; choose them "
+        "with --channel",
+        sensors.front().channel, si_symbol(first), one.channel, si_symbol(quantity)));
+  }
+  return {};
+}
+
+Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
+                              const std::vector<std::vector<std::string>>& groups) {
+  ArrayLayout out{sensors.size(), std::vector<std::size_t>(sensors.size(), groups.size())};
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const std::string& name : groups[g]) {
+      const auto found = std::find_if(sensors.begin(), sensors.end(),
+                                      [&](const Series& s) { return s.channel == name; });
+      if (found == sensors.end()) {
+        return fail(fmt::format("group: there is no sensor '{}' among those analysed", name));
+      }
+      std::size_t& group = out.group[static_cast<std::size_t>(found - sensors.begin())];
+      if (group != groups.size()) return fail(fmt::format("group: '{}' is in two groups", name));
+      group = g;
+    }
+  }
+  return out;
+}
+
+Result<Eigen::VectorXd> scale_weights_of(const std::string& text, std::size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  const auto few = static_cast<Eigen::Index>(std::min(kPreset, count));
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+  if (text == "all") {
+    out.setOnes();
+  } else if (text == "short") {
+    out.head(few).setOnes();
+  } else if (text == "long") {
+    out.tail(few).setOnes();
+  } else {
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto [stop, code] = std::from_chars(at, end, out(j));
+      const bool last = j + 1 == n;
+      if (code != std::errc() || !(out(j) >= 0.0) || !std::isfinite(out(j)) ||
+          (last ? stop != end : stop == end || *stop != ',')) {
+        return fail(fmt::format(
+            "scales: '{}' is neither short, long nor all, nor {} weights of zero or more separated "
+            "by commas, one for each scale",
+            text, count));
+      }
+      at = stop + 1;
+    }
+  }
+  if (!(out.sum() > 0.0)) return fail("scales: all weights are zero");
+  return Eigen::VectorXd(out / out.sum());
+}
+
+Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octave,
+                               const Progress& progress) {
+  Measured out;
+  const std::size_t count = sensors.front().replicates.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<Signal> signals;
+    for (const Series& one : sensors) signals.push_back(one.replicates[k]);
+    const auto share = [&](std::size_t i) {
+      return static_cast<double>(i) / static_cast<double>(count);
+    };
+    out.push_back(wavelet_covariance(signals,
+                                     Scales::for_samples(signals.front().size(), per_octave),
+                                     progress.part(share(k), share(k + 1))));
+    if (out.back().scales.empty()) {
+      return fail(
+          fmt::format("{}: too short: at least 4 samples are needed", sensors.front().names[k]));
+    }
+    if (progress.stopped()) return fail("stopped");
+  }
+  return out;
+}
+
+// The correlation of two sensors in a term with a matrix of powers, with its interval (Fisher's z).
+void set_correlation(const ArrayFit& fit, std::size_t index, double confidence,
+                     v1::ArrayParameter& to) {
+  const ArrayParameter& from = fit.parameters[index];
+  const Eigen::MatrixXd& power = fit.model.latents[from.latent].power;
+  const double a = power(from.row, from.row);
+  const double b = power(from.column, from.column);
+  if (!(a > 0.0 && b > 0.0)) return;
+  const double r = std::clamp(from.estimate.value / std::sqrt(a * b), -1.0, 1.0);
+  to.set_correlation(r);
+  const auto p = static_cast<Eigen::Index>(fit.parameters.size());
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(p);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const ArrayParameter& other = fit.parameters[static_cast<std::size_t>(i)];
+    if (other.latent != from.latent || other.parameter != 0) continue;
+    if (other.row == from.row && other.column == from.row) slope(i) = -0.5 * r / a;
+    if (other.row == from.column && other.column == from.column) slope(i) = -0.5 * r / b;
+  }
+  slope(static_cast<Eigen::Index>(index)) = 1.0 / std::sqrt(a * b);
+  const double error = std::sqrt(std::max(0.0, slope.dot(fit.covariance * slope)));
+  if (!(std::abs(r) < 1.0 - 1e-9) || !std::isfinite(error)) return;
+  const double reach = normal_quantile(0.5 + 0.5 * confidence) * error / (1.0 - r * r);
+  to.set_correlation_lower(std::tanh(std::atanh(r) - reach));
+  to.set_correlation_upper(std::tanh(std::atanh(r) + reach));
+}
+
+void add_parameters(const ArrayFit& fit, const Model& written, const std::vector<Series>& sensors,
+                    double confidence, v1::ArrayReport& out) {
+  const Quantity quantity = sensors.front().replicates.front().quantity();
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const ArrayParameter& from = fit.parameters[i];
+    const Latent& latent = fit.model.latents[from.latent];
+    const ParameterInfo about = parameters(latent.term.process)[from.parameter];
+    v1::ArrayParameter& to = *out.add_parameters();
+    const std::string_view shared = word_of(latent.term.sharing);
+    to.set_term(label_of(written, latent.written) +
+                (shared.empty() ? "" : fmt::format("[{}]", shared)));
+    to.set_parameter(about.name);
+    to.set_unit(unit_of(about.dimension, quantity));
+    if (latent.matrix() && from.parameter == 0) {
+      to.add_sensors(sensors[static_cast<std::size_t>(from.row)].channel);
+      if (from.row != from.column) {
+        to.add_sensors(sensors[static_cast<std::size_t>(from.column)].channel);
+      }
+    } else {
+      for (const Eigen::Index s : latent.sensors) {
+        to.add_sensors(sensors[static_cast<std::size_t>(s)].channel);
+      }
+    }
+    to.set_value(from.estimate.value);
+    if (std::isfinite(from.estimate.standard_error)) {
+      to.set_standard_error(from.estimate.standard_error);
+      to.set_lower(from.estimate.lower);
+      to.set_upper(from.estimate.upper);
+    }
+    if (from.row != from.column) set_correlation(fit, i, confidence, to);
+  }
+}
+
+void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<Series>& sensors,
+               v1::ArrayReport& out) {
+  for (const WaveletCovariance& one : measured) {
+    if (one.samples != measured.front().samples) {
+      out.add_notes(
+          "The replicates differ in length: dependence is tested on those as long as the "
+          "first.");
+      break;
+    }
+  }
+  Measured alike;
+  for (const WaveletCovariance& one : measured) {
+    if (one.samples == measured.front().samples) alike.push_back(one);
+  }
+  const Eigen::ArrayXd m = measured.front().scales.half_widths();
+  for (const PairDependence& from : dependence(fit.model, alike)) {
+    v1::SensorPair& to = *out.add_pairs();
+    to.set_first(sensors[static_cast<std::size_t>(from.pair.a)].channel);
+    to.set_second(sensors[static_cast<std::size_t>(from.pair.b)].channel);
+    to.set_statistic(from.test.statistic);
+    to.set_degrees_of_freedom(from.test.degrees_of_freedom);
+    to.set_p_value(from.test.p_value);
+    to.set_adjusted_p_value(from.adjusted_p);
+    to.set_dependent(from.adjusted_p < kLevel);
+    if (from.z.size() == 0) continue;
+    Eigen::Index strongest = 0;
+    from.z.abs().maxCoeff(&strongest);
+    to.set_strongest_tau_s(2.0 * m(strongest) / out.rate_hz());
+    to.set_correlation(from.correlation(strongest));
+    to.set_z(from.z(strongest));
+  }
+}
+
+std::string rule_name(WeightRule rule) {
+  switch (rule) {
+    case WeightRule::kUnitGain:
+      return "unit-gain";
+    case WeightRule::kNonnegative:
+      return "non-negative";
+    case WeightRule::kUnitLength:
+      break;
+  }
+  return "unit-length";
+}
+
+VirtualSensor virtual_sensor_of(const ArrayFit& fit, const Scales& scales,
+                                const Eigen::VectorXd& scale_weights, WeightRule rule) {
+  const auto gammas = covariance(fit.model, scales);
+  return best_virtual_sensor(weighted_covariance(gammas, scale_weights), rule);
+}
+
+// Covariance of the model's moments that the uncertainty of its parameters causes.
+Eigen::MatrixXd moment_uncertainty(const ArrayFit& fit, const Scales& scales) {
+  const Pairs pairs = all_pairs(fit.model.sensors);
+  const Eigen::MatrixXd slope = parameter_slopes(fit, pairs, scales);
+  return slope * fit.covariance * slope.transpose();
+}
+
+void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
+                        const std::vector<Series>& sensors, const Eigen::VectorXd& scale_weights,
+                        const ArraySeriesOptions& options, const std::optional<VirtualSensor>& half,
+                        v1::ArrayReport& out) {
+  const Scales& scales = measured.front().scales;
+  const auto gammas = covariance(fit.model, scales);
+  const Eigen::MatrixXd weighted = weighted_covariance(gammas, scale_weights);
+  const VirtualSensor sensor = best_virtual_sensor(weighted, options.rule);
+  v1::VirtualSensor& to = *out.mutable_virtual_sensor();
+  to.set_rule(rule_name(options.rule));
+  to.set_scales(options.scales);
+  for (const double w : scale_weights) to.add_scale_weights(w);
+  Eigen::VectorXd errors;
+  if (options.rule != WeightRule::kUnitLength) {
+    errors = weight_covariance(sensor, weighted, scale_weights, moment_uncertainty(fit, scales))
+                 .diagonal()
+                 .cwiseMax(0.0)
+                 .cwiseSqrt();
+  }
+  for (Eigen::Index i = 0; i < sensor.weights.size(); ++i) {
+    v1::SensorWeight& weight = *to.add_weights();
+    weight.set_sensor(sensors[static_cast<std::size_t>(i)].channel);
+    weight.set_weight(sensor.weights(i));
+    if (errors.size() > 0 && std::isfinite(errors(i))) weight.set_standard_error(errors(i));
+  }
+  to.set_gain(sensor.gain);
+  const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
+  Eigen::ArrayXd seen;
+  if (half) {
+    std::vector<Eigen::MatrixXd> held(scales.size(),
+                                      Eigen::MatrixXd::Zero(weighted.rows(), weighted.cols()));
+    for (std::size_t k = (measured.size() + 1) / 2; k < measured.size(); ++k) {
+      for (std::size_t j = 0; j < held.size(); ++j) held[j] += measured[k].covariance[j];
+    }
+    seen = gain_over_mean(held, half->weights);
+  }
+  for (std::size_t j = 0; j < scales.size(); ++j) {
+    v1::ScaleGain& gain = *to.add_scale_gains();
+    gain.set_tau_s(2.0 * static_cast<double>(scales[j]) / out.rate_hz());
+    gain.set_predicted(predicted(static_cast<Eigen::Index>(j)));
+    if (half) gain.set_measured(seen(static_cast<Eigen::Index>(j)));
+  }
+}
+
+std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& scale_weights) {
+  int dependent = 0;
+  for (const v1::SensorPair& pair : report.pairs()) dependent += pair.dependent() ? 1 : 0;
+  std::string out = dependent == 0 ? "No two sensors share noise that these recordings can show."
+                                   : fmt::format("{} of {} pairs of sensors share noise.",
+                                                 dependent, report.pairs_size());
+  double predicted = 0.0;
+  double measured = 0.0;
+  bool held = true;
+  for (int j = 0; j < report.virtual_sensor().scale_gains_size(); ++j) {
+    const v1::ScaleGain& gain = report.virtual_sensor().scale_gains(j);
+    predicted += scale_weights(j) * gain.predicted();
+    measured += scale_weights(j) * gain.measured();
+    held = held && gain.has_measured();
+  }
+  out += fmt::format(
+      " The virtual sensor should have {:.2g} times the wavelet variance of the sensors' mean, "
+      "averaged over the scales it was made for",
+      predicted);
+  out += held ? fmt::format(
+                    "; on replicates that its weights were not made from it has {:.2g} "
+                    "times.",
+                    measured)
+              : "; with more than one replicate that could be checked.";
+  return out;
+}
+
+}  // namespace
+
+Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
+                                     const ArraySeriesOptions& options, const Progress& progress) {
+  if (auto good = check_sensors(sensors); !good) return tl::unexpected(good.error());
+  const Hertz rate = sensors.front().replicates.front().rate();
+  const Result<Model> written =
+      parse_array_model(options.model ? *options.model : kDefaultArrayModel, rate);
+  if (!written) return tl::unexpected(written.error());
+  const Result<ArrayLayout> layout = layout_of(sensors, options.groups);
+  if (!layout) return tl::unexpected(layout.error());
+  const Result<Measured> measured =
+      measure_array(sensors, options.per_octave, progress.part(0.0, 0.6));
+  if (!measured) return tl::unexpected(measured.error());
+  const Result<Eigen::VectorXd> scale_weights =
+      scale_weights_of(options.scales, measured->front().scales.size());
+  if (!scale_weights) return tl::unexpected(scale_weights.error());
+
+  const ArrayOptions how{options.weighting, options.cross, options.confidence};
+  const ArrayFit fit = fit_array(*written, *layout, *measured, how, progress.part(0.6, 0.8));
+  std::optional<VirtualSensor> half;
+  const bool alike = std::all_of(measured->begin(), measured->end(), [&](const auto& one) {
+    return one.scales == measured->front().scales;
+  });
+  if (measured->size() > 1 && alike) {
+    const auto training = std::span(*measured).first((measured->size() + 1) / 2);
+    half = virtual_sensor_of(fit_array(*written, *layout, training, how, progress.part(0.8, 1.0)),
+                             measured->front().scales, *scale_weights, options.rule);
+  }
+  if (progress.stopped()) return fail("stopped");
+
+  v1::ArrayReport out;
+  out.set_unit(std::string(si_symbol(sensors.front().replicates.front().quantity())));
+  out.set_rate_hz(rate.value);
+  for (const Series& one : sensors) out.add_sensors(one.channel);
+  out.set_replicates(static_cast<std::uint32_t>(measured->size()));
+  out.set_model(print(*written));
+  out.set_termination(std::string(describe(fit.termination)));
+  out.set_objective(fit.objective);
+  out.set_joint_weights(fit.joint_weights);
+  add_parameters(fit, *written, sensors, options.confidence, out);
+  add_pairs(fit, *measured, sensors, out);
+  add_virtual_sensor(fit, *measured, sensors, *scale_weights, options, half, out);
+  out.set_summary(summary_of(out, *scale_weights));
+  if (options.rule == WeightRule::kUnitLength) {
+    out.add_notes(fmt::format(
+        "These weights have Σ|c| = 1, as published: a motion that all sensors see is multiplied by "
+        "{:.3g}. For a sensor that measures, take unit-gain.",
+        out.virtual_sensor().gain()));
+  }
+  if (!fit.joint_weights) {
+    out.add_notes(
+        "There are too many moments to weight them jointly: each pair of sensors was "
+        "weighted by itself, which loses some precision.");
+  }
+  return out;
+}
+
+}  // namespace imunoise::study
