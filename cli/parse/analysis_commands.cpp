@@ -4,6 +4,7 @@
 
 #include "cli/parse/commands.h"
 #include "cli/parse/input_options.h"
+#include "study/analysis/prepare.h"
 
 namespace imunoise::cli {
 namespace {
@@ -41,6 +42,7 @@ Examples:
 struct RawAnalysis {
   RawInput input;
   std::string model;
+  CLI::Option* model_option = nullptr;
   std::string weights = "full";
   std::string report;
   bool json = false;
@@ -55,6 +57,12 @@ Weighting weighting_from(const std::string& text) {
   return text == "diag" ? Weighting::kDiagonal : Weighting::kFull;
 }
 
+// What was typed, were it nothing: an empty model is no request for the default.
+std::optional<std::string> model_from(const RawAnalysis& raw) {
+  if (raw.model_option->count() == 0) return std::nullopt;
+  return raw.model;
+}
+
 ShowArguments show_from(const RawAnalysis& raw) { return {raw.json, path_from(raw.report)}; }
 
 void add_json(CLI::App& command, RawAnalysis& raw) {
@@ -67,8 +75,8 @@ void add_report(CLI::App& command, RawAnalysis& raw) {
 }
 
 void add_model(CLI::App& command, RawAnalysis& raw) {
-  command.add_option("--model", raw.model,
-                     fmt::format("The model (default: {})", study::kDefaultModel));
+  raw.model_option = command.add_option(
+      "--model", raw.model, fmt::format("The model (default: {})", study::kDefaultModel));
 }
 
 void add_weights(CLI::App& command, RawAnalysis& raw) {
@@ -84,6 +92,7 @@ ParsedCommand wv_command(CLI::App& program) {
   wv->footer(kWvExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   add_input(*wv, raw->input);
+  add_confidence(*wv, raw->input);
   add_json(*wv, *raw);
   return {wv, [raw] {
             return WvArguments{input_from(raw->input), measure_from(raw->input), raw->json};
@@ -97,6 +106,7 @@ ParsedCommand fit_command(CLI::App& program) {
   const auto estimator = std::make_shared<std::string>("mugmwm");
   const auto svg = std::make_shared<std::string>();
   add_input(*fit, raw->input);
+  add_confidence(*fit, raw->input);
   add_json(*fit, *raw);
   add_report(*fit, *raw);
   add_model(*fit, *raw);
@@ -110,7 +120,7 @@ ParsedCommand fit_command(CLI::App& program) {
   return {fit, [raw, estimator, svg] {
             FitArguments out;
             out.input = input_from(raw->input);
-            if (!raw->model.empty()) out.fit.model = raw->model;
+            out.fit.model = model_from(*raw);
             out.fit.estimator =
                 *estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
             out.fit.weighting = weighting_from(raw->weights);
@@ -136,7 +146,7 @@ ParsedCommand test_command(CLI::App& program) {
   test->add_option("--seed", bootstrap->seed, "Seed of the bootstrap")->capture_default_str();
   return {test, [raw, bootstrap] {
             TestArguments out{input_from(raw->input), {}, show_from(*raw)};
-            if (!raw->model.empty()) out.test.model = raw->model;
+            out.test.model = model_from(*raw);
             out.test.bootstrap = *bootstrap;
             out.test.measure = measure_from(raw->input);
             return out;

@@ -1,8 +1,7 @@
 #include "study/analysis/fit_series.h"
 
-#include <fmt/format.h>
-
 #include "study/analysis/prepare.h"
+
 namespace imunoise::study {
 
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
@@ -23,10 +22,7 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
   out.set_estimator(options.estimator == Estimator::kAGmwm ? "AGMWM"
                     : series.replicates.size() > 1         ? "MuGMWM"
                                                            : "GMWM");
-  if (!options.model) {
-    out.add_notes(
-        fmt::format("No model was named: {} was fitted. Choose one with --model.", kDefaultModel));
-  }
+  if (!options.model) out.add_notes(default_model_note("was fitted"));
   progress.report(1.0);
   return out;
 }

@@ -13,9 +13,6 @@ enum class Estimator {
   kAGmwm,   ///< the average of one model a replicate
 };
 
-/// The model fitted when the user names none.
-inline constexpr std::string_view kDefaultModel = "2*AR1 + WN + RW";
-
 struct FitOptions {
   std::optional<std::string> model;  ///< in the grammar; unset: kDefaultModel
   Estimator estimator = Estimator::kMuGmwm;
