@@ -46,7 +46,8 @@ std::string moving(const v1::StationarityReport& report) {
   std::string out;
   for (const v1::ParameterSpread& one : report.spread()) {
     if (!one.moves()) continue;
-    const bool near_one = one.parameter() == "phi" && one.mean() > 0.5;
+    const bool decays = one.parameter() == "phi" || one.parameter() == "r";
+    const bool near_one = decays && one.mean() > 0.5;
     out += fmt::format("{}{}{} of {} by {:.2g} %", out.empty() ? "" : ", ", near_one ? "1 - " : "",
                        one.parameter(), one.term(), 100.0 * one.relative());
   }

@@ -18,7 +18,7 @@ const char* words(v1::ChoiceVerdict verdict) {
     case v1::equivalent:
       return "equivalent";
     default:
-      return "not appropriate";
+      return "worse";
   }
 }
 
