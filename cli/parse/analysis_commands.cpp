@@ -141,7 +141,8 @@ ParsedCommand test_command(CLI::App& program) {
   add_json(*test, *raw);
   add_report(*test, *raw);
   add_model(*test, *raw);
-  test->add_option("--bootstrap", bootstrap->sets, "Sets of a parametric bootstrap, e.g. 999")
+  test->add_option("--bootstrap", bootstrap->sets,
+                   "Sets of a parametric bootstrap: 19 at least, better 999")
       ->check(CLI::Range(0, 1'000'000));
   test->add_option("--seed", bootstrap->seed, "Seed of the bootstrap")->capture_default_str();
   return {test, [raw, bootstrap] {
@@ -168,7 +169,9 @@ ParsedCommand select_command(CLI::App& program) {
                    fmt::format("One: it and its sub-models; several: these (default: {})",
                                study::kDefaultModel))
       ->allow_extra_args(false);
-  select->add_option("--splits", *splits, "Which replicates are held out")
+  select
+      ->add_option("--splits", *splits,
+                   "Held out: each replicate once, or every choice of half of them")
       ->check(CLI::IsMember({"leave-one-out", "half"}))
       ->capture_default_str();
   return {select, [raw, models, splits] {
