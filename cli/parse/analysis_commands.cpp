@@ -44,6 +44,7 @@ struct RawAnalysis {
   std::string model;
   CLI::Option* model_option = nullptr;
   std::string weights = "full";
+  double confidence = 0.95;
   std::string report;
   bool json = false;
 };
@@ -87,15 +88,23 @@ void add_weights(CLI::App& command, RawAnalysis& raw) {
       ->capture_default_str();
 }
 
+void add_confidence(CLI::App& command, RawAnalysis& raw) {
+  command.add_option("--confidence", raw.confidence, "Of the intervals")
+      ->check(CLI::Range(0.5, 0.9999))
+      ->capture_default_str();
+}
+
 ParsedCommand wv_command(CLI::App& program) {
   CLI::App* const wv = program.add_subcommand("wv", "Wavelet variance of recordings");
   wv->footer(kWvExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   add_input(*wv, raw->input);
-  add_confidence(*wv, raw->input);
+  add_confidence(*wv, *raw);
   add_json(*wv, *raw);
   return {wv, [raw] {
-            return WvArguments{input_from(raw->input), measure_from(raw->input), raw->json};
+            WvArguments out{input_from(raw->input), measure_from(raw->input), raw->json};
+            out.measure.confidence = raw->confidence;
+            return out;
           }};
 }
 
@@ -106,7 +115,7 @@ ParsedCommand fit_command(CLI::App& program) {
   const auto estimator = std::make_shared<std::string>("mugmwm");
   const auto svg = std::make_shared<std::string>();
   add_input(*fit, raw->input);
-  add_confidence(*fit, raw->input);
+  add_confidence(*fit, *raw);
   add_json(*fit, *raw);
   add_report(*fit, *raw);
   add_model(*fit, *raw);
@@ -125,6 +134,7 @@ ParsedCommand fit_command(CLI::App& program) {
                 *estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
             out.fit.weighting = weighting_from(raw->weights);
             out.fit.measure = measure_from(raw->input);
+            out.fit.confidence = raw->confidence;
             out.json = raw->json;
             out.report = path_from(raw->report);
             out.svg = path_from(*svg);

@@ -33,12 +33,6 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->check(CLI::IsMember({"0.6", "0.8", "0.9"}));
 }
 
-void add_confidence(CLI::App& command, RawInput& raw) {
-  command.add_option("--confidence", raw.confidence, "Of the intervals")
-      ->check(CLI::Range(0.5, 0.9999))
-      ->capture_default_str();
-}
-
 void refuse(const std::string& option, const std::string& why) {
   throw CLI::ValidationError(option, why);
 }
@@ -73,7 +67,6 @@ InputArguments input_from(const RawInput& raw) {
 study::MeasureOptions measure_from(const RawInput& raw) {
   study::MeasureOptions out;
   out.per_octave = raw.per_octave;
-  out.confidence = raw.confidence;
   if (raw.robust == "0.6") out.robust = RobustEfficiency::k60;
   if (raw.robust == "0.8") out.robust = RobustEfficiency::k80;
   if (raw.robust == "0.9") out.robust = RobustEfficiency::k90;

@@ -20,13 +20,10 @@ struct RawInput {
   std::size_t split_into = 1;
   int per_octave = 1;
   std::string robust;
-  double confidence = 0.95;
 };
 
 /// Adds FILES and everything that says how they are read and measured.
 void add_input(CLI::App& command, RawInput& raw);
-/// Adds --confidence, for commands whose intervals follow it.
-void add_confidence(CLI::App& command, RawInput& raw);
 
 // What was typed, looked up. They throw CLI::ValidationError.
 InputArguments input_from(const RawInput& raw);

@@ -11,11 +11,10 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
   if (!prepared) return tl::unexpected(prepared.error());
   const auto& [model, measured] = *prepared;
   const Progress fitting = progress.part(0.6, 0.9);
-  const Fit fit = options.estimator == Estimator::kMuGmwm
-                      ? infer(mugmwm(model, measured, options.weighting, fitting), measured,
-                              options.measure.confidence)
-                      : infer(agmwm(model, measured, options.weighting, fitting), measured,
-                              options.measure.confidence);
+  const Fit fit =
+      options.estimator == Estimator::kMuGmwm
+          ? infer(mugmwm(model, measured, options.weighting, fitting), measured, options.confidence)
+          : infer(agmwm(model, measured, options.weighting, fitting), measured, options.confidence);
   if (progress.stopped()) return fail("stopped");
   v1::FitReport out = fit_report(fit, series, measured);
   out.set_default_model(!options.model);

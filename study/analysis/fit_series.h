@@ -18,6 +18,7 @@ struct FitOptions {
   Estimator estimator = Estimator::kMuGmwm;
   Weighting weighting = Weighting::kFull;
   MeasureOptions measure;
+  double confidence = 0.95;  ///< of the intervals of the fit; the estimate does not depend on it
 };
 
 /// Measures the replicates, fits the model and says everything about it. Error: a model that cannot

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kBlocks = 6;            // of a single recording
 constexpr double kFarFromFloor = 1.5;         // merit
 constexpr std::size_t kLeastSamples = 1'024;  // of a block
+constexpr std::size_t kMostForHalves = 20;    // replicates; half splits are 184,756 then
 constexpr std::size_t kFewReplicates = 5;     // below which intervals between replicates are wide
 
 // A recording in parts of equal length, as if each were a replicate.
@@ -108,6 +109,12 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
         "{}: one recording of {} samples is too short to be cut into {} blocks of {}: record more "
         "replicates, or longer",
         given.channel, given.replicates.front().size(), kBlocks, kLeastSamples));
+  }
+  if (options.choice.splits == Splits::kHalf && given.replicates.size() > kMostForHalves) {
+    return fail(fmt::format(
+        "{}: {} replicates can be halved in too many ways, and each is a fit: leave out one at a "
+        "time (--splits leave-one-out)",
+        given.channel, given.replicates.size()));
   }
   const Series series = blocks ? in_blocks(given) : given;
   std::vector<std::string> texts = options.models;

@@ -57,6 +57,23 @@ TEST_F(Cli, FitsWhatItSimulated) {
   EXPECT_NE(read("out.svg").find("</svg>"), std::string::npos);
 }
 
+// Confidence is about intervals. Diagonal weights are made of the 95 % intervals of the moments,
+// whatever is asked for.
+TEST_F(Cli, ConfidenceMovesIntervalsNotEstimates) {
+  simulate("run.h5");
+  const std::string command = "fit run_?.h5 --model 'WN + RW' --weights diag --json --confidence ";
+  const auto wide = nlohmann::json::parse(run(command + "0.95").out);
+  const auto narrow = nlohmann::json::parse(run(command + "0.68").out);
+  EXPECT_EQ(narrow["fitted_model"], wide["fitted_model"]);
+  EXPECT_EQ(narrow["confidence"], 0.68);
+  const auto width = [](const nlohmann::json& fit) {
+    const auto& sigma2 = fit["terms"][0]["parameters"][0];
+    return std::log(sigma2["upper"].get<double>() / sigma2["lower"].get<double>());
+  };
+  // The quantiles of the normal law: 0.994 and 1.960 standard errors.
+  EXPECT_NEAR(width(narrow) / width(wide), 0.9945 / 1.9600, 1e-3);
+}
+
 TEST_F(Cli, SaysWhenItChoosesTheModelItself) {
   simulate("run.csv");
   const Outcome done = run("fit run_1.csv --json");

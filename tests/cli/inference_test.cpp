@@ -242,6 +242,7 @@ TEST_F(Inference, RefuseWithTheWayOut) {
   ASSERT_EQ(run("simulate --model 'WN(sigma2=1)' --rate 1 --samples 6000 --unit 1 --out short.csv")
                 .status,
             0);
+  refused("select short.csv --rate 1 --split-into 21 --splits half", 1, "leave-one-out");
   refused("select short.csv --model WN", 1, "too short to be cut");
 }
 
