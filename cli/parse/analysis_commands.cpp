@@ -4,6 +4,7 @@
 
 #include "cli/parse/commands.h"
 #include "cli/parse/input_options.h"
+#include "study/analysis/prepare.h"
 
 namespace imunoise::cli {
 namespace {
@@ -51,7 +52,9 @@ of a group; [all] the same in all.)help";
 struct RawAnalysis {
   RawInput input;
   std::string model;
+  CLI::Option* model_option = nullptr;
   std::string weights = "full";
+  double confidence = 0.95;
   std::string report;
   bool json = false;
 };
@@ -63,6 +66,12 @@ std::optional<std::filesystem::path> path_from(const std::string& text) {
 
 Weighting weighting_from(const std::string& text) {
   return text == "diag" ? Weighting::kDiagonal : Weighting::kFull;
+}
+
+// What was typed, were it nothing: an empty model is no request for the default.
+std::optional<std::string> model_from(const RawAnalysis& raw) {
+  if (raw.model_option->count() == 0) return std::nullopt;
+  return raw.model;
 }
 
 ShowArguments show_from(const RawAnalysis& raw) { return {raw.json, path_from(raw.report)}; }
@@ -77,8 +86,8 @@ void add_report(CLI::App& command, RawAnalysis& raw) {
 }
 
 void add_model(CLI::App& command, RawAnalysis& raw) {
-  command.add_option("--model", raw.model,
-                     fmt::format("The model (default: {})", study::kDefaultModel));
+  raw.model_option = command.add_option(
+      "--model", raw.model, fmt::format("The model (default: {})", study::kDefaultModel));
 }
 
 void add_weights(CLI::App& command, RawAnalysis& raw) {
@@ -89,14 +98,23 @@ void add_weights(CLI::App& command, RawAnalysis& raw) {
       ->capture_default_str();
 }
 
+void add_confidence(CLI::App& command, RawAnalysis& raw) {
+  command.add_option("--confidence", raw.confidence, "Of the intervals")
+      ->check(CLI::Range(0.5, 0.9999))
+      ->capture_default_str();
+}
+
 ParsedCommand wv_command(CLI::App& program) {
   CLI::App* const wv = program.add_subcommand("wv", "Wavelet variance of recordings");
   wv->footer(kWvExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   add_input(*wv, raw->input);
+  add_confidence(*wv, *raw);
   add_json(*wv, *raw);
   return {wv, [raw] {
-            return WvArguments{input_from(raw->input), measure_from(raw->input), raw->json};
+            WvArguments out{input_from(raw->input), measure_from(raw->input), raw->json};
+            out.measure.confidence = raw->confidence;
+            return out;
           }};
 }
 
@@ -107,6 +125,7 @@ ParsedCommand fit_command(CLI::App& program) {
   const auto estimator = std::make_shared<std::string>("mugmwm");
   const auto svg = std::make_shared<std::string>();
   add_input(*fit, raw->input);
+  add_confidence(*fit, *raw);
   add_json(*fit, *raw);
   add_report(*fit, *raw);
   add_model(*fit, *raw);
@@ -120,11 +139,12 @@ ParsedCommand fit_command(CLI::App& program) {
   return {fit, [raw, estimator, svg] {
             FitArguments out;
             out.input = input_from(raw->input);
-            if (!raw->model.empty()) out.fit.model = raw->model;
+            out.fit.model = model_from(*raw);
             out.fit.estimator =
                 *estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
             out.fit.weighting = weighting_from(raw->weights);
             out.fit.measure = measure_from(raw->input);
+            out.fit.confidence = raw->confidence;
             out.json = raw->json;
             out.report = path_from(raw->report);
             out.svg = path_from(*svg);
@@ -141,12 +161,13 @@ ParsedCommand test_command(CLI::App& program) {
   add_json(*test, *raw);
   add_report(*test, *raw);
   add_model(*test, *raw);
-  test->add_option("--bootstrap", bootstrap->sets, "Sets of a parametric bootstrap, e.g. 999")
+  test->add_option("--bootstrap", bootstrap->sets,
+                   "Sets of a parametric bootstrap: 19 at least, better 999")
       ->check(CLI::Range(0, 1'000'000));
   test->add_option("--seed", bootstrap->seed, "Seed of the bootstrap")->capture_default_str();
   return {test, [raw, bootstrap] {
             TestArguments out{input_from(raw->input), {}, show_from(*raw)};
-            if (!raw->model.empty()) out.test.model = raw->model;
+            out.test.model = model_from(*raw);
             out.test.bootstrap = *bootstrap;
             out.test.measure = measure_from(raw->input);
             return out;
@@ -168,7 +189,9 @@ ParsedCommand select_command(CLI::App& program) {
                    fmt::format("One: it and its sub-models; several: these (default: {})",
                                study::kDefaultModel))
       ->allow_extra_args(false);
-  select->add_option("--splits", *splits, "Which replicates are held out")
+  select
+      ->add_option("--splits", *splits,
+                   "Held out: each replicate once, or every choice of half of them")
       ->check(CLI::IsMember({"leave-one-out", "half"}))
       ->capture_default_str();
   return {select, [raw, models, splits] {

@@ -8,8 +8,7 @@ void add_input(CLI::App& command, RawInput& raw) {
           "FILES", raw.files,
           "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar; or the "
           "folder of one recording")
-      ->required()
-      ->check(CLI::ExistingPath);
+      ->required();
   command.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")
       ->delimiter(',')
       ->allow_extra_args(false);  // what follows the name is a file again
@@ -32,9 +31,6 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->capture_default_str();
   command.add_option("--robust", raw.robust, "Robust estimator, by its nominal efficiency")
       ->check(CLI::IsMember({"0.6", "0.8", "0.9"}));
-  command.add_option("--confidence", raw.confidence, "Of the intervals")
-      ->check(CLI::Range(0.5, 0.9999))
-      ->capture_default_str();
 }
 
 void refuse(const std::string& option, const std::string& why) {
@@ -47,14 +43,14 @@ Unit unit_from(const std::string& text) {
   return *unit;
 }
 
-CaptureFormat format_from(const std::string& name) {
-  if (name == "xbus") return CaptureFormat::kXbus;
-  return name == "candump" ? CaptureFormat::kCandump : CaptureFormat::kAdis16405;
-}
-
 InputArguments input_from(const RawInput& raw) {
   InputArguments out;
   out.files.assign(raw.files.begin(), raw.files.end());
+  // Looked for here and not while parsing, where the value of an option that a command does not
+  // know would be taken for a file, and be the first thing complained of.
+  for (const std::filesystem::path& file : out.files) {
+    if (!std::filesystem::exists(file)) refuse("FILES", file.string() + ": no such file or folder");
+  }
   if (!(raw.channels.size() == 1 && raw.channels[0] == "all")) out.import.channels = raw.channels;
   if (raw.rate > 0.0) out.import.rate = Hertz{raw.rate};
   if (!raw.unit.empty()) out.import.unit = unit_from(raw.unit);
@@ -71,7 +67,6 @@ InputArguments input_from(const RawInput& raw) {
 study::MeasureOptions measure_from(const RawInput& raw) {
   study::MeasureOptions out;
   out.per_octave = raw.per_octave;
-  out.confidence = raw.confidence;
   if (raw.robust == "0.6") out.robust = RobustEfficiency::k60;
   if (raw.robust == "0.8") out.robust = RobustEfficiency::k80;
   if (raw.robust == "0.9") out.robust = RobustEfficiency::k90;

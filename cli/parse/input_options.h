@@ -20,7 +20,6 @@ struct RawInput {
   std::size_t split_into = 1;
   int per_octave = 1;
   std::string robust;
-  double confidence = 0.95;
 };
 
 /// Adds FILES and everything that says how they are read and measured.

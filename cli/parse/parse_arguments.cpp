@@ -10,6 +10,8 @@ constexpr const char* kExamples = R"help(
 Examples:
   imunoise fit run?.h5 --channel gyro_x                  a noise model from all replicates
   imunoise fit run?.h5 --model "2*AR1 + WN + RW" --report gyro.html --svg gyro.svg
+  imunoise select run?.h5 --model "2*AR1 + WN + RW"      which of its sub-models predicts best
+  imunoise test run?.h5 --model "AR1 + WN + RW"          do replicates differ, or does it not fit?
   imunoise wv run1.csv --rate 100 --unit deg/s           the measured wavelet variance
   imunoise simulate --model "WN(sigma2=1e-6) + RW(gamma2=1e-14)" --rate 100 \
       --samples 360000 --replicates 6 --seed 1 --out run.h5

@@ -101,6 +101,13 @@ Interval mean_interval(const Eigen::ArrayXd& sample) {
   return {mean, mean - reach, mean + reach};
 }
 
+// By how much one model's held-out distances exceed another's; what is only rounding counts as
+// nothing.
+Interval excess_over(const Eigen::ArrayXd& best, const Eigen::ArrayXd& own) {
+  const Eigen::ArrayXd difference = own - best;
+  return mean_interval((difference.abs() < kSame).select(0.0, difference));
+}
+
 // The candidate that describes all replicates best: its covariance of moments is nearest the truth.
 std::size_t closest(const std::vector<Estimate>& fits, Replicates replicates) {
   std::size_t best = 0;
@@ -179,7 +186,7 @@ ModelChoice choose_model(std::span<const Model> models, Replicates replicates,
     candidate.model = fits[c].model;
     candidate.merit = mean_interval(merits[c]);
     candidate.merit.lower = std::max(0.0, candidate.merit.lower);
-    candidate.excess = mean_interval(merits[c] - merits[order[0]]);
+    candidate.excess = excess_over(merits[order[0]], merits[c]);
     candidate.verdict = c == order[0]                  ? ChoiceVerdict::kSelected
                         : candidate.excess.lower > 0.0 ? ChoiceVerdict::kNotAppropriate
                                                        : ChoiceVerdict::kEquivalent;

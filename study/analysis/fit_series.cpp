@@ -1,8 +1,7 @@
 #include "study/analysis/fit_series.h"
 
-#include <fmt/format.h>
-
 #include "study/analysis/prepare.h"
+
 namespace imunoise::study {
 
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
@@ -12,21 +11,17 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
   if (!prepared) return tl::unexpected(prepared.error());
   const auto& [model, measured] = *prepared;
   const Progress fitting = progress.part(0.6, 0.9);
-  const Fit fit = options.estimator == Estimator::kMuGmwm
-                      ? infer(mugmwm(model, measured, options.weighting, fitting), measured,
-                              options.measure.confidence)
-                      : infer(agmwm(model, measured, options.weighting, fitting), measured,
-                              options.measure.confidence);
+  const Fit fit =
+      options.estimator == Estimator::kMuGmwm
+          ? infer(mugmwm(model, measured, options.weighting, fitting), measured, options.confidence)
+          : infer(agmwm(model, measured, options.weighting, fitting), measured, options.confidence);
   if (progress.stopped()) return fail("stopped");
   v1::FitReport out = fit_report(fit, series, measured);
   out.set_default_model(!options.model);
   out.set_estimator(options.estimator == Estimator::kAGmwm ? "AGMWM"
                     : series.replicates.size() > 1         ? "MuGMWM"
                                                            : "GMWM");
-  if (!options.model) {
-    out.add_notes(
-        fmt::format("No model was named: {} was fitted. Choose one with --model.", kDefaultModel));
-  }
+  if (!options.model) out.add_notes(default_model_note("was fitted"));
   progress.report(1.0);
   return out;
 }

@@ -13,14 +13,12 @@ enum class Estimator {
   kAGmwm,   ///< the average of one model a replicate
 };
 
-/// The model fitted when the user names none.
-inline constexpr std::string_view kDefaultModel = "2*AR1 + WN + RW";
-
 struct FitOptions {
   std::optional<std::string> model;  ///< in the grammar; unset: kDefaultModel
   Estimator estimator = Estimator::kMuGmwm;
   Weighting weighting = Weighting::kFull;
   MeasureOptions measure;
+  double confidence = 0.95;  ///< of the intervals of the fit; the estimate does not depend on it
 };
 
 /// Measures the replicates, fits the model and says everything about it. Error: a model that cannot

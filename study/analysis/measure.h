@@ -15,7 +15,7 @@ namespace imunoise::study {
 struct MeasureOptions {
   int per_octave = 1;                      ///< scales an octave: 1, 2 or 4
   std::optional<RobustEfficiency> robust;  ///< unset: the classical estimator
-  double confidence = 0.95;                ///< of the intervals
+  double confidence = 0.95;                ///< of the intervals, which make the diagonal weights
 };
 
 /// Wavelet variance of every replicate. Error: the caller stopped it.

@@ -5,6 +5,35 @@
 #include <algorithm>
 
 namespace imunoise::study {
+namespace {
+
+// What looks like a replicate but tells nothing new.
+Result<void> check_replicates(const Series& series, const std::vector<WaveletVariance>& measured) {
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    const Eigen::ArrayXd& own = measured[k].variance;
+    if ((own == 0.0).all()) {
+      return fail(fmt::format(
+          "{}: {} never changes, so that there is no noise to model; is the channel in use? "
+          "--channel chooses others",
+          series.channel, series.names[k]));
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      const Eigen::ArrayXd& before = measured[other].variance;
+      if (own.size() == before.size() && (own == before).all()) {
+        return fail(fmt::format(
+            "{}: {} and {} hold the same samples: a recording that is named twice is no replicate",
+            series.channel, series.names[other], series.names[k]));
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string default_model_note(std::string_view done) {
+  return fmt::format("No model was named: {} {}. Choose one with --model.", kDefaultModel, done);
+}
 
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured) {
   Result<Model> model = parse_model(text, measured.front().rate);
@@ -28,6 +57,9 @@ Result<Prepared> prepare(const Series& series, std::string_view text, const Meas
   }
   Result<std::vector<WaveletVariance>> measured = measure(series, options, progress);
   if (!measured) return tl::unexpected(measured.error());
+  if (auto sound = check_replicates(series, *measured); !sound) {
+    return tl::unexpected(sound.error());
+  }
   Result<Model> model = read_model(text, *measured);
   if (!model) return tl::unexpected(model.error());
   return Prepared{std::move(*model), std::move(*measured)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "study/analysis/measure.h"
 
 namespace imunoise::study {
+
+/// The model of an analysis whose user names none.
+inline constexpr std::string_view kDefaultModel = "2*AR1 + WN + RW";
+
+/// What to tell that user; `done` says what was done with it: "was fitted".
+std::string default_model_note(std::string_view done);
 
 /// What every analysis of a series starts from.
 struct Prepared {
@@ -18,7 +25,8 @@ struct Prepared {
 /// than there are scales.
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured);
 
-/// Reads the model and measures the replicates. Error: as read_model(), or the caller stopped it.
+/// Reads the model and measures the replicates. Error: as read_model(), a replicate that never
+/// changes, two with the same samples, or the caller stopped it.
 Result<Prepared> prepare(const Series& series, std::string_view model,
                          const MeasureOptions& options, const Progress& progress = {});
 

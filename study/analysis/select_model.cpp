@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "study/analysis/fit_series.h"
+#include <algorithm>
+
 #include "study/analysis/prepare.h"
 
 namespace imunoise::study {
@@ -11,6 +12,8 @@ namespace {
 constexpr std::size_t kBlocks = 6;            // of a single recording
 constexpr double kFarFromFloor = 1.5;         // merit
 constexpr std::size_t kLeastSamples = 1'024;  // of a block
+constexpr std::size_t kMostForHalves = 20;    // replicates; half splits are 184,756 then
+constexpr std::size_t kFewReplicates = 5;     // below which intervals between replicates are wide
 
 // A recording in parts of equal length, as if each were a replicate.
 Series in_blocks(const Series& series) {
@@ -20,6 +23,28 @@ Series in_blocks(const Series& series) {
   for (std::size_t b = 0; b < kBlocks; ++b) {
     out.names.push_back(fmt::format("{} [{}/{}]", series.names.front(), b + 1, kBlocks));
     out.replicates.push_back(whole.part(b * size, size));
+  }
+  return out;
+}
+
+// Whether two models have the same terms, in any order.
+bool same(const Model& a, const Model& b) {
+  return std::is_permutation(a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end());
+}
+
+Result<std::vector<Model>> read_models(const std::vector<std::string>& texts,
+                                       const std::vector<WaveletVariance>& measured) {
+  std::vector<Model> out;
+  for (const std::string& text : texts) {
+    Result<Model> model = read_model(text, measured);
+    if (!model) return tl::unexpected(model.error());
+    for (const Model& before : out) {
+      if (same(before, *model)) {
+        return fail(fmt::format("model: {} and {} are the same; name each model once",
+                                print(before), print(*model)));
+      }
+    }
+    out.push_back(std::move(*model));
   }
   return out;
 }
@@ -66,7 +91,7 @@ std::string summary_of(const v1::ChoiceReport& report) {
     out +=
         fmt::format(" {} is simpler, and the data cannot say that it is worse.", simplest->model());
   }
-  if (best.merit() > kFarFromFloor) {
+  if (report.far_from_floor()) {
     out +=
         " That is far from the floor: either every model lacks a process, or the replicates differ "
         "by more than chance; imunoise test says which.";
@@ -85,6 +110,12 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
         "replicates, or longer",
         given.channel, given.replicates.front().size(), kBlocks, kLeastSamples));
   }
+  if (options.choice.splits == Splits::kHalf && given.replicates.size() > kMostForHalves) {
+    return fail(fmt::format(
+        "{}: {} replicates can be halved in too many ways, and each is a fit: leave out one at a "
+        "time (--splits leave-one-out)",
+        given.channel, given.replicates.size()));
+  }
   const Series series = blocks ? in_blocks(given) : given;
   std::vector<std::string> texts = options.models;
   if (texts.empty()) texts.emplace_back(kDefaultModel);
@@ -92,15 +123,10 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
       prepare(series, texts.front(), options.measure, progress.part(0.0, 0.5));
   if (!prepared) return tl::unexpected(prepared.error());
   const std::vector<WaveletVariance>& measured = prepared->measured;
-  std::vector<Model> models;
-  for (const std::string& text : texts) {
-    Result<Model> model = read_model(text, measured);
-    if (!model) return tl::unexpected(model.error());
-    models.push_back(std::move(*model));
-  }
-  if (models.size() == 1) models = sub_models(models[0]);
-  const ModelChoice choice =
-      choose_model(models, measured, options.choice, progress.part(0.5, 1.0));
+  const Result<std::vector<Model>> named = read_models(texts, measured);
+  if (!named) return tl::unexpected(named.error());
+  const ModelChoice choice = choose_model(named->size() == 1 ? sub_models(named->front()) : *named,
+                                          measured, options.choice, progress.part(0.5, 1.0));
   if (progress.stopped()) return fail("stopped");
 
   v1::ChoiceReport out;
@@ -113,6 +139,8 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   out.set_split_count(static_cast<std::uint32_t>(choice.splits));
   out.set_weights(options.choice.weighting == Weighting::kFull ? "full" : "diag");
   for (const Candidate& candidate : choice.candidates) add_candidate(candidate, out);
+  const v1::CandidateModel& best = out.candidates(0);
+  out.set_far_from_floor(best.merit() > kFarFromFloor && best.merit_lower() > 1.0);
   out.set_summary(summary_of(out));
   if (blocks) {
     out.add_notes(fmt::format(
@@ -120,6 +148,15 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
         "from day to day and from power-on to power-on, so this is weaker evidence than "
         "replicates.",
         kBlocks));
+  }
+  if (series.replicates.size() < kFewReplicates) {
+    out.add_notes(fmt::format(
+        "{} replicates say little about which model is better: the intervals are wide. Record at "
+        "least 6.",
+        series.replicates.size()));
+  }
+  if (options.models.empty()) {
+    out.add_notes(default_model_note("and its sub-models were compared"));
   }
   return out;
 }

@@ -19,8 +19,8 @@ struct SelectOptions {
 };
 
 /// Chooses the model that predicts replicates it was not fitted to best. A single replicate is cut
-/// into contiguous blocks, and the report says so. Error: as prepare(), or a recording too short to
-/// cut.
+/// into contiguous blocks, and the report says so. Error: as prepare(), a model that stands twice
+/// in the list, a recording too short to cut, or more than 20 replicates to halve.
 Result<v1::ChoiceReport> select_model(const Series& series, const SelectOptions& options,
                                       const Progress& progress = {});
 

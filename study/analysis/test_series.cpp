@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "study/analysis/fit_series.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 
@@ -10,13 +9,15 @@ namespace imunoise::study {
 namespace {
 
 constexpr double kLevel = 0.05;
+constexpr int kFewestSets = 19;  // of a bootstrap whose smallest p-value, 1/(B + 1), is kLevel
 
 void fill(const BootstrappedTest& from, v1::TestResult& to) {
   to.set_statistic(from.asymptotic.statistic);
   to.set_degrees_of_freedom(from.asymptotic.degrees_of_freedom);
-  if (from.asymptotic.degrees_of_freedom > 0) to.set_p_value(from.asymptotic.p_value);
+  if (from.asymptotic.degrees_of_freedom == 0) return;
+  to.set_p_value(from.asymptotic.p_value);
   if (from.bootstrap_p_value) to.set_bootstrap_p_value(*from.bootstrap_p_value);
-  to.set_rejected(from.p_value() < kLevel);
+  to.set_rejected(from.p_value() <= kLevel);
 }
 
 void add_spread(const NearStationarity& result, Quantity quantity, v1::StationarityReport& out) {
@@ -45,16 +46,42 @@ std::string moving(const v1::StationarityReport& report) {
   std::string out;
   for (const v1::ParameterSpread& one : report.spread()) {
     if (!one.moves()) continue;
-    const bool near_one = one.parameter() == "phi" && one.mean() > 0.5;
+    const bool decays = one.parameter() == "phi" || one.parameter() == "r";
+    const bool near_one = decays && one.mean() > 0.5;
     out += fmt::format("{}{}{} of {} by {:.2g} %", out.empty() ? "" : ", ", near_one ? "1 - " : "",
                        one.parameter(), one.term(), 100.0 * one.relative());
   }
   return out;
 }
 
+// Where there is nothing to ask one of the questions about.
+std::string half_summary(const v1::StationarityReport& report, const std::string& misfit,
+                         const std::string& differ) {
+  std::string out;
+  if (report.misfit().degrees_of_freedom() == 0) {
+    out = "There are too few scales to test the model's shape";
+  } else if (report.misfit().rejected()) {
+    out = fmt::format("The model's shape does not fit the replicates ({})", misfit);
+  } else {
+    out = fmt::format("The model's shape fits every replicate ({})", misfit);
+  }
+  if (report.heterogeneity().degrees_of_freedom() == 0) {
+    return out +
+           "; the data show none of its free parameters, so that none can be compared between "
+           "replicates.";
+  }
+  return out + (report.heterogeneity().rejected()
+                    ? fmt::format("; its parameters differ by more than chance ({}).", differ)
+                    : fmt::format("; one set of parameters serves them all ({}).", differ));
+}
+
 std::string summary_of(const v1::StationarityReport& report, const NearStationarity& result) {
   const std::string misfit = chance_words(result.misfit.p_value());
   const std::string differ = chance_words(result.heterogeneity.p_value());
+  if (report.misfit().degrees_of_freedom() == 0 ||
+      report.heterogeneity().degrees_of_freedom() == 0) {
+    return half_summary(report, misfit, differ);
+  }
   const std::string who = moving(report);
   const std::string moves =
       who.empty() ? "No single parameter stands out." : "What moves: " + who + ".";
@@ -94,6 +121,11 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
         "--split-into 6 (parts of one recording tell less than recordings of different days)",
         series.channel));
   }
+  if (options.bootstrap.sets > 0 && options.bootstrap.sets < kFewestSets) {
+    return fail(
+        fmt::format("a bootstrap of {} sets cannot reject at 5 %: take at least {}, better 999",
+                    options.bootstrap.sets, kFewestSets));
+  }
   const Result<Prepared> prepared = prepare(series, options.model ? *options.model : kDefaultModel,
                                             options.measure, progress.part(0.0, 0.3));
   if (!prepared) return tl::unexpected(prepared.error());
@@ -122,6 +154,7 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
         "spread are wide. Record at least 6.",
         series.replicates.size()));
   }
+  if (!options.model) out.add_notes(default_model_note("was tested"));
   progress.report(1.0);
   return out;
 }

@@ -16,8 +16,8 @@ struct TestOptions {
 };
 
 /// Tests whether the replicates are near-stationary under the model: misfit and heterogeneity, and
-/// how each parameter differs between replicates. Error: as prepare(), or fewer than two
-/// replicates.
+/// how each parameter differs between replicates. Error: as prepare(), fewer than two replicates,
+/// or a bootstrap too small to reject anything.
 Result<v1::StationarityReport> test_series(const Series& series, const TestOptions& options,
                                            const Progress& progress = {});
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
@@ -7,7 +9,7 @@
 namespace imunoise::report {
 namespace {
 
-constexpr double kFarFromFloor = 1.5;  // merit, from which something is missing
+constexpr double kHopeless = 100.0;  // error, from which its interval tells nothing more
 
 const char* words(v1::ChoiceVerdict verdict) {
   switch (verdict) {
@@ -16,8 +18,12 @@ const char* words(v1::ChoiceVerdict verdict) {
     case v1::equivalent:
       return "equivalent";
     default:
-      return "not appropriate";
+      return "worse";
   }
+}
+
+std::string error(double value, double lower, double upper, Digits digits) {
+  return value < kHopeless ? with_interval(value, lower, upper, digits) : number(value, 3, digits);
 }
 
 Section section(const v1::ChoiceReport& report, Digits digits) {
@@ -33,24 +39,25 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
               {}};
   std::vector<IntervalRow> rows;
   for (const v1::CandidateModel& one : report.candidates()) {
-    table.rows.push_back(
-        {one.model(), with_interval(one.merit(), one.merit_lower(), one.merit_upper(), digits),
-         one.verdict() == v1::selected
-             ? ""
-             : with_interval(one.excess(), one.excess_lower(), one.excess_upper(), digits),
-         std::to_string(one.parameters()), words(one.verdict())});
+    table.rows.push_back({one.model(),
+                          error(one.merit(), one.merit_lower(), one.merit_upper(), digits),
+                          one.verdict() == v1::selected
+                              ? ""
+                              : error(one.excess(), one.excess_lower(), one.excess_upper(), digits),
+                          std::to_string(one.parameters()), words(one.verdict())});
     rows.push_back({one.model(), one.merit(), one.merit_lower(), one.merit_upper(),
                     one.verdict() == v1::not_appropriate});
   }
   if (report.candidates_size() > 0) {
     out.badge = report.candidates(0).model();
-    out.mood = report.candidates(0).merit() < kFarFromFloor ? Mood::kGood : Mood::kDoubtful;
+    out.mood = report.far_from_floor() ? Mood::kDoubtful : Mood::kGood;
   }
-  out.figures.push_back(interval_chart(
+  auto figure = interval_chart(
       "Error of prediction", "held-out error, 1 = noise floor",
       "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
       "noise alone makes; orange models are significantly worse than the best.",
-      rows, 1.0));
+      std::move(rows), 1.0);
+  if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {std::move(table)};
   out.notes.assign(report.notes().begin(), report.notes().end());
   return out;

@@ -1,6 +1,7 @@
 #include "study/report/interval_chart.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "study/report/axis.h"
 #include "study/report/number.h"
@@ -50,8 +51,9 @@ std::string draw(const std::string& title, const std::string& axis_title,
     svg.text("key", {left - 10.0, y + 4.0}, shorten(clean_text(row.name), columns), kLetter,
              Anchor::kEnd);
     const double from = row.lower > axis.low() ? axis(row.lower) : axis.begin();
+    const double upper = row.upper > row.value ? row.upper : row.value;
     svg.line(row.marked ? "stem outside" : "stem", {from, y},
-             {std::min(axis(std::max(row.upper, row.value)), axis.end()), y});
+             {std::min(axis(upper), axis.end()), y});
     svg.circle(row.marked ? "residual outside" : "residual", {axis(row.value), y}, 4.0);
   }
   svg.text("axis-title", {0.5 * (axis.begin() + axis.end()), bottom + 36.0}, axis_title, kLetter,
@@ -62,11 +64,14 @@ std::string draw(const std::string& title, const std::string& axis_title,
 
 }  // namespace
 
-Figure interval_chart(const std::string& title, const std::string& axis_title,
-                      const std::string& caption, const std::vector<IntervalRow>& rows,
-                      std::optional<double> reference) {
-  return {title, draw(title, axis_title, rows, reference, "wide", 920.0),
-          draw(title, axis_title, rows, reference, "narrow", 388.0), caption};
+std::optional<Figure> interval_chart(const std::string& title, const std::string& axis_title,
+                                     const std::string& caption, std::vector<IntervalRow> rows,
+                                     std::optional<double> reference) {
+  std::erase_if(
+      rows, [](const IntervalRow& row) { return !std::isfinite(row.value) || row.value <= 0.0; });
+  if (rows.empty()) return std::nullopt;
+  return Figure{title, draw(title, axis_title, rows, reference, "wide", 920.0),
+                draw(title, axis_title, rows, reference, "narrow", 388.0), caption};
 }
 
 }  // namespace imunoise::report

@@ -18,9 +18,10 @@ struct IntervalRow {
 };
 
 /// Rows of values with whiskers on a logarithmic axis, with a line at `reference` where there is
-/// one; ends that are zero or negative run to the axis's edge. For page figures: both widths.
-Figure interval_chart(const std::string& title, const std::string& axis_title,
-                      const std::string& caption, const std::vector<IntervalRow>& rows,
-                      std::optional<double> reference);
+/// one; ends that are zero or negative run to the axis's edge. A value that has no place on such an
+/// axis has no row; nothing when no row is left. For page figures: both widths.
+std::optional<Figure> interval_chart(const std::string& title, const std::string& axis_title,
+                                     const std::string& caption, std::vector<IntervalRow> rows,
+                                     std::optional<double> reference);
 
 }  // namespace imunoise::report

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
@@ -12,9 +14,13 @@ std::string probability(bool known, double p, Digits digits) {
   return p < 1e-4 ? "< 0.0001" : number(p, 2, digits);
 }
 
+bool tested(const v1::TestResult& test) { return test.degrees_of_freedom() > 0; }
+
 std::vector<std::string> row(const char* question, const v1::TestResult& test, Digits digits) {
   return {question,
-          test.rejected() ? "yes" : "no",
+          test.rejected() ? "yes"
+          : tested(test)  ? "no"
+                          : "not tested",
           probability(test.has_p_value(), test.p_value(), digits),
           probability(test.has_bootstrap_p_value(), test.bootstrap_p_value(), digits),
           number(test.statistic(), 4, digits),
@@ -50,11 +56,16 @@ Section section(const v1::StationarityReport& report, Digits digits) {
   out.title = channel_name(report.channel());
   const bool misfit = report.misfit().rejected();
   const bool differ = report.heterogeneity().rejected();
+  const bool both_tested = tested(report.misfit()) && tested(report.heterogeneity());
   out.badge = misfit && differ ? "misfit, and parameters move"
               : misfit         ? "misfit"
               : differ         ? "parameters move"
-                               : "near-stationary";
-  out.mood = misfit ? Mood::kBad : differ ? Mood::kDoubtful : Mood::kGood;
+              : both_tested    ? "near-stationary"
+                               : "not tested";
+  out.mood = misfit        ? Mood::kBad
+             : differ      ? Mood::kDoubtful
+             : both_tested ? Mood::kGood
+                           : Mood::kNeutral;
   out.facts = fmt::format("{} · {:g} Hz · {} replicates", report.model(), report.rate_hz(),
                           report.replicates());
   if (report.bootstrap_sets() > 0) {
@@ -64,19 +75,16 @@ Section section(const v1::StationarityReport& report, Digits digits) {
   out.summary = report.summary();
   std::vector<IntervalRow> rows;
   for (const v1::ParameterSpread& one : report.spread()) {
-    if (one.relative() <= 0.0) continue;
     rows.push_back({one.term() + " " + one.parameter(), 100.0 * one.relative(),
                     100.0 * one.relative_lower(), 100.0 * one.relative_upper(), one.moves()});
   }
-  if (!rows.empty()) {
-    out.figures.push_back(interval_chart(
-        "Spread between replicates", "standard deviation between replicates, %",
-        "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
-        "runs to the left edge includes zero. Orange: moves by more than chance. Parameters "
-        "without "
-        "any excess spread are left out.",
-        rows, 1.0));
-  }
+  auto figure = interval_chart(
+      "Spread between replicates", "standard deviation between replicates, %",
+      "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
+      "runs to the left edge includes zero. Orange: moves by more than chance. Parameters without "
+      "any excess spread are left out.",
+      std::move(rows), 1.0);
+  if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {tests(report, digits), spread(report, digits)};
   out.notes.assign(report.notes().begin(), report.notes().end());
   return out;

@@ -8,9 +8,10 @@
 namespace imunoise::report {
 namespace {
 
+constexpr std::size_t kIndent = 2;       // spaces before the first column
 constexpr std::size_t kGap = 2;          // spaces between columns
 constexpr std::size_t kLeastLast = 16;   // columns that the last column keeps beside the others
-constexpr std::size_t kLeastColumn = 4;  // columns below which no cell is cut
+constexpr std::size_t kLeastColumn = 4;  // columns below which no cell is broken
 
 std::string padded(const std::string& text, std::size_t columns) {
   return text + std::string(columns - std::min(columns, display_width(text)), ' ');
@@ -26,6 +27,51 @@ void shrink(std::vector<std::size_t>& widths, std::size_t room) {
   }
 }
 
+// Words in lines of at most `room` columns; a word longer than a line is cut into lines.
+std::vector<std::string> broken(std::string_view text, std::size_t room) {
+  std::vector<std::string> out;
+  std::string line;
+  const auto end_line = [&] {
+    if (!line.empty()) out.push_back(std::move(line));
+    line.clear();
+  };
+  while (!text.empty()) {
+    const auto space = text.find(' ');
+    std::string word(text.substr(0, space));
+    text.remove_prefix(space == std::string_view::npos ? text.size() : space + 1);
+    if (word.empty()) continue;
+    if (!line.empty() && display_width(line) + 1 + display_width(word) > room) end_line();
+    while (display_width(word) > room) {
+      out.push_back(shorten(word, room, ""));
+      word.erase(0, out.back().size());
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  end_line();
+  return out;
+}
+
+// One row of cells, each continued below itself where its column is too narrow.
+std::string row_lines(const std::vector<std::string>& row, const std::vector<std::size_t>& widths,
+                      Ink ink, const TerminalStyle& style) {
+  std::vector<std::vector<std::string>> cells;
+  std::size_t height = 1;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    cells.push_back(broken(row[c], widths[c]));
+    height = std::max(height, cells.back().size());
+  }
+  std::string out;
+  for (std::size_t h = 0; h < height; ++h) {
+    std::string line;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      line += std::string(c == 0 ? kIndent : kGap, ' ') +
+              padded(h < cells[c].size() ? cells[c][h] : "", widths[c]);
+    }
+    out += inked(line.erase(line.find_last_not_of(' ') + 1), ink, style) + "\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string terminal_text(std::string_view text, const TerminalStyle& style) {
@@ -35,38 +81,17 @@ std::string terminal_text(std::string_view text, const TerminalStyle& style) {
 
 std::string wrapped(std::string_view text, int indent, const TerminalStyle& style) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
-  const std::size_t room = static_cast<std::size_t>(std::max(10, style.width - indent));
-  const std::string clean = terminal_text(text, style);
-  std::string_view rest = clean;
+  const auto room = static_cast<std::size_t>(std::max(10, style.width - indent));
   std::string out;
-  std::string line;
-  const auto end_line = [&] {
-    if (!line.empty()) out += margin + line + "\n";
-    line.clear();
-  };
-  while (!rest.empty()) {
-    const auto space = rest.find(' ');
-    std::string word(rest.substr(0, space));
-    rest.remove_prefix(space == std::string_view::npos ? rest.size() : space + 1);
-    if (word.empty()) continue;
-    if (!line.empty() && display_width(line) + 1 + display_width(word) > room) end_line();
-    // A word longer than a line is cut into lines.
-    while (display_width(word) > room) {
-      const std::string piece = shorten(word, room, "");
-      out += margin + piece + "\n";
-      word.erase(0, piece.size());
-    }
-    line += (line.empty() ? "" : " ") + word;
+  for (const std::string& line : broken(terminal_text(text, style), room)) {
+    out += margin + line + "\n";
   }
-  end_line();
   return out;
 }
 
 std::string terminal_table(const std::vector<std::string>& head,
                            const std::vector<std::vector<std::string>>& rows,
                            const TerminalStyle& style) {
-  const std::string_view ellipsis = style.unicode ? "…" : "~";
-  const std::size_t last = head.size() - 1;
   std::vector<std::vector<std::string>> cells = {head};
   cells.insert(cells.end(), rows.begin(), rows.end());
   std::vector<std::size_t> widths(head.size(), 0);
@@ -76,24 +101,16 @@ std::string terminal_table(const std::vector<std::string>& head,
       widths[c] = std::max(widths[c], display_width(row[c]));
     }
   }
-  const auto width = static_cast<std::size_t>(style.width);
-  const std::size_t indent = 2;
-  const std::size_t gaps = indent + kGap * last;
+  const std::size_t last = head.size() - 1;
+  const std::size_t room = static_cast<std::size_t>(style.width) - kIndent - kGap * last;
   std::vector<std::size_t> others(widths.begin(), widths.end() - 1);
-  shrink(others, width - gaps - std::min(widths[last], kLeastLast));
-  const std::size_t used = std::accumulate(others.begin(), others.end(), gaps);
+  shrink(others, room - std::min(widths[last], kLeastLast));
+  std::copy(others.begin(), others.end(), widths.begin());
+  widths[last] = room - std::accumulate(others.begin(), others.end(), std::size_t{0});
 
   std::string out;
   for (std::size_t r = 0; r < cells.size(); ++r) {
-    std::string line(indent, ' ');
-    for (std::size_t c = 0; c < last; ++c) {
-      line += padded(shorten(cells[r][c], others[c], ellipsis), others[c]) + std::string(kGap, ' ');
-    }
-    // The last cell goes on below itself.
-    const std::string tail = wrapped(cells[r][last], static_cast<int>(used), style);
-    line += tail.empty() ? "\n" : tail.substr(used);
-    if (tail.empty()) line.erase(line.find_last_not_of(" \n") + 1).append("\n");
-    out += r == 0 ? inked(line.substr(0, line.size() - 1), Ink::kQuiet, style) + "\n" : line;
+    out += row_lines(cells[r], widths, r == 0 ? Ink::kQuiet : Ink::kPlain, style);
   }
   return out;
 }

@@ -14,8 +14,8 @@ std::string terminal_text(std::string_view text, const TerminalStyle& style);
 /// Words broken into lines no wider than the terminal, each after `indent` spaces.
 std::string wrapped(std::string_view text, int indent, const TerminalStyle& style);
 
-/// Rows of cells in aligned columns. The columns are as wide as their contents; where the terminal
-/// is too narrow the last column continues on lines of its own, and the others are cut.
+/// Rows of cells in aligned columns, which are as wide as their contents; where the terminal is too
+/// narrow, cells continue below themselves, those of the widest columns first.
 std::string terminal_table(const std::vector<std::string>& head,
                            const std::vector<std::vector<std::string>>& rows,
                            const TerminalStyle& style);

@@ -1,59 +1,23 @@
 // The program as a user runs it.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "recording/store/recorder.h"
+#include "tests/cli/program.h"
 #include "tests/recording/store/samples.h"
 #include "tests/support/golden.h"
 
 namespace imunoise {
 namespace {
 
-struct Outcome {
-  int status;
-  std::string out;     // standard output
-  std::string errors;  // standard error
-};
+using testing::Outcome;
 
-class Cli : public ::testing::Test {
+class Cli : public testing::Program {
  protected:
-  Cli()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("imunoise_cli_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Cli() override { std::filesystem::remove_all(folder_); }
-
-  Outcome run(const std::string& arguments) const {
-    const std::string errors = (folder_ / "stderr").string();
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" IMUNOISE_BINARY "' " + arguments + " 2>" + errors;
-    std::FILE* const pipe = popen(command.c_str(), "r");
-    Outcome out{};
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-      out.out.append(buffer.data(), n);
-    }
-    out.status = WEXITSTATUS(pclose(pipe));
-    out.errors = read("stderr");
-    return out;
-  }
-
-  std::string read(const std::string& name) const {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
   void simulate(const std::string& out, const std::string& more = "") const {
     const Outcome done =
         run("simulate --model 'WN(sigma2=4e-6) + RW(gamma2=1e-12)' --rate 100 --samples 20000 "
@@ -61,8 +25,6 @@ class Cli : public ::testing::Test {
             out + " " + more);
     ASSERT_EQ(done.status, 0) << done.errors;
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(Cli, FitsWhatItSimulated) {
@@ -93,6 +55,23 @@ TEST_F(Cli, FitsWhatItSimulated) {
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));  // nothing from the network
   EXPECT_NE(read("out.svg").find("</svg>"), std::string::npos);
+}
+
+// Confidence is about intervals. Diagonal weights are made of the 95 % intervals of the moments,
+// whatever is asked for.
+TEST_F(Cli, ConfidenceMovesIntervalsNotEstimates) {
+  simulate("run.h5");
+  const std::string command = "fit run_?.h5 --model 'WN + RW' --weights diag --json --confidence ";
+  const auto wide = nlohmann::json::parse(run(command + "0.95").out);
+  const auto narrow = nlohmann::json::parse(run(command + "0.68").out);
+  EXPECT_EQ(narrow["fitted_model"], wide["fitted_model"]);
+  EXPECT_EQ(narrow["confidence"], 0.68);
+  const auto width = [](const nlohmann::json& fit) {
+    const auto& sigma2 = fit["terms"][0]["parameters"][0];
+    return std::log(sigma2["upper"].get<double>() / sigma2["lower"].get<double>());
+  };
+  // The quantiles of the normal law: 0.994 and 1.960 standard errors.
+  EXPECT_NEAR(width(narrow) / width(wide), 0.9945 / 1.9600, 1e-3);
 }
 
 TEST_F(Cli, SaysWhenItChoosesTheModelItself) {

@@ -64,5 +64,18 @@ TEST(ModelChoice, OfEqualsTheSmallestComesFirst) {
   EXPECT_NEAR(choice.candidates[0].merit.value, 0.0, 1e-2);  // no noise at all: below any floor
 }
 
+// Those that differ by rounding alone do not differ: chance must not make one of them worse.
+TEST(ModelChoice, RoundingIsNoDifference) {
+  const Model truth = testing::model_of("AR1(sigma2=0.05, phi=0.98) + WN(sigma2=1)");
+  const auto moments = testing::simulated_set(truth, std::vector<std::size_t>(4, 8192), 1, 3);
+  const ModelChoice choice = choose_model(sub_models(testing::model_of("AR1 + WN + RW")), moments);
+  const Candidate& second = choice.candidates[1];
+  ASSERT_EQ(second.model.terms.size(), 3U);
+  ASSERT_EQ(values(second.model.terms[2].process)[0], 0.0);  // no random walk was found
+  EXPECT_EQ(second.excess.value, 0.0);
+  EXPECT_EQ(second.excess.upper, 0.0);
+  EXPECT_EQ(second.verdict, ChoiceVerdict::kEquivalent);
+}
+
 }  // namespace
 }  // namespace imunoise

@@ -1,0 +1,132 @@
+// The documents of `imunoise test` and `imunoise select`, on the page and in the terminal.
+
+#include "study/report/inference_documents.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+
+#include "study/report/text.h"
+#include "tests/study/markup_check.h"
+
+namespace imunoise::report {
+namespace {
+
+constexpr const char* kHostile = "<img src=x onerror=alert(1)> \x1b[31m & \u202E \"'";
+
+v1::TestResult test_result(int degrees, bool rejected) {
+  v1::TestResult out;
+  out.set_statistic(71.01);
+  out.set_degrees_of_freedom(degrees);
+  if (degrees > 0) out.set_p_value(rejected ? 1e-7 : 0.51);
+  out.set_rejected(rejected);
+  return out;
+}
+
+v1::StationarityReports stationarity(const v1::TestResult& misfit, const v1::TestResult& differ) {
+  v1::StationarityReports out;
+  v1::StationarityReport& one = *out.add_channels();
+  one.set_channel("gyro_x");
+  *one.mutable_misfit() = misfit;
+  *one.mutable_heterogeneity() = differ;
+  return out;
+}
+
+void add_spread(v1::StationarityReport& to, const std::string& term, double relative) {
+  v1::ParameterSpread& one = *to.add_spread();
+  one.set_term(term);
+  one.set_parameter("sigma2");
+  one.set_unit("(rad/s)²");
+  one.set_relative(relative);
+  one.set_relative_upper(2.0 * relative);
+  one.set_moves(relative > 0.1);
+}
+
+void add_candidate(v1::ChoiceReport& to, const std::string& model, double merit) {
+  v1::CandidateModel& one = *to.add_candidates();
+  one.set_model(model);
+  one.set_merit(merit);
+  one.set_merit_lower(0.9 * merit);
+  one.set_merit_upper(1.1 * merit);
+  one.set_excess(merit - 1.0);
+  one.set_excess_lower(0.9 * merit - 1.0);
+  one.set_excess_upper(1.1 * merit - 1.0);
+  one.set_verdict(to.candidates_size() == 1 ? v1::selected : v1::not_appropriate);
+}
+
+// Everything that files and people can put in, and numbers that no axis holds.
+std::vector<Document> troubled(Digits digits) {
+  v1::StationarityReports tests = stationarity(test_result(72, true), test_result(0, false));
+  v1::StationarityReport& one = *tests.mutable_channels(0);
+  one.set_channel(kHostile);
+  one.set_summary(kHostile);
+  one.add_notes(kHostile);
+  for (const double relative : {0.3, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::infinity()}) {
+    add_spread(one, kHostile, relative);
+  }
+  tests.add_channels();
+  v1::ChoiceReports choices;
+  v1::ChoiceReport& choice = *choices.add_channels();
+  choice.set_channel(kHostile);
+  for (const double merit : {1.0, 0.0, 75942.0, std::numeric_limits<double>::quiet_NaN()}) {
+    add_candidate(choice, kHostile, merit);
+  }
+  choices.add_channels();
+  return {document(tests, digits), document(choices, digits),
+          document(v1::StationarityReports{}, digits), document(v1::ChoiceReports{}, digits)};
+}
+
+TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
+  for (const Document& one : troubled(Digits::kTypeset)) {
+    const std::string page = html_page(one);
+    EXPECT_EQ(read_markup(page).error, "");
+    EXPECT_EQ(page.find("<img"), std::string::npos);
+    EXPECT_EQ(page.find('\x1b'), std::string::npos);
+    EXPECT_EQ(page.find("\u202E"), std::string::npos);
+  }
+}
+
+TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
+  for (const Document& one : troubled(Digits::kPlain)) {
+    for (const int width : {60, 80, 120}) {
+      std::istringstream lines(text(one, {width, false, true}));
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
+        EXPECT_EQ(line.find('\x1b'), std::string::npos);
+      }
+    }
+  }
+}
+
+TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
+  const auto badge = [](const v1::TestResult& misfit, const v1::TestResult& differ) {
+    return document(stationarity(misfit, differ), Digits::kPlain).sections.at(0).badge;
+  };
+  EXPECT_EQ(badge(test_result(72, false), test_result(20, false)), "near-stationary");
+  EXPECT_EQ(badge(test_result(72, true), test_result(20, false)), "misfit");
+  EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters move");
+  EXPECT_EQ(badge(test_result(72, true), test_result(20, true)), "misfit, and parameters move");
+  EXPECT_EQ(badge(test_result(72, false), test_result(0, false)), "not tested");
+  EXPECT_EQ(badge(test_result(0, false), test_result(20, false)), "not tested");
+  EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters move");
+}
+
+// Eleven sub-models of the default model, the worst of them 1e5 times the noise floor, in 80
+// columns.
+TEST(InferenceDocuments, NoNumberOfAChoiceIsCut) {
+  v1::ChoiceReports choices;
+  v1::ChoiceReport& choice = *choices.add_channels();
+  for (const double merit : {1.062, 1.38, 18.4, 69.4, 99.4, 100.2, 942.0, 75942.3, 98557.9}) {
+    add_candidate(choice, "2*AR1 + WN + RW", merit);
+  }
+  const std::string shown = text(document(choices, Digits::kPlain), {80, false, true});
+  for (const char* number :
+       {"1.06 (0.96 … 1.17)", "99 (89 … 109)", "98 (88 … 108)", " 942 ", " 75942 ", " 75941 "}) {
+    EXPECT_NE(shown.find(number), std::string::npos) << number << "\n" << shown;
+  }
+}
+
+}  // namespace
+}  // namespace imunoise::report
