@@ -85,9 +85,10 @@ void add_report(CLI::App& command, RawAnalysis& raw) {
       ->type_name("OUT.html");
 }
 
-void add_model(CLI::App& command, RawAnalysis& raw) {
-  raw.model_option = command.add_option(
-      "--model", raw.model, fmt::format("The model (default: {})", study::kDefaultModel));
+void add_model(CLI::App& command, RawAnalysis& raw,
+               std::string_view unless_given = study::kDefaultModel) {
+  raw.model_option = command.add_option("--model", raw.model,
+                                        fmt::format("The model (default: {})", unless_given));
 }
 
 void add_weights(CLI::App& command, RawAnalysis& raw) {
@@ -226,11 +227,11 @@ ParsedCommand array_command(CLI::App& program) {
   const auto options = std::make_shared<study::ArraySeriesOptions>();
   const auto rule = std::make_shared<std::string>("unit-gain");
   add_input(*array, raw->input);
+  add_confidence(*array, *raw);
   add_json(*array, *raw);
   add_report(*array, *raw);
+  add_model(*array, *raw, study::kDefaultArrayModel);
   add_weights(*array, *raw);
-  array->add_option("--model", raw->model,
-                    fmt::format("The model (default: {})", study::kDefaultArrayModel));
   array
       ->add_option("--group", *groups,
                    "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
@@ -247,10 +248,10 @@ ParsedCommand array_command(CLI::App& program) {
   return {array, [raw, groups, options, rule] {
             if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
             ArrayArguments out{input_from(raw->input), *options, show_from(*raw)};
-            if (!raw->model.empty()) out.array.model = raw->model;
+            out.array.model = model_from(*raw);
             for (const std::string& group : *groups) out.array.groups.push_back(names_in(group));
             out.array.per_octave = raw->input.per_octave;
-            out.array.confidence = raw->input.confidence;
+            out.array.confidence = raw->confidence;
             out.array.weighting = weighting_from(raw->weights);
             out.array.rule = rule_from(*rule);
             return out;

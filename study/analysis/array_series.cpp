@@ -8,6 +8,7 @@
 
 #include "core/array/dependence.h"
 #include "core/support/distributions.h"
+#include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
@@ -100,6 +101,14 @@ Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octav
           fmt::format("{}: too short: at least 4 samples are needed", sensors.front().names[k]));
     }
     if (progress.stopped()) return fail("stopped");
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      if ((out.back().of(at, at) > 0.0).any()) continue;
+      return fail(
+          fmt::format("{}: {} never changes: the sensor is stuck or was not connected; "
+                      "leave it out with --channel",
+                      sensors[i].names[k], sensors[i].channel));
+    }
   }
   return out;
 }
@@ -336,6 +345,7 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   add_pairs(fit, *measured, sensors, out);
   add_virtual_sensor(fit, *measured, sensors, *scale_weights, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));
+  if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {
     out.add_notes(fmt::format(
         "These weights have Σ|c| = 1, as published: a motion that all sensors see is multiplied by "

@@ -11,7 +11,7 @@
 
 namespace imunoise::study {
 
-inline constexpr const char* kDefaultArrayModel = "AR1 + WN + RW[corr]";
+inline constexpr std::string_view kDefaultArrayModel = "AR1 + WN + RW[corr]";
 
 struct ArraySeriesOptions {
   std::optional<std::string> model;  ///< in the grammar; unset: kDefaultArrayModel

@@ -31,8 +31,8 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
 
 }  // namespace
 
-std::string default_model_note(std::string_view done) {
-  return fmt::format("No model was named: {} {}. Choose one with --model.", kDefaultModel, done);
+std::string default_model_note(std::string_view done, std::string_view model) {
+  return fmt::format("No model was named: {} {}. Choose one with --model.", model, done);
 }
 
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured) {

@@ -13,7 +13,7 @@ namespace imunoise::study {
 inline constexpr std::string_view kDefaultModel = "2*AR1 + WN + RW";
 
 /// What to tell that user; `done` says what was done with it: "was fitted".
-std::string default_model_note(std::string_view done);
+std::string default_model_note(std::string_view done, std::string_view model = kDefaultModel);
 
 /// What every analysis of a series starts from.
 struct Prepared {

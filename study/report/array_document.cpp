@@ -77,7 +77,7 @@ Table gains(const v1::VirtualSensor& sensor, Digits digits) {
   return out;
 }
 
-Figure gain_chart(const v1::VirtualSensor& sensor) {
+std::optional<Figure> gain_chart(const v1::VirtualSensor& sensor) {
   std::vector<IntervalRow> rows;
   for (const v1::ScaleGain& one : sensor.scale_gains()) {
     const double seen = one.has_measured() ? one.measured() : one.predicted();
@@ -105,7 +105,9 @@ Document document(const v1::ArrayReport& report, Digits digits) {
                               report.rate_hz(), report.sensors_size(), report.replicates(),
                               report.termination());
   section.summary = report.summary();
-  section.figures.push_back(gain_chart(report.virtual_sensor()));
+  if (auto figure = gain_chart(report.virtual_sensor())) {
+    section.figures.push_back(std::move(*figure));
+  }
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
                     gains(report.virtual_sensor(), digits), parameters(report, digits)};
   if (Table shown = correlations(report, digits); !shown.rows.empty()) {
