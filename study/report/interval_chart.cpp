@@ -15,6 +15,7 @@ namespace {
 constexpr double kRow = 26.0;     // px
 constexpr double kLetter = 12.0;  // px
 constexpr double kFoot = 44.0;    // px, for the axis
+constexpr double kRight = 30.0;   // px, for half of the last label
 
 std::string draw(const std::string& title, const std::string& axis_title,
                  const std::vector<IntervalRow>& rows, std::optional<double> reference,
@@ -29,7 +30,7 @@ std::string draw(const std::string& title, const std::string& axis_title,
     names = std::max(names, text_width(row.name, kLetter));
   }
   const double left = std::min(names, 0.45 * width) + 14.0;
-  const LogAxis axis(range.low() * 0.9, range.high() * 1.1, left, width - 16.0);
+  const LogAxis axis(range.low() * 0.9, range.high() * 1.1, left, width - kRight);
   const double bottom = kRow * static_cast<double>(rows.size()) + 6.0;
   SvgWriter svg;
   std::string opening = svg_opening({SvgVariant::kInline, width, kind}, bottom + kFoot, title);

@@ -83,7 +83,7 @@ Section section(const v1::StationarityReport& report, Digits digits) {
       "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
       "runs to the left edge includes zero. Orange: moves by more than chance. Parameters without "
       "any excess spread are left out.",
-      std::move(rows), 1.0);
+      std::move(rows), std::nullopt);
   if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {tests(report, digits), spread(report, digits)};
   out.notes.assign(report.notes().begin(), report.notes().end());

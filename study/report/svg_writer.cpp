@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -13,6 +14,7 @@ namespace {
 
 // Of the font size. DejaVu Sans, the widest of the fonts that the figures ask for, averages 0.59.
 constexpr double kCharacterWidth = 0.6;
+constexpr double kCapitalExtra = 0.15;
 constexpr double kAscent = 0.8;
 constexpr double kDescent = 0.25;
 
@@ -35,7 +37,11 @@ bool Box::contains(const Box& other) const {
 }
 
 double text_width(std::string_view text, double size) {
-  return static_cast<double>(display_width(text)) * kCharacterWidth * size;
+  const auto capitals =
+      std::count_if(text.begin(), text.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+  return (static_cast<double>(display_width(text)) * kCharacterWidth +
+          static_cast<double>(capitals) * kCapitalExtra) *
+         size;
 }
 
 Box text_box(Point at, std::string_view text, double size, Anchor anchor) {

@@ -77,6 +77,12 @@ std::vector<std::pair<std::string, Box>> text_boxes(const Markup& markup) {
   return out;
 }
 
+// The advance widths of DejaVu Sans, the widest font asked for, in em.
+TEST(Figures, NamesOfModelsAreNotWiderThanReckoned) {
+  EXPECT_GE(text_width("WN + AR1 + RW", 1.0), 8.342);
+  EXPECT_GE(text_width("2*AR1 + WN + RW", 1.0), 9.478);
+}
+
 TEST(Figures, AreWellFormedAndInsideTheCanvas) {
   for (const v1::FitReport& report : all_samples()) {
     for (const SvgOptions& options : all_options()) {
