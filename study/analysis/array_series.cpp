@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "core/array/dependence.h"
 #include "core/support/distributions.h"
+#include "study/analysis/array_weights.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 
@@ -15,9 +15,6 @@ namespace imunoise::study {
 namespace {
 
 constexpr double kLevel = 0.05;
-constexpr std::size_t kPreset = 3;  // scales of "short" and "long"
-
-using Measured = std::vector<WaveletCovariance>;
 
 Result<void> check_sensors(const std::vector<Series>& sensors) {
   if (sensors.size() < 2) {
@@ -53,36 +50,6 @@ Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
   return out;
 }
 
-Result<Eigen::VectorXd> scale_weights_of(const std::string& text, std::size_t count) {
-  const auto n = static_cast<Eigen::Index>(count);
-  const auto few = static_cast<Eigen::Index>(std::min(kPreset, count));
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
-  if (text == "all") {
-    out.setOnes();
-  } else if (text == "short") {
-    out.head(few).setOnes();
-  } else if (text == "long") {
-    out.tail(few).setOnes();
-  } else {
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const auto [stop, code] = std::from_chars(at, end, out(j));
-      const bool last = j + 1 == n;
-      if (code != std::errc() || !(out(j) >= 0.0) || !std::isfinite(out(j)) ||
-          (last ? stop != end : stop == end || *stop != ',')) {
-        return fail(fmt::format(
-            "scales: '{}' is neither short, long nor all, nor {} weights of zero or more separated "
-            "by commas, one for each scale",
-            text, count));
-      }
-      at = stop + 1;
-    }
-  }
-  if (!(out.sum() > 0.0)) return fail("scales: all weights are zero");
-  return Eigen::VectorXd(out / out.sum());
-}
-
 Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octave,
                                const Progress& progress) {
   Measured out;
@@ -111,6 +78,12 @@ Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octav
     }
   }
   return out;
+}
+
+// "RW[corr]", "AR1 (2)".
+std::string array_label(const Model& written, std::size_t term) {
+  const std::string_view shared = word_of(written.terms[term].sharing);
+  return label_of(written, term) + (shared.empty() ? "" : fmt::format("[{}]", shared));
 }
 
 // The correlation of two sensors in a term with a matrix of powers, with its interval (Fisher's z).
@@ -147,9 +120,7 @@ void add_parameters(const ArrayFit& fit, const Model& written, const std::vector
     const Latent& latent = fit.model.latents[from.latent];
     const ParameterInfo about = parameters(latent.term.process)[from.parameter];
     v1::ArrayParameter& to = *out.add_parameters();
-    const std::string_view shared = word_of(latent.term.sharing);
-    to.set_term(label_of(written, latent.written) +
-                (shared.empty() ? "" : fmt::format("[{}]", shared)));
+    to.set_term(array_label(written, latent.written));
     to.set_parameter(about.name);
     to.set_unit(unit_of(about.dimension, quantity));
     if (latent.matrix() && from.parameter == 0) {
@@ -205,72 +176,27 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
   }
 }
 
-std::string rule_name(WeightRule rule) {
-  switch (rule) {
-    case WeightRule::kUnitGain:
-      return "unit-gain";
-    case WeightRule::kNonnegative:
-      return "non-negative";
-    case WeightRule::kUnitLength:
-      break;
-  }
-  return "unit-length";
-}
-
-VirtualSensor virtual_sensor_of(const ArrayFit& fit, const Scales& scales,
-                                const Eigen::VectorXd& scale_weights, WeightRule rule) {
-  const auto gammas = covariance(fit.model, scales);
-  return best_virtual_sensor(weighted_covariance(gammas, scale_weights), rule);
-}
-
-// Covariance of the model's moments that the uncertainty of its parameters causes.
-Eigen::MatrixXd moment_uncertainty(const ArrayFit& fit, const Scales& scales) {
-  const Pairs pairs = all_pairs(fit.model.sensors);
-  const Eigen::MatrixXd slope = parameter_slopes(fit, pairs, scales);
-  return slope * fit.covariance * slope.transpose();
-}
-
-void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
-                        const std::vector<Series>& sensors, const Eigen::VectorXd& scale_weights,
-                        const ArraySeriesOptions& options, const std::optional<VirtualSensor>& half,
-                        v1::ArrayReport& out) {
-  const Scales& scales = measured.front().scales;
-  const auto gammas = covariance(fit.model, scales);
-  const Eigen::MatrixXd weighted = weighted_covariance(gammas, scale_weights);
-  const VirtualSensor sensor = best_virtual_sensor(weighted, options.rule);
-  v1::VirtualSensor& to = *out.mutable_virtual_sensor();
-  to.set_rule(rule_name(options.rule));
-  to.set_scales(options.scales);
-  for (const double w : scale_weights) to.add_scale_weights(w);
-  Eigen::VectorXd errors;
-  if (options.rule != WeightRule::kUnitLength) {
-    errors = weight_covariance(sensor, weighted, scale_weights, moment_uncertainty(fit, scales))
-                 .diagonal()
-                 .cwiseMax(0.0)
-                 .cwiseSqrt();
-  }
-  for (Eigen::Index i = 0; i < sensor.weights.size(); ++i) {
-    v1::SensorWeight& weight = *to.add_weights();
-    weight.set_sensor(sensors[static_cast<std::size_t>(i)].channel);
-    weight.set_weight(sensor.weights(i));
-    if (errors.size() > 0 && std::isfinite(errors(i))) weight.set_standard_error(errors(i));
-  }
-  to.set_gain(sensor.gain);
-  const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
-  Eigen::ArrayXd seen;
-  if (half) {
-    std::vector<Eigen::MatrixXd> held(scales.size(),
-                                      Eigen::MatrixXd::Zero(weighted.rows(), weighted.cols()));
-    for (std::size_t k = (measured.size() + 1) / 2; k < measured.size(); ++k) {
-      for (std::size_t j = 0; j < held.size(); ++j) held[j] += measured[k].covariance[j];
+// How much of each sensor's variance each term explains: its share of the sum of the model's
+// wavelet variances, which for a stationary process is its share of the variance that these scales
+// see.
+void add_budgets(const ArrayFit& fit, const Model& written, const Scales& scales,
+                 v1::ArrayReport& out) {
+  const Eigen::ArrayXd m = scales.half_widths();
+  for (int i = 0; i < out.sensors_size(); ++i) {
+    v1::SensorBudget& budget = *out.add_budgets();
+    budget.set_sensor(out.sensors(i));
+    std::vector<double> sums(written.terms.size(), 0.0);
+    double all = 0.0;
+    for (const Latent& latent : fit.model.latents) {
+      const double part = latent.power(i, i) * shape(latent.term.process, m).sum();
+      sums[latent.written] += part;
+      all += part;
     }
-    seen = gain_over_mean(held, half->weights);
-  }
-  for (std::size_t j = 0; j < scales.size(); ++j) {
-    v1::ScaleGain& gain = *to.add_scale_gains();
-    gain.set_tau_s(2.0 * static_cast<double>(scales[j]) / out.rate_hz());
-    gain.set_predicted(predicted(static_cast<Eigen::Index>(j)));
-    if (half) gain.set_measured(seen(static_cast<Eigen::Index>(j)));
+    for (std::size_t t = 0; t < sums.size() && all > 0.0; ++t) {
+      v1::TermShare& share = *budget.add_terms();
+      share.set_term(array_label(written, t));
+      share.set_share(sums[t] / all);
+    }
   }
 }
 
@@ -342,8 +268,9 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   out.set_objective(fit.objective);
   out.set_joint_weights(fit.joint_weights);
   add_parameters(fit, *written, sensors, options.confidence, out);
+  add_budgets(fit, *written, measured->front().scales, out);
   add_pairs(fit, *measured, sensors, out);
-  add_virtual_sensor(fit, *measured, sensors, *scale_weights, options, half, out);
+  add_virtual_sensor(fit, *measured, *scale_weights, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {

@@ -54,6 +54,19 @@ Table pairs(const v1::ArrayReport& report, Digits digits) {
   return out;
 }
 
+Table budgets(const v1::ArrayReport& report) {
+  Table out{"What explains each sensor's noise, over all averaging times", {"sensor"}, {}};
+  for (const v1::SensorBudget& one : report.budgets()) {
+    std::vector<std::string> row = {one.sensor()};
+    for (const v1::TermShare& term : one.terms()) {
+      if (out.rows.empty()) out.head.push_back(term.term());
+      row.push_back(percent(term.share()));
+    }
+    out.rows.push_back(std::move(row));
+  }
+  return out;
+}
+
 Table weights(const v1::VirtualSensor& sensor, Digits digits) {
   Table out{
       fmt::format("Virtual sensor ({}, for {} averaging times)", sensor.rule(), sensor.scales()),
@@ -109,7 +122,8 @@ Document document(const v1::ArrayReport& report, Digits digits) {
     section.figures.push_back(std::move(*figure));
   }
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
-                    gains(report.virtual_sensor(), digits), parameters(report, digits)};
+                    gains(report.virtual_sensor(), digits), budgets(report),
+                    parameters(report, digits)};
   if (Table shown = correlations(report, digits); !shown.rows.empty()) {
     section.tables.push_back(std::move(shown));
   }

@@ -59,6 +59,9 @@ TEST_F(Array, FindsWhatIsSharedAndWeighsTheSensors) {
   EXPECT_TRUE(report["pairs"][0]["dependent"].get<bool>());
   EXPECT_FALSE(report["pairs"][1]["dependent"].get<bool>());
   EXPECT_FALSE(report["pairs"][2]["dependent"].get<bool>());
+  const json& budget = report["budgets"][2]["terms"];
+  EXPECT_EQ(budget[0]["term"], "RW[corr]");
+  EXPECT_NEAR(budget[0]["share"].get<double>() + budget[1]["share"].get<double>(), 1.0, 1e-12);
   // At short averaging times white noise is all: weights go with the inverse of its power.
   const json& weights = report["virtual_sensor"]["weights"];
   const double sum = 1 / 4.0 + 1 / 16.0 + 1 / 9.0;

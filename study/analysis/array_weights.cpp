@@ -1,0 +1,114 @@
+#include "study/analysis/array_weights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace imunoise::study {
+namespace {
+
+constexpr std::size_t kPreset = 3;  // scales of "short" and "long"
+
+std::string rule_name(WeightRule rule) {
+  switch (rule) {
+    case WeightRule::kUnitGain:
+      return "unit-gain";
+    case WeightRule::kNonnegative:
+      return "non-negative";
+    case WeightRule::kUnitLength:
+      break;
+  }
+  return "unit-length";
+}
+
+// Covariance of the model's moments that the uncertainty of its parameters causes.
+Eigen::MatrixXd moment_uncertainty(const ArrayFit& fit, const Scales& scales) {
+  const Pairs pairs = all_pairs(fit.model.sensors);
+  const Eigen::MatrixXd slope = parameter_slopes(fit, pairs, scales);
+  return slope * fit.covariance * slope.transpose();
+}
+
+}  // namespace
+
+Result<Eigen::VectorXd> scale_weights_of(const std::string& text, std::size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  const auto few = static_cast<Eigen::Index>(std::min(kPreset, count));
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+  if (text == "all") {
+    out.setOnes();
+  } else if (text == "short") {
+    out.head(few).setOnes();
+  } else if (text == "long") {
+    out.tail(few).setOnes();
+  } else {
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto [stop, code] = std::from_chars(at, end, out(j));
+      const bool last = j + 1 == n;
+      if (code != std::errc() || !(out(j) >= 0.0) || !std::isfinite(out(j)) ||
+          (last ? stop != end : stop == end || *stop != ',')) {
+        return fail(fmt::format(
+            "scales: '{}' is neither short, long nor all, nor {} weights of zero or more separated "
+            "by commas, one for each scale",
+            text, count));
+      }
+      at = stop + 1;
+    }
+  }
+  if (!(out.sum() > 0.0)) return fail("scales: all weights are zero");
+  return Eigen::VectorXd(out / out.sum());
+}
+
+VirtualSensor virtual_sensor_of(const ArrayFit& fit, const Scales& scales,
+                                const Eigen::VectorXd& scale_weights, WeightRule rule) {
+  const auto gammas = covariance(fit.model, scales);
+  return best_virtual_sensor(weighted_covariance(gammas, scale_weights), rule);
+}
+
+void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
+                        const Eigen::VectorXd& scale_weights, const ArraySeriesOptions& options,
+                        const std::optional<VirtualSensor>& half, v1::ArrayReport& out) {
+  const Scales& scales = measured.front().scales;
+  const auto gammas = covariance(fit.model, scales);
+  const Eigen::MatrixXd weighted = weighted_covariance(gammas, scale_weights);
+  const VirtualSensor sensor = best_virtual_sensor(weighted, options.rule);
+  v1::VirtualSensor& to = *out.mutable_virtual_sensor();
+  to.set_rule(rule_name(options.rule));
+  to.set_scales(options.scales);
+  for (const double w : scale_weights) to.add_scale_weights(w);
+  Eigen::VectorXd errors;
+  if (options.rule != WeightRule::kUnitLength) {
+    errors = weight_covariance(sensor, weighted, scale_weights, moment_uncertainty(fit, scales))
+                 .diagonal()
+                 .cwiseMax(0.0)
+                 .cwiseSqrt();
+  }
+  for (Eigen::Index i = 0; i < sensor.weights.size(); ++i) {
+    v1::SensorWeight& weight = *to.add_weights();
+    weight.set_sensor(out.sensors(static_cast<int>(i)));
+    weight.set_weight(sensor.weights(i));
+    if (errors.size() > 0 && std::isfinite(errors(i))) weight.set_standard_error(errors(i));
+  }
+  to.set_gain(sensor.gain);
+  const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
+  Eigen::ArrayXd seen;
+  if (half) {
+    std::vector<Eigen::MatrixXd> held(scales.size(),
+                                      Eigen::MatrixXd::Zero(weighted.rows(), weighted.cols()));
+    for (std::size_t k = (measured.size() + 1) / 2; k < measured.size(); ++k) {
+      for (std::size_t j = 0; j < held.size(); ++j) held[j] += measured[k].covariance[j];
+    }
+    seen = gain_over_mean(held, half->weights);
+  }
+  for (std::size_t j = 0; j < scales.size(); ++j) {
+    v1::ScaleGain& gain = *to.add_scale_gains();
+    gain.set_tau_s(2.0 * static_cast<double>(scales[j]) / out.rate_hz());
+    gain.set_predicted(predicted(static_cast<Eigen::Index>(j)));
+    if (half) gain.set_measured(seen(static_cast<Eigen::Index>(j)));
+  }
+}
+
+}  // namespace imunoise::study

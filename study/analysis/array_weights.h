@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/array/array_estimate.h"
+#include "core/array/virtual_sensor.h"
+#include "imunoise/v1/array.pb.h"
+#include "study/analysis/array_series.h"
+
+namespace imunoise::study {
+
+/// Measured cross-covariances, one a replicate.
+using Measured = std::vector<WaveletCovariance>;
+
+/// The weights of `count` scales that a text names (see ArraySeriesOptions::scales), of sum one.
+/// Error: what was expected.
+Result<Eigen::VectorXd> scale_weights_of(const std::string& text, std::size_t count);
+
+/// The virtual sensor of a fitted model.
+VirtualSensor virtual_sensor_of(const ArrayFit& fit, const Scales& scales,
+                                const Eigen::VectorXd& scale_weights, WeightRule rule);
+
+/// Writes the virtual sensor of a fit into the report. `half` was made from the first half of the
+/// replicates: it is tried on the others. The report names its sensors and its rate already.
+void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
+                        const Eigen::VectorXd& scale_weights, const ArraySeriesOptions& options,
+                        const std::optional<VirtualSensor>& half, v1::ArrayReport& out);
+
+}  // namespace imunoise::study
