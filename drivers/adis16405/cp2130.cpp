@@ -3,7 +3,6 @@
 #include <cassert>
 
 #include "drivers/adis16405/burst.h"
-#include "drivers/adis16405/registers.h"
 
 namespace imunoise::drivers::adis16405 {
 namespace {
@@ -43,10 +42,6 @@ std::vector<std::uint8_t> cp2130_write_read(Bytes send) {
   return out;
 }
 
-std::vector<std::uint8_t> cp2130_burst() {
-  std::array<std::uint8_t, kBurstBytes> send{};
-  send[0] = kBurstCommand >> 8U;
-  return cp2130_write_read(send);
-}
+std::vector<std::uint8_t> cp2130_burst() { return cp2130_write_read(kBurstRequest); }
 
 }  // namespace imunoise::drivers::adis16405

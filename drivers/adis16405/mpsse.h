@@ -5,6 +5,7 @@
 // data- ready line on GPIOL1. Sources: pyftdi, flashrom and libmpsse for the opcodes; the
 // composition has not met hardware yet.
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,6 +32,11 @@ std::vector<std::uint8_t> mpsse_setup(Hertz clock);
 /// the engine first waits for a rising edge of GPIOL1 (and only a reset of the engine ends the
 /// wait). Precondition: 1 to 65536 bytes.
 void append_mpsse_transfer(std::vector<std::uint8_t>& out, Bytes send, bool on_data_ready);
+
+/// Appends a pause of at least `least` between two transfers, as cycles of a clock of `clock` that
+/// nobody listens to.
+void append_mpsse_pause(std::vector<std::uint8_t>& out, std::chrono::microseconds least,
+                        Hertz clock);
 
 /// `count` bursts, one after the other: 26 bytes come back for each, as soon as it is complete.
 std::vector<std::uint8_t> mpsse_bursts(std::size_t count, bool on_data_ready);
