@@ -98,15 +98,21 @@ SpiFrame BurstReader::burst_frame() const {
 }
 
 void BurstReader::top_up() {
-  if (started_ && questions_.empty()) {  // it ran dry: the sensor may have gone on without us
-    for (State& stream : streams_) stream.next_flags |= IMUNOISE_SAMPLE_AFTER_GAP;
-  }
-  started_ = true;
+  if (questions_.empty()) start_anew();
   if (std::exchange(wants_diagnosis_, false)) send_diagnosis();
   for (; bursts_ + kGroup <= ahead_; bursts_ += kGroup) {
     bus_.send(std::vector<SpiFrame>(kGroup, burst_frame()));
     questions_.insert(questions_.end(), kGroup, Question::kBurst);
   }
+}
+
+// At the beginning, and where the queue ran dry: the sensor may have gone on without us. Outputs
+// that have waited for a reader may be renewed while they are read, and still all be new.
+void BurstReader::start_anew() {
+  if (std::exchange(started_, true)) {
+    for (State& stream : streams_) stream.next_flags |= IMUNOISE_SAMPLE_AFTER_GAP;
+  }
+  skips_burst_ = poll_;
 }
 
 // Right behind a burst, when the sensor has the longest time until the next.
@@ -134,6 +140,10 @@ void BurstReader::take(const SpiAnswer& answer, plugin::Samples& samples) {
 }
 
 void BurstReader::take_burst(const SpiAnswer& answer, plugin::Samples& samples) {
+  if (std::exchange(skips_burst_, false)) {
+    for (std::size_t s = 0; s < streams_.size(); ++s) refuse(s, Reason::kStale, 1, samples);
+    return;
+  }
   const auto burst = parse_burst(answer.bytes);
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     if (!burst) {

@@ -45,6 +45,7 @@ class BurstReader {
   };
 
   void top_up();
+  void start_anew();
   void correct_times(std::vector<SpiAnswer>& answers) const;
   void send_diagnosis();
   void take(const SpiAnswer& answer, plugin::Samples& samples);
@@ -65,6 +66,7 @@ class BurstReader {
   std::vector<State> streams_;
   usb::Duration last_sample_;
   bool started_ = false;
+  bool skips_burst_ = false;
   bool wants_diagnosis_ = false;
   std::uint16_t diagnosis_ = 0;  // as last noted
   usb::Duration next_diagnosis_;
