@@ -1,6 +1,7 @@
 // The driver "adis16405": an ADIS16405 behind a USB-SPI bridge.
 
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "drivers/adis16405/device.h"
@@ -71,8 +72,9 @@ std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
   choice.poll = options.flag("poll");
   choice.settings.self_test = options.flag("self_test");
   choice.settings.sample_period = or_throw(sample_period({options.number("rate")}));
-  choice.settings.sensitivity_averaging = or_throw(sensitivity_averaging(
-      std::stod(options.text("gyro_range")), static_cast<unsigned>(options.integer("filter"))));
+  choice.settings.sensitivity_averaging =
+      or_throw(sensitivity_averaging(static_cast<unsigned>(std::stoul(options.text("gyro_range"))),
+                                     static_cast<unsigned>(options.integer("filter"))));
   auto bus = std::make_unique<usb::LibusbBus>([host] { return host.now_ns(); });
   return std::make_unique<Adis16405Device>(std::move(bus), std::move(choice), host);
 }

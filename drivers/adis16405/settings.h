@@ -16,11 +16,11 @@ struct Settings {
   bool self_test = true;
 };
 
-/// SENS_AVG of a full scale of the gyroscopes (300, 150 or 75 °/s) and a filter of two stages of
-/// 2^filter taps. Error: no such range, or the range needs a stronger filter.
-Result<std::uint16_t> sensitivity_averaging(double range, unsigned filter);
+/// SENS_AVG of a full scale of the gyroscopes and a filter of two stages of 2^filter taps each.
+/// Preconditions: 300, 150 or 75 °/s; 0 to 7. Error: the range needs a stronger filter.
+Result<std::uint16_t> sensitivity_averaging(unsigned range, unsigned filter);
 
-/// SMPL_PRD of a rate, to 1 %. Error: the device has none so near; names its neighbours.
+/// SMPL_PRD of the nearest rate, at most 1 % off. Error: there is none; names the nearest.
 Result<std::uint16_t> sample_period(Hertz rate);
 
 }  // namespace imunoise::drivers::adis16405

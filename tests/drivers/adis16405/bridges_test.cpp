@@ -59,6 +59,10 @@ struct Pins {
           i += 3 + length;
           break;
         }
+        case 0x8f:
+          seen += std::to_string(8 * (commands[i + 1] + commands[i + 2] * 256U + 1)) + "cycles ";
+          i += 3;
+          break;
         case 0x88:
         case 0x89:
           seen += commands[i] == 0x88 ? "wait-high " : "wait-low ";
@@ -88,6 +92,18 @@ TEST(Mpsse, QueuedBurstsAreSelectedClockedAndSentOneByOne) {
   append_mpsse_transfer(commands, ByteVector(300, 0x88), false);
   longer.run(commands);
   EXPECT_EQ(longer.seen, "[ down 300bytes ] send ");
+}
+
+TEST(Mpsse, PausesAreNeverShorterThanAsked) {
+  using namespace std::chrono_literals;
+  for (const auto& [pause, cycles] : {std::pair{150us, "152cycles "}, {1us, "8cycles "}}) {
+    Pins pins;
+    ByteVector commands;
+    append_mpsse_pause(commands, pause, Hertz{1e6});
+    pins.run(commands);
+    EXPECT_EQ(pins.seen, cycles);
+    EXPECT_TRUE(pins.clock && pins.select);
+  }
 }
 
 TEST(Mpsse, ClockIsNeverFasterThanAsked) {
