@@ -15,8 +15,7 @@ constexpr usb::Duration kQuiet = 20ms;
 }  // namespace
 
 void Cp2130Bridge::start(usb::Device& usb, Hertz clock) {
-  // Requests while a transfer runs hang the chip: first take all back and hear the last answers.
-  usb.abort();
+  // Requests while a transfer runs hang the chip: first hear the answers of an earlier life.
   while (!usb.receive(kQuiet).empty()) {
   }
   for (const Cp2130Request& request :

@@ -28,7 +28,6 @@ constexpr usb::Duration kAnswerTime = 1s;
 
 void Ft232hBridge::start(usb::Device& usb, Hertz clock) {
   clock_ = clock;
-  usb.abort();
   usb.control({kBitMode, kModeOff, kInterfaceA});  // also ends a wait for data-ready
   usb.control({kReset, kResetAll, kInterfaceA});
   usb.control({kReset, kPurgeReceived, kInterfaceA});

@@ -49,14 +49,14 @@ std::array<SpiFrame, 2> register_read_frames(Register address) {
 }
 
 void Sensor::start(const Settings& settings, const Note& note) {
-  bus_.restart(kSafeClock);
+  bus_.start(kSafeClock);
   bus_.sleep(kPowerUpTime);  // the bridge's plug may be the sensor's
   write(Register::kGlobalCommand, kCommandSoftwareReset);
   bus_.sleep(kResetTime);
   check_product();
   if (settings.self_test) run_self_test(note);
   configure(settings);
-  bus_.restart({std::min(kBurstClock.value, fastest_spi_clock(settings.sample_period).value)});
+  bus_.start({std::min(kBurstClock.value, fastest_spi_clock(settings.sample_period).value)});
 }
 
 std::uint16_t Sensor::read(Register address) { return exchange(register_read_frames(address)); }

@@ -34,8 +34,9 @@ class SpiBridge {
   virtual std::string_view name() const = 0;
   /// Whether frames can wait for data-ready. Where not, `on_data_ready` must not be set.
   virtual bool sees_data_ready() const = 0;
-  /// From any state to idle: nothing queued, nothing unread, lines at rest, the SPI clock at most
-  /// `clock`. Ends a wait for data-ready.
+  /// From any state of the chip to idle: nothing queued in it, nothing unread, lines at rest, the
+  /// SPI clock at most `clock`. Ends a wait for data-ready. Precondition: all that was sent by this
+  /// `usb` is answered.
   virtual void start(usb::Device& usb, Hertz clock) = 0;
   /// The OUT transfers that make the frames happen, in order.
   virtual std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const = 0;

@@ -17,9 +17,8 @@ std::unique_ptr<SpiBridge> make_bridge(usb::Id id) {
 SpiBus::SpiBus(std::unique_ptr<usb::Device> usb, std::unique_ptr<SpiBridge> bridge)
     : usb_(std::move(usb)), bridge_(std::move(bridge)) {}
 
-void SpiBus::restart(Hertz clock) {
-  expected_.clear();
-  came_.clear();
+void SpiBus::start(Hertz clock) {
+  assert(expected_.empty());
   bridge_->start(*usb_, clock);
 }
 

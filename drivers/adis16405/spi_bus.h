@@ -26,8 +26,8 @@ class SpiBus {
   SpiBus(std::unique_ptr<usb::Device> usb, std::unique_ptr<SpiBridge> bridge);
 
   const SpiBridge& bridge() const { return *bridge_; }
-  /// To idle, from any state; queued frames and their answers are forgotten.
-  void restart(Hertz clock);
+  /// Starts the bridge, or gives it another clock. Precondition: no frame waits for its answer.
+  void start(Hertz clock);
   /// Queues frames, for one USB transfer where the bridge can. Returns at once.
   void send(std::span<const SpiFrame> frames);
   /// All answers that came, in order. None: not within `timeout`, or already before it is over.

@@ -41,10 +41,6 @@ class EmulatedDevice final : public drivers::usb::Device {
     if (arrived_.empty()) check();
     return std::exchange(arrived_, {});
   }
-  void abort() override {
-    to_send_.clear();
-    arrived_.clear();
-  }
   Duration now() const override { return peripheral_.now(); }
   void sleep(Duration duration) override {
     check();

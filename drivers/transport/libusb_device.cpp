@@ -173,12 +173,6 @@ void LibusbDevice::cancel(std::list<Slot>& slots) {
   while (in_flight() && Clock::now() < deadline) handle_events(100ms);
 }
 
-void LibusbDevice::abort() {
-  cancel(out_);
-  handle_events(0ns);
-  arrived_.clear();
-}
-
 Duration LibusbDevice::now() const { return Clock::now().time_since_epoch(); }
 
 void LibusbDevice::sleep(Duration duration) { std::this_thread::sleep_for(duration); }

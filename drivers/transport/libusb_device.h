@@ -29,7 +29,6 @@ class LibusbDevice final : public Device {
   void control(const Request& request) override;
   void send(std::vector<std::uint8_t> bytes) override;
   std::vector<Transfer> receive(Duration timeout) override;
-  void abort() override;
   Duration now() const override;
   void sleep(Duration duration) override;
 

@@ -65,8 +65,6 @@ class Device {
   /// All that came in, in order, waiting at most `timeout` for the first. Throws only where nothing
   /// is left to be taken.
   virtual std::vector<Transfer> receive(Duration timeout) = 0;
-  /// Takes back what the device has not accepted yet, and forgets what came in.
-  virtual void abort() = 0;
 
   /// A clock that never steps; any origin.
   virtual Duration now() const = 0;

@@ -116,6 +116,19 @@ TEST_P(Polled, LosesNothing) {
   EXPECT_TRUE(rig.sensor.violations().empty()) << rig.sensor.violations().front();
 }
 
+// Outputs that have waited since the sensor's start are all new, but may be of two samples.
+TEST_P(Polled, BeginsWithAWholeSample) {
+  for (int phase = 0; phase < 40; ++phase) {
+    Rig rig(GetParam());
+    rig.bus.hold_up(phase * std::chrono::microseconds(61));  // of a period of 1221
+    rig.open({"any", "", true, {}});
+    ASSERT_EQ(rig.read(5), ReadOutcome::kSamples);
+    for (const Stream stream : {kImu, kMagnetometer, kHousekeeping}) {
+      expect_stretch(rig.received[stream].rows, rig.taken(stream));
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Bridges, Polled, ::testing::Values(kFt232hId, kCp2130Id));
 
 // What a start-up refuses.
