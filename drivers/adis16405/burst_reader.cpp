@@ -35,7 +35,7 @@ std::int64_t least_period_ns(const Settings& settings) {
 }
 
 template <class Visitor>
-void for_each_channel(std::uint16_t channels, Visitor&& visitor) {
+void for_each_channel(unsigned channels, Visitor&& visitor) {
   for (std::size_t i = 0; i < kBurstChannels; ++i) {
     if ((channels >> i & 1U) != 0) visitor(i);
   }

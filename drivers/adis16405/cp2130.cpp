@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "drivers/adis16405/burst.h"
-
 namespace imunoise::drivers::adis16405 {
 namespace {
 
@@ -41,7 +39,5 @@ std::vector<std::uint8_t> cp2130_write_read(Bytes send) {
   out.insert(out.end(), send.begin(), send.end());
   return out;
 }
-
-std::vector<std::uint8_t> cp2130_burst() { return cp2130_write_read(kBurstRequest); }
 
 }  // namespace imunoise::drivers::adis16405

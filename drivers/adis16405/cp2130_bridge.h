@@ -12,6 +12,8 @@ class Cp2130Bridge final : public SpiBridge {
   bool sees_data_ready() const override { return false; }
   void start(usb::Device& usb, Hertz clock) override;
   std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const override;
+  std::size_t mark_bytes() const override { return 0; }
+  bool is_mark(Bytes /*bytes*/) const override { return true; }
   void decode(Bytes transfer, std::vector<std::uint8_t>& out) const override;
 };
 

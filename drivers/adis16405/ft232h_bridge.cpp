@@ -57,10 +57,14 @@ std::vector<std::vector<std::uint8_t>> Ft232hBridge::encode(
   std::vector<std::uint8_t> out;
   for (const SpiFrame& frame : frames) {
     append_mpsse_transfer(out, frame.send, frame.on_data_ready);
+    append_mpsse_mark(out);
+    append_mpsse_flush(out);
     if (frame.pause > 0us) append_mpsse_pause(out, frame.pause, clock_);
   }
   return {std::move(out)};
 }
+
+bool Ft232hBridge::is_mark(Bytes bytes) const { return is_mpsse_mark(bytes.front()); }
 
 void Ft232hBridge::decode(Bytes transfer, std::vector<std::uint8_t>& out) const {
   strip_ftdi_status(transfer, out);

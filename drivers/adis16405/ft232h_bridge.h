@@ -12,6 +12,8 @@ class Ft232hBridge final : public SpiBridge {
   bool sees_data_ready() const override { return true; }
   void start(usb::Device& usb, Hertz clock) override;
   std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const override;
+  std::size_t mark_bytes() const override { return 1; }
+  bool is_mark(Bytes bytes) const override;
   void decode(Bytes transfer, std::vector<std::uint8_t>& out) const override;
 
  private:

@@ -4,13 +4,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "drivers/adis16405/burst.h"
-
 namespace imunoise::drivers::adis16405 {
 namespace {
 
 enum Opcode : std::uint8_t {
   kSetLowPins = 0x80,
+  kReadLowPins = 0x81,
   kTransferFallingWriteRisingRead = 0x31,
   kLoopbackOff = 0x85,
   kSetDivisor = 0x86,
@@ -59,8 +58,13 @@ void append_mpsse_transfer(std::vector<std::uint8_t>& out, Bytes send, bool on_d
   out.insert(out.end(), send.begin(), send.end());
   set_pins(out, kCs);
   set_pins(out, kSk | kCs);
-  out.push_back(kSendImmediate);
 }
+
+void append_mpsse_mark(std::vector<std::uint8_t>& out) { out.push_back(kReadLowPins); }
+
+bool is_mpsse_mark(std::uint8_t byte) { return (byte & kOutputs) == (kSk | kCs); }
+
+void append_mpsse_flush(std::vector<std::uint8_t>& out) { out.push_back(kSendImmediate); }
 
 void append_mpsse_pause(std::vector<std::uint8_t>& out, std::chrono::microseconds least,
                         Hertz clock) {
@@ -69,14 +73,6 @@ void append_mpsse_pause(std::vector<std::uint8_t>& out, std::chrono::microsecond
   out.insert(out.end(), {kClockOnly, static_cast<std::uint8_t>(eights & 0xffU),
                          static_cast<std::uint8_t>(eights >> 8U)});
   set_pins(out, kSk | kCs);
-}
-
-std::vector<std::uint8_t> mpsse_bursts(std::size_t count, bool on_data_ready) {
-  std::vector<std::uint8_t> out;
-  for (std::size_t i = 0; i < count; ++i) {
-    append_mpsse_transfer(out, kBurstRequest, on_data_ready);
-  }
-  return out;
 }
 
 void strip_ftdi_status(Bytes transfer, std::vector<std::uint8_t>& out) {

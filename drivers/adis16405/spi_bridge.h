@@ -40,7 +40,11 @@ class SpiBridge {
   virtual void start(usb::Device& usb, Hertz clock) = 0;
   /// The OUT transfers that make the frames happen, in order.
   virtual std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const = 0;
-  /// Appends what the sensor said of an IN transfer to `out`.
+  /// Bytes behind each answer by which a loss of bytes shows.
+  virtual std::size_t mark_bytes() const = 0;
+  /// Whether these are such bytes.
+  virtual bool is_mark(Bytes bytes) const = 0;
+  /// Appends what the sensor said of an IN transfer to `out`, marks included.
   virtual void decode(Bytes transfer, std::vector<std::uint8_t>& out) const = 0;
 };
 

@@ -1,10 +1,14 @@
 #include "drivers/adis16405/spi_bus.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 #include "drivers/adis16405/cp2130_bridge.h"
 #include "drivers/adis16405/ft232h_bridge.h"
+#include "drivers/plugin/device.h"
 
 namespace imunoise::drivers::adis16405 {
 
@@ -30,6 +34,13 @@ void SpiBus::send(std::span<const SpiFrame> frames) {
 }
 
 std::vector<SpiAnswer> SpiBus::receive(usb::Duration timeout) {
+  if (lost_bytes_) {
+    throw plugin::DeviceError(
+        IMUNOISE_DISCONNECTED,
+        fmt::format("{}: bytes were lost on their way; it is started again. If "
+                    "that happens often, use another USB port or cable",
+                    bridge_->name()));
+  }
   std::vector<SpiAnswer> out;
   for (const usb::Transfer& transfer : usb_->receive(timeout)) {
     bridge_->decode(transfer.bytes, came_);
@@ -40,15 +51,17 @@ std::vector<SpiAnswer> SpiBus::receive(usb::Duration timeout) {
 
 // Makes answers of the bytes that came.
 void SpiBus::cut(std::int64_t host_time_ns, std::vector<SpiAnswer>& answers) {
-  auto next = came_.begin();
-  while (!expected_.empty() &&
-         came_.end() - next >= static_cast<std::ptrdiff_t>(expected_.front())) {
-    const auto end = next + static_cast<std::ptrdiff_t>(expected_.front());
-    answers.push_back({{next, end}, host_time_ns});
+  const std::size_t mark = bridge_->mark_bytes();
+  Bytes rest = came_;
+  while (!expected_.empty() && rest.size() >= mark + expected_.front()) {
+    const Bytes answer = rest.first(expected_.front());
+    lost_bytes_ = !bridge_->is_mark(rest.subspan(answer.size(), mark));
+    if (lost_bytes_) break;
+    answers.push_back({{answer.begin(), answer.end()}, host_time_ns});
+    rest = rest.subspan(mark + answer.size());
     expected_.pop_front();
-    next = end;
   }
-  came_.erase(came_.begin(), expected_.empty() ? came_.end() : next);
+  came_.erase(came_.begin(), expected_.empty() ? came_.end() : came_.end() - std::ssize(rest));
 }
 
 }  // namespace imunoise::drivers::adis16405

@@ -31,6 +31,7 @@ class SpiBus {
   /// Queues frames, for one USB transfer where the bridge can. Returns at once.
   void send(std::span<const SpiFrame> frames);
   /// All answers that came, in order. None: not within `timeout`, or already before it is over.
+  /// Throws DISCONNECTED where bytes were lost on the way: what follows them has no meaning.
   std::vector<SpiAnswer> receive(usb::Duration timeout);
 
   usb::Duration now() const { return usb_->now(); }
@@ -42,7 +43,8 @@ class SpiBus {
   std::unique_ptr<usb::Device> usb_;
   std::unique_ptr<SpiBridge> bridge_;
   std::deque<std::size_t> expected_;  // lengths of answers
-  std::vector<std::uint8_t> came_;    // of answers that are not whole yet
+  bool lost_bytes_ = false;
+  std::vector<std::uint8_t> came_;  // of answers that are not whole yet
 };
 
 }  // namespace imunoise::drivers::adis16405

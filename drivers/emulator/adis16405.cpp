@@ -207,9 +207,10 @@ void Adis16405::execute(std::uint16_t word, Time now) {
 void Adis16405::write_byte(std::uint8_t address, std::uint8_t value, Time now) {
   if (address < kFirstWritable || faults.forgets_writes) return;
   std::uint16_t& stored = registers_[address / 2U];
-  const bool upper = address % 2 != 0;
-  stored = static_cast<std::uint16_t>(upper ? (stored & 0x00ffU) | value << 8U
-                                            : (stored & 0xff00U) | value);
+  const unsigned kept = stored;
+  const unsigned written = value;
+  stored = static_cast<std::uint16_t>(address % 2 != 0 ? (kept & 0x00ffU) | written << 8U
+                                                       : (kept & 0xff00U) | written);
   if (&stored == &at(Register::kGlobalCommand)) {
     const bool resets = (stored & kCommandSoftwareReset) != 0;
     stored = 0;

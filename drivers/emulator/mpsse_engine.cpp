@@ -12,6 +12,8 @@ constexpr double kEngineClock = 60e6;
 constexpr Time kCommandTime = 100ns;
 constexpr std::uint8_t kClockPin = 0x01;
 constexpr std::uint8_t kSelectPin = 0x08;
+constexpr std::uint8_t kDataReadyPin = 0x20;
+constexpr std::uint8_t kPulledUp = 0xd4;  // DI and the other GPIOL pins
 
 Time cycles(double count, Hertz clock) {
   return Time(static_cast<Time::rep>(count / clock.value * 1e9));
@@ -87,6 +89,10 @@ void MpsseEngine::run_short(std::uint8_t opcode, Time& now) {
     case 0x80:  // levels of the pins, and which are outputs
       set_pins(pop(), now);
       pop();
+      break;
+    case 0x81:  // levels of the pins; what nobody drives is pulled up
+      answers_.push_back(static_cast<std::uint8_t>(kPulledUp | pins_ |
+                                                   (sensor_.data_ready(now) ? kDataReadyPin : 0U)));
       break;
     case 0x86:
       clock_ = {kEngineClock / (2.0 * (pop_number() + 1.0))};

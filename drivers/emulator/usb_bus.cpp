@@ -17,7 +17,8 @@ using plugin::DeviceError;
 
 namespace {
 constexpr Duration kControlTime = 125us;  // a microframe of high-speed USB
-}
+constexpr std::size_t kAnswerBytes = 4;   // shorter packets may hold none
+}  // namespace
 
 class EmulatedDevice final : public drivers::usb::Device {
  public:
@@ -63,6 +64,8 @@ class EmulatedDevice final : public drivers::usb::Device {
       peripheral_.run(end);
       if (arrived_.size() >= transfers) continue;
       if (auto packet = peripheral_.in()) {
+        const bool answers = packet->size() >= kAnswerBytes;
+        if (answers && std::exchange(bus_.loses_byte_, false)) packet->erase(packet->end() - 2);
         arrived_.push_back({std::move(*packet), bus_.host_time_ns(peripheral_.now())});
       }
     }

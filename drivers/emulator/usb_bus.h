@@ -29,6 +29,8 @@ class EmulatedBus final : public drivers::usb::Bus {
   void hold_up(Time duration, std::size_t transfers = drivers::usb::kTransfersInFlight) {
     hold_up_ = {duration, transfers};
   }
+  /// The next packet with an answer loses a byte of it.
+  void lose_byte() { loses_byte_ = true; }
   /// The host's clock at a moment of the peripheral.
   std::int64_t host_time_ns(Time time) const { return start_ns_ + time.count(); }
 
@@ -45,6 +47,7 @@ class EmulatedBus final : public drivers::usb::Bus {
   bool plugged_ = true;
   bool forbidden_ = false;
   HoldUp hold_up_;
+  bool loses_byte_ = false;
 };
 
 }  // namespace imunoise::emulator

@@ -134,6 +134,21 @@ TEST(Adis16405Faults, UnpluggedAndPluggedIn) {
   EXPECT_TRUE(rig.noted("is back"));
 }
 
+TEST(Adis16405Faults, ALostByteIsNoticed) {
+  Running rig;
+  ASSERT_EQ(rig.read(100), ReadOutcome::kSamples);
+  rig.bus.lose_byte();
+  ASSERT_EQ(rig.read(10'000), ReadOutcome::kDisconnected);
+  EXPECT_NE(rig.device->disconnection().find("bytes were lost"), std::string::npos);
+  const std::size_t before = rig.received[kImu].rows.size();
+  EXPECT_LE(before, 110U) << "what followed the loss was taken for samples";
+  ASSERT_EQ(rig.read(before + 100), ReadOutcome::kSamples);
+  for (const Stream stream : kStreams) {
+    EXPECT_LE(expect_in_order(rig.received[stream].rows, rig.taken(stream)), 1U);
+    EXPECT_EQ(rig.received[stream].flagged(IMUNOISE_SAMPLE_AFTER_RESTART), 1U);
+  }
+}
+
 TEST(Adis16405Faults, PermissionThatComesLateIsWaitedFor) {
   Running rig;
   rig.bus.unplug();
