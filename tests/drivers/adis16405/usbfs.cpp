@@ -10,14 +10,15 @@
 #include <cstdlib>
 #include <cstring>
 #include <span>
+#include <utility>
 
 namespace imunoise::testing {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr emulator::Time kStep = 2ms;  // that passes where nothing can be reaped
-constexpr auto kNobodyAsks = 20ms;
+constexpr emulator::Time kStep = 2ms;       // that passes where nothing can be reaped
+constexpr emulator::Time kPause = 20ms;     // from here on it counts as one of the driver's
 constexpr std::size_t kSetupBytes = 8;      // of a control transfer
 constexpr unsigned char kSerialString = 3;  // index of the string descriptor
 
@@ -129,10 +130,11 @@ gboolean UsbFs::on_ioctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* clien
 }
 
 long UsbFs::serve(unsigned long request, UMockdevIoctlData* argument) {
+  const auto now = Clock::now();
+  const emulator::Time pause = now - std::exchange(last_call_, now);
   if (request == USBDEVFS_REAPURBNDELAY) return reap(argument);
   if (request == USBDEVFS_DISCARDURB) return discard(argument);
   if (!plugged_) return -ENODEV;
-  pass_like_life();
   switch (request) {
     case USBDEVFS_GET_CAPABILITIES: {
       UMockdevIoctlData* const out =
@@ -150,25 +152,30 @@ long UsbFs::serve(unsigned long request, UMockdevIoctlData* argument) {
     case USBDEVFS_GETDRIVER:
       return -ENODATA;
     case USBDEVFS_SUBMITURB:
-      return submit(argument);
+      return submit(argument, pause);
     default:
       return -ENOTTY;
   }
 }
 
-long UsbFs::submit(UMockdevIoctlData* argument) {
+long UsbFs::submit(UMockdevIoctlData* argument, emulator::Time pause) {
   UMockdevIoctlData* const data =
       umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
   Urb urb{umockdev_ioctl_data_ref(data)};
   umockdev_ioctl_data_resolve(data, G_STRUCT_OFFSET(usbdevfs_urb, buffer),
                               static_cast<gsize>(urb.urb().buffer_length), nullptr);
+  const bool listens = urb.urb().endpoint == peripheral_.identity().in_endpoint;
+  if (!listens && pause >= kPause) {
+    const emulator::Time end = peripheral_.now() + pause;
+    while (peripheral_.now() < end) pass(end);
+  }
   if (urb.urb().type == USBDEVFS_URB_TYPE_CONTROL) {
     std::deque<Urb> now = {urb};
     const int result = control(urb.bytes(), urb.urb().buffer_length);
     urb.urb().actual_length = std::max(0, result);
     complete(now, std::min(0, result));
   } else {
-    (urb.urb().endpoint == peripheral_.identity().in_endpoint ? in_ : out_).push_back(urb);
+    (listens ? in_ : out_).push_back(urb);
   }
   return 0;
 }
@@ -211,7 +218,6 @@ long UsbFs::discard(UMockdevIoctlData* argument) {
 
 long UsbFs::reap(UMockdevIoctlData* argument) {
   if (plugged_) {
-    pass_like_life();
     const emulator::Time end = peripheral_.now() + kStep;
     while (complete_.empty() && !(in_.empty() && out_.empty()) && peripheral_.now() < end) {
       pass(end);
@@ -231,14 +237,6 @@ void UsbFs::pass(emulator::Time end) {
   exchange_data();
   peripheral_.run(end);
   exchange_data();
-}
-
-void UsbFs::pass_like_life() {
-  const auto now = Clock::now();
-  const emulator::Time waited = now - std::exchange(last_call_, now);
-  if (waited < kNobodyAsks) return;
-  const emulator::Time end = peripheral_.now() + waited;
-  while (peripheral_.now() < end) pass(end);
 }
 
 void UsbFs::exchange_data() {

@@ -18,8 +18,9 @@ struct usbdevfs_urb;
 namespace imunoise::testing {
 
 /// One device, plugged in from the start. It needs umockdev's library preloaded: see available().
-/// Time passes for the device as fast as libusb asks for its data; where nobody asks for a while,
-/// as in life. Its calls come from a thread of umockdev: look at the device with lock() held.
+/// Time passes for the device as fast as libusb asks for its data, so that a busy machine changes
+/// nothing; where the driver speaks again after a pause of its own, the pause has passed as well.
+/// Its calls come from a thread of umockdev: look at the device with lock() held.
 class UsbFs {
  public:
   /// Borrows the peripheral.
@@ -51,12 +52,11 @@ class UsbFs {
   static gboolean on_ioctl(UMockdevIoctlBase* base, UMockdevIoctlClient* client, UsbFs* self);
   /// The result of a call: not negative, or -errno.
   long serve(unsigned long request, UMockdevIoctlData* argument);
-  long submit(UMockdevIoctlData* argument);
+  long submit(UMockdevIoctlData* argument, emulator::Time pause);
   long discard(UMockdevIoctlData* argument);
   long reap(UMockdevIoctlData* argument);
   int control(unsigned char* setup, int length);
-  void pass(emulator::Time time);
-  void pass_like_life();
+  void pass(emulator::Time end);
   void exchange_data();
   void complete(std::deque<Urb>& queue, int status);
   std::string node() const;
