@@ -16,11 +16,13 @@ build_packages=(
   libprotobuf-dev protobuf-compiler
   libhdf5-dev      # recordings
   libcli11-dev     # the command line
+  libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
 )
 test_packages=(
   libgtest-dev nlohmann-json3-dev
   clang libclang-rt-14-dev       # fuzzing
   clang-format clang-tidy
+  umockdev libumockdev-dev       # USB devices that are not there
   python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
 )
 bench_packages=(libbenchmark-dev time)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "drivers/adis16405/registers.h"
-
 namespace imunoise::drivers::adis16405 {
 
 const std::array<std::string_view, kBurstChannels> kChannelNames = {
@@ -14,7 +12,6 @@ namespace {
 
 constexpr std::uint16_t kNew = 0x8000;
 constexpr std::uint16_t kAlarm = 0x4000;
-constexpr std::uint16_t kInertial = 0x007e;  // gyro_x .. acc_z
 
 struct Format {
   unsigned bits;
@@ -63,7 +60,16 @@ Result<std::array<CountScale, kBurstChannels>> count_scales(std::uint16_t sensit
                                                 acc,    mag,  mag,  mag,  temperature, aux};
 }
 
-tl::expected<Burst, Refusal> decode_burst(Bytes bytes) {
+std::array<SiUnit, kBurstChannels> si_scales(const std::array<CountScale, kBurstChannels>& scales) {
+  std::array<SiUnit, kBurstChannels> out;
+  for (std::size_t i = 0; i < kBurstChannels; ++i) {
+    const SiUnit si = si_unit(scales[i].unit);
+    out[i] = {si.symbol, scales[i].scale * si.scale, scales[i].offset * si.scale + si.offset};
+  }
+  return out;
+}
+
+tl::expected<Burst, Refusal> parse_burst(Bytes bytes) {
   if (bytes.size() != kBurstBytes) return tl::unexpected(Refusal::kLength);
   BigEndianReader in(bytes.subspan(2));
   Burst out;
@@ -76,10 +82,16 @@ tl::expected<Burst, Refusal> decode_burst(Bytes bytes) {
     if ((word & kAlarm) != 0) out.alarm = static_cast<std::uint16_t>(out.alarm | 1U << i);
   }
   if (all_ones) return tl::unexpected(Refusal::kNoAnswer);
-  const unsigned inertial = out.is_new & kInertial;
-  if (inertial == 0) return tl::unexpected(Refusal::kStale);
-  if (inertial != kInertial) return tl::unexpected(Refusal::kTorn);
   return out;
+}
+
+tl::expected<Burst, Refusal> decode_burst(Bytes bytes) {
+  const auto burst = parse_burst(bytes);
+  if (!burst) return burst;
+  const unsigned inertial = burst->is_new & kInertialChannels;
+  if (inertial == 0) return tl::unexpected(Refusal::kStale);
+  if (inertial != kInertialChannels) return tl::unexpected(Refusal::kTorn);
+  return burst;
 }
 
 std::vector<std::uint8_t> encode_burst(const Burst& burst) {

@@ -2,9 +2,6 @@
 
 #include <cassert>
 
-#include "drivers/adis16405/burst.h"
-#include "drivers/adis16405/registers.h"
-
 namespace imunoise::drivers::adis16405 {
 namespace {
 
@@ -41,12 +38,6 @@ std::vector<std::uint8_t> cp2130_write_read(Bytes send) {
   }
   out.insert(out.end(), send.begin(), send.end());
   return out;
-}
-
-std::vector<std::uint8_t> cp2130_burst() {
-  std::array<std::uint8_t, kBurstBytes> send{};
-  send[0] = kBurstCommand >> 8U;
-  return cp2130_write_read(send);
 }
 
 }  // namespace imunoise::drivers::adis16405

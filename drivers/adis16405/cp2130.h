@@ -32,7 +32,4 @@ Cp2130Request cp2130_no_delays(std::uint8_t channel);
 /// What goes to bulk OUT for a transfer of `send` both ways; as many bytes come back by bulk IN.
 std::vector<std::uint8_t> cp2130_write_read(Bytes send);
 
-/// cp2130_write_read() of one burst: 34 bytes, a single packet.
-std::vector<std::uint8_t> cp2130_burst();
-
 }  // namespace imunoise::drivers::adis16405

@@ -12,12 +12,7 @@ constexpr std::array<std::string_view, kBurstChannels> kOldFlags = {
 }  // namespace
 
 BurstDecoder::BurstDecoder(const std::array<CountScale, kBurstChannels>& scales, Hertz rate)
-    : rate_(rate) {
-  for (std::size_t i = 0; i < kBurstChannels; ++i) {
-    const SiUnit si = si_unit(scales[i].unit);
-    units_[i] = {si.symbol, scales[i].scale * si.scale, scales[i].offset * si.scale + si.offset};
-  }
-}
+    : rate_(rate), units_(si_scales(scales)) {}
 
 void BurstDecoder::push(Bytes bytes) {
   buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));

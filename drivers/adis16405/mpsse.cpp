@@ -1,18 +1,15 @@
 #include "drivers/adis16405/mpsse.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-
-#include "drivers/adis16405/burst.h"
-#include "drivers/adis16405/registers.h"
 
 namespace imunoise::drivers::adis16405 {
 namespace {
 
 enum Opcode : std::uint8_t {
   kSetLowPins = 0x80,
+  kReadLowPins = 0x81,
   kTransferFallingWriteRisingRead = 0x31,
   kLoopbackOff = 0x85,
   kSetDivisor = 0x86,
@@ -21,6 +18,7 @@ enum Opcode : std::uint8_t {
   kWaitLow = 0x89,
   kClock60MHz = 0x8a,
   kThreePhaseOff = 0x8d,
+  kClockOnly = 0x8f,  // 8 (1 + length) cycles without data
   kAdaptiveOff = 0x97,
 };
 
@@ -60,15 +58,21 @@ void append_mpsse_transfer(std::vector<std::uint8_t>& out, Bytes send, bool on_d
   out.insert(out.end(), send.begin(), send.end());
   set_pins(out, kCs);
   set_pins(out, kSk | kCs);
-  out.push_back(kSendImmediate);
 }
 
-std::vector<std::uint8_t> mpsse_bursts(std::size_t count, bool on_data_ready) {
-  std::array<std::uint8_t, kBurstBytes> send{};
-  send[0] = kBurstCommand >> 8U;
-  std::vector<std::uint8_t> out;
-  for (std::size_t i = 0; i < count; ++i) append_mpsse_transfer(out, send, on_data_ready);
-  return out;
+void append_mpsse_mark(std::vector<std::uint8_t>& out) { out.push_back(kReadLowPins); }
+
+bool is_mpsse_mark(std::uint8_t byte) { return (byte & kOutputs) == (kSk | kCs); }
+
+void append_mpsse_flush(std::vector<std::uint8_t>& out) { out.push_back(kSendImmediate); }
+
+void append_mpsse_pause(std::vector<std::uint8_t>& out, std::chrono::microseconds least,
+                        Hertz clock) {
+  const double cycles = static_cast<double>(least.count()) * 1e-6 * clock.value;
+  const auto eights = static_cast<unsigned>(std::clamp(std::ceil(cycles / 8.0), 1.0, 65536.0)) - 1;
+  out.insert(out.end(), {kClockOnly, static_cast<std::uint8_t>(eights & 0xffU),
+                         static_cast<std::uint8_t>(eights >> 8U)});
+  set_pins(out, kSk | kCs);
 }
 
 void strip_ftdi_status(Bytes transfer, std::vector<std::uint8_t>& out) {

@@ -5,6 +5,7 @@
 // data- ready line on GPIOL1. Sources: pyftdi, flashrom and libmpsse for the opcodes; the
 // composition has not met hardware yet.
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,8 +33,18 @@ std::vector<std::uint8_t> mpsse_setup(Hertz clock);
 /// wait). Precondition: 1 to 65536 bytes.
 void append_mpsse_transfer(std::vector<std::uint8_t>& out, Bytes send, bool on_data_ready);
 
-/// `count` bursts, one after the other: 26 bytes come back for each, as soon as it is complete.
-std::vector<std::uint8_t> mpsse_bursts(std::size_t count, bool on_data_ready);
+/// Appends a question for the levels of the pins: one byte comes back.
+void append_mpsse_mark(std::vector<std::uint8_t>& out);
+/// Whether that byte is what idle lines give. Where bytes were lost before it, it is another byte.
+bool is_mpsse_mark(std::uint8_t byte);
+
+/// Appends: what has come back goes to the host now, though it fills no packet.
+void append_mpsse_flush(std::vector<std::uint8_t>& out);
+
+/// Appends a pause of at least `least` between two transfers, as cycles of a clock of `clock` that
+/// nobody listens to.
+void append_mpsse_pause(std::vector<std::uint8_t>& out, std::chrono::microseconds least,
+                        Hertz clock);
 
 /// Appends what an IN transfer carries to `out`, without the two status bytes of each packet.
 void strip_ftdi_status(Bytes transfer, std::vector<std::uint8_t>& out);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/adis16405/burst.h"
 #include "drivers/adis16405/cp2130.h"
 #include "drivers/adis16405/mpsse.h"
 #include "tests/drivers/wire.h"
@@ -14,6 +15,15 @@ using drivers::testing::from_hex;
 using imunoise::testing::read_json;
 
 using ByteVector = std::vector<std::uint8_t>;
+
+ByteVector mpsse_bursts(std::size_t count, bool on_data_ready) {
+  ByteVector out;
+  for (std::size_t i = 0; i < count; ++i) {
+    append_mpsse_transfer(out, kBurstRequest, on_data_ready);
+    append_mpsse_flush(out);
+  }
+  return out;
+}
 
 TEST(Mpsse, VectorsAgree) {
   IMUNOISE_NEEDS("vectors/wire.json");
@@ -59,6 +69,10 @@ struct Pins {
           i += 3 + length;
           break;
         }
+        case 0x8f:
+          seen += std::to_string(8 * (commands[i + 1] + commands[i + 2] * 256U + 1)) + "cycles ";
+          i += 3;
+          break;
         case 0x88:
         case 0x89:
           seen += commands[i] == 0x88 ? "wait-high " : "wait-low ";
@@ -87,7 +101,30 @@ TEST(Mpsse, QueuedBurstsAreSelectedClockedAndSentOneByOne) {
   ByteVector commands;
   append_mpsse_transfer(commands, ByteVector(300, 0x88), false);
   longer.run(commands);
-  EXPECT_EQ(longer.seen, "[ down 300bytes ] send ");
+  EXPECT_EQ(longer.seen, "[ down 300bytes ] ");
+}
+
+TEST(Mpsse, MarksAreIdleLines) {
+  ByteVector commands;
+  append_mpsse_mark(commands);
+  EXPECT_EQ(commands, from_hex("81"));
+  // Clock and chip select high, data out low; the other pins may be anything.
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    EXPECT_EQ(is_mpsse_mark(static_cast<std::uint8_t>(byte)),
+              (byte & 0x01U) != 0 && (byte & 0x02U) == 0 && (byte & 0x08U) != 0);
+  }
+}
+
+TEST(Mpsse, PausesAreNeverShorterThanAsked) {
+  using namespace std::chrono_literals;
+  for (const auto& [pause, cycles] : {std::pair{150us, "152cycles "}, std::pair{1us, "8cycles "}}) {
+    Pins pins;
+    ByteVector commands;
+    append_mpsse_pause(commands, pause, Hertz{1e6});
+    pins.run(commands);
+    EXPECT_EQ(pins.seen, cycles);
+    EXPECT_TRUE(pins.clock && pins.select);
+  }
 }
 
 TEST(Mpsse, ClockIsNeverFasterThanAsked) {
@@ -122,7 +159,7 @@ TEST(Cp2130, RequestsAreAsDocumented) {
   EXPECT_EQ(cp2130_spi_word(0, Hertz{0.1e6}), (Cp2130Request{0x31, {0x00, 0x3f}}));
   EXPECT_EQ(cp2130_select_only(1), (Cp2130Request{0x25, {1, 2}}));
   EXPECT_EQ(cp2130_no_delays(1).data.size(), 8U);
-  const ByteVector burst = cp2130_burst();
+  const ByteVector burst = cp2130_write_read(kBurstRequest);
   EXPECT_EQ(burst.size(), 34U);
   EXPECT_EQ(ByteVector(burst.begin(), burst.begin() + 10), from_hex("00000200 1a000000 3e00"));
 }
