@@ -16,6 +16,7 @@ build_packages=(
   libprotobuf-dev protobuf-compiler
   libhdf5-dev      # recordings
   libcli11-dev     # the command line
+  libserialport-dev  # the driver xsens
 )
 test_packages=(
   libgtest-dev nlohmann-json3-dev
