@@ -1,25 +1,34 @@
 #pragma once
 
+// What an emulated sensor measures.
+
 #include <array>
-#include <functional>
-#include <optional>
-#include <string_view>
 
 namespace imunoise::emulator {
 
-/// What an inertial sensor feels at one moment, in its own axes.
-struct ImuSample {
-  std::array<double, 3> angular_rate{};    ///< rad/s
-  std::array<double, 3> acceleration{};    ///< m/s²
-  std::array<double, 3> magnetic_field{};  ///< In the device's unit.
-  double temperature = 293.15;             ///< K
+using Vector = std::array<double, 3>;  // x, y, z
+
+/// What a sensor would say if it had no quantisation: true motion, noise and effects together. SI.
+struct Measurement {
+  Vector rate{};             ///< Angular rate, rad/s.
+  Vector specific_force{};   ///< m/s².
+  Vector field{};            ///< Magnetic flux density, T.
+  double temperature = 0.0;  ///< K.
+  double supply = 0.0;       ///< V.
+  double auxiliary = 0.0;    ///< V.
 };
 
-/// The sample at a time in s since the device's power came on. Called from the emulator's thread.
-using SampleSource = std::function<ImuSample(double seconds)>;
+/// Any noise model, any effect: whatever stands here is quantised and sent by an emulated device.
+class SampleSource {
+ public:
+  SampleSource() = default;
+  SampleSource(const SampleSource&) = delete;
+  SampleSource& operator=(const SampleSource&) = delete;
+  virtual ~SampleSource() = default;
 
-/// What a channel of drivers is called: "gyro_x", "acc_y", "mag_z", "temperature". Nothing for
-/// other names.
-std::optional<double> value_of(const ImuSample& sample, std::string_view channel);
+  /// The measurement at `time`, s since the device was switched on. Called once a sample; time
+  /// begins anew where power failed, else it grows.
+  virtual Measurement measure(double time) = 0;
+};
 
 }  // namespace imunoise::emulator

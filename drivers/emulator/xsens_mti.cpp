@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/codec/si_unit.h"
+#include "drivers/emulator/channel_value.h"
 #include "drivers/xsens/items.h"
 #include "drivers/xsens/mtdata2.h"
 #include "drivers/xsens/sample_clock.h"
@@ -34,17 +34,11 @@ void clip(std::array<double, 3>& vector, double range, unsigned bit, std::uint32
   }
 }
 
-// A channel's value in the unit in which the device sends it.
-double in_unit(const ImuSample& sample, std::string_view channel, std::string_view unit) {
-  const drivers::SiUnit si = drivers::si_unit(unit);
-  return (value_of(sample, channel).value_or(0.0) - si.offset) / si.scale;
-}
-
 }  // namespace
 
-XsensMti::XsensMti(MtiOptions options, SampleSource source)
+XsensMti::XsensMti(MtiOptions options, SampleSource& source)
     : options_(std::move(options)),
-      source_(std::move(source)),
+      source_(source),
       next_baud_(options_.baud),
       deaf_(options_.deaf_until_reset) {
   legacy_.device_id = options_.device_id;
@@ -171,12 +165,12 @@ double XsensMti::rate_hz() const {
 
 MtiMessage XsensMti::measure() {
   const double seconds = static_cast<double>(measured_) / rate_hz();
-  ImuSample sample = source_(seconds);
+  Measurement sample = source_.measure(seconds);
   MtiMessage out;
   out.counter = static_cast<std::uint16_t>(options_.first_counter + measured_);
   out.status = options_.self_test_passed ? 1U : 0U;
-  clip(sample.acceleration, kAccelerationRange, 8, out.status);
-  clip(sample.angular_rate, kRateRange, 11, out.status);
+  clip(sample.specific_force, kAccelerationRange, 8, out.status);
+  clip(sample.rate, kRateRange, 11, out.status);
   if (outputs_.empty()) {
     fill_legacy(sample, out);
   } else {
@@ -192,7 +186,7 @@ MtiMessage XsensMti::measure() {
   return out;
 }
 
-void XsensMti::fill_mtdata2(const ImuSample& sample, MtiMessage& out) const {
+void XsensMti::fill_mtdata2(const Measurement& sample, MtiMessage& out) const {
   drivers::MtData2Writer writer;
   for (const XsensOutput& output : outputs_) {
     switch (drivers::kind_of(output.data_id)) {
@@ -211,7 +205,7 @@ void XsensMti::fill_mtdata2(const ImuSample& sample, MtiMessage& out) const {
         if (item == nullptr || measured_ % every != 0) break;
         std::vector<double> numbers;
         for (const std::string_view channel : item->channels) {
-          numbers.push_back(in_unit(sample, channel, item->unit));
+          numbers.push_back(value_in_unit(sample, channel, item->unit));
           out.values.emplace_back(channel, numbers.back());
         }
         writer.numbers(item->item, drivers::format_of(output.data_id), numbers);
@@ -221,10 +215,10 @@ void XsensMti::fill_mtdata2(const ImuSample& sample, MtiMessage& out) const {
   out.frame = drivers::encode_message(XsensMessage::kMtData2, writer.payload());
 }
 
-void XsensMti::fill_legacy(const ImuSample& sample, MtiMessage& out) const {
+void XsensMti::fill_legacy(const Measurement& sample, MtiMessage& out) const {
   std::vector<double> numbers;
   for (const drivers::LegacyChannel& channel : drivers::channels_of(legacy_.layout)) {
-    numbers.push_back(in_unit(sample, channel.name, channel.unit));
+    numbers.push_back(value_in_unit(sample, channel.name, channel.unit));
     out.values.emplace_back(channel.name, numbers.back());
   }
   out.frame = drivers::encode_message(

@@ -41,7 +41,8 @@ struct MtiMessage {
 /// ±50 m/s² and rates beyond ±7.8 rad/s are clipped, and the status word says so.
 class XsensMti {
  public:
-  XsensMti(MtiOptions options, SampleSource source);
+  /// Borrows the source.
+  XsensMti(MtiOptions options, SampleSource& source);
 
   /// Power comes on: counter and time begin anew; it measures as it was configured last.
   void power_on();
@@ -64,11 +65,11 @@ class XsensMti {
   void take_output_configuration(drivers::Bytes payload);
   void answer(drivers::XsensMessage message, drivers::Bytes payload = {});
   void refuse(std::uint8_t error);
-  void fill_mtdata2(const ImuSample& sample, MtiMessage& out) const;
-  void fill_legacy(const ImuSample& sample, MtiMessage& out) const;
+  void fill_mtdata2(const Measurement& sample, MtiMessage& out) const;
+  void fill_legacy(const Measurement& sample, MtiMessage& out) const;
 
   MtiOptions options_;
-  SampleSource source_;
+  SampleSource& source_;
   drivers::XbusParser parser_;
   std::vector<std::uint8_t> answers_;
   std::vector<drivers::XsensOutput> outputs_;  // none: legacy MTData

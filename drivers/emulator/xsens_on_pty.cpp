@@ -13,11 +13,11 @@ constexpr milliseconds kTick{2};  // how often the line is looked at
 
 }  // namespace
 
-XsensOnPty::XsensOnPty(MtiOptions options, SampleSource source, std::vector<Fault> faults,
+XsensOnPty::XsensOnPty(MtiOptions options, SampleSource& source, std::vector<Fault> faults,
                        std::filesystem::path link)
     : link_(std::move(link)),
       faults_(std::move(faults)),
-      device_(std::move(options), std::move(source)),
+      device_(std::move(options), source),
       line_(std::make_unique<Pty>(link_)),
       due_(Clock::now()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}

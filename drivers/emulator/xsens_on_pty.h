@@ -21,7 +21,8 @@ struct SentMessage {
 /// in their baud rates, only noise passes. Faults count the samples of sent().
 class XsensOnPty {
  public:
-  XsensOnPty(MtiOptions options, SampleSource source, std::vector<Fault> faults,
+  /// Borrows the source, which its thread calls.
+  XsensOnPty(MtiOptions options, SampleSource& source, std::vector<Fault> faults,
              std::filesystem::path link);
   ~XsensOnPty() = default;
 

@@ -116,14 +116,17 @@ TEST_F(MtiSamples, AnOutputThatTheDeviceSendsMoreSlowlyIsAStreamOfItsOwn) {
   EXPECT_EQ((*session)->all_refused(0) + (*session)->all_refused(1), 0U);
 }
 
+class Shock final : public emulator::SampleSource {
+ public:
+  emulator::Measurement measure(double time) override {
+    return {.specific_force = {0.0, time > 0.15 ? 70.0 : 0.0, 0.0}};
+  }
+};
+
 TEST_F(MtiSamples, ClippingAndAFailedSelfTestAreFlags) {
   emulator::MtiOptions options;
   options.self_test_passed = false;
-  plug_in(options, {}, [](double seconds) {
-    emulator::ImuSample out;
-    out.acceleration[1] = seconds > 0.15 ? 70.0 : 0.0;
-    return out;
-  });
+  plug_in(options, {}, std::make_unique<Shock>());
   auto session = open({{"output", "acc"}});
   ASSERT_TRUE(session) << session.error().message;
   ASSERT_TRUE((*session)->read_rows(60)) << (*session)->failure();

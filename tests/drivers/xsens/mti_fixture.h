@@ -5,26 +5,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "drivers/emulator/xsens_on_pty.h"
+#include "tests/drivers/lively_source.h"
 #include "tests/drivers/recording_session.h"
 
 namespace imunoise::testing {
-
-/// A different value in every channel and sample.
-inline emulator::ImuSample lively(double seconds) {
-  emulator::ImuSample out;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double phase = 7.0 * seconds + static_cast<double>(axis);
-    out.angular_rate[axis] = 0.3 * std::sin(phase);
-    out.acceleration[axis] = 9.8 * std::cos(phase / 3.0);
-    out.magnetic_field[axis] = std::sin(phase / 5.0) / 3.0;
-  }
-  out.temperature = 300.0 + std::sin(seconds);
-  return out;
-}
 
 class MtiTest : public ::testing::Test {
  protected:
@@ -40,8 +27,9 @@ class MtiTest : public ::testing::Test {
   std::string port() const { return "/dev/../../.." + link().string(); }
 
   void plug_in(emulator::MtiOptions options = {}, std::vector<emulator::Fault> faults = {},
-               emulator::SampleSource source = lively) {
-    mti_.emplace(std::move(options), std::move(source), std::move(faults), link());
+               std::unique_ptr<emulator::SampleSource> source = std::make_unique<LivelySource>()) {
+    source_ = std::move(source);
+    mti_.emplace(std::move(options), *source_, std::move(faults), link());
   }
   Result<std::unique_ptr<RecordingSession>> open(
       std::vector<drivers::OptionText> options = {}) const {
@@ -59,6 +47,7 @@ class MtiTest : public ::testing::Test {
   }
 
   std::filesystem::path folder_;
+  std::unique_ptr<emulator::SampleSource> source_;
   std::optional<emulator::XsensOnPty> mti_;
 };
 
