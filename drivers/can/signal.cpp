@@ -74,12 +74,9 @@ double physical_value(const CanSignal& signal, std::uint64_t bits) {
     case SignalType::kUnsigned:
       number = static_cast<double>(bits);
       break;
-    case SignalType::kSigned: {
-      const std::size_t unused = 64 - signal.field.length;
-      number = static_cast<double>(static_cast<std::int64_t>(bits << unused) >>
-                                   static_cast<int>(unused));
+    case SignalType::kSigned:
+      number = static_cast<double>(sign_extended(bits, signal.field.length));
       break;
-    }
     case SignalType::kFloat32:
       number = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
       break;

@@ -54,6 +54,12 @@ struct CanSignal {
   std::vector<MultiplexRange> present_at;
 };
 
+/// The bits of a field of that length as a signed number.
+constexpr std::int64_t sign_extended(std::uint64_t bits, std::size_t length) {
+  const std::size_t unused = 64 - length;
+  return static_cast<std::int64_t>(bits << unused) >> static_cast<int>(unused);
+}
+
 /// The physical value of the field's bits.
 double physical_value(const CanSignal& signal, std::uint64_t bits);
 /// The bits that come nearest to a physical value. Error: the signal cannot hold it.

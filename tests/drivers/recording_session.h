@@ -82,6 +82,7 @@ class RecordingSession {
   const std::vector<std::string>& disconnections() const { return disconnections_; }
   const std::string& failure() const { return failure_; }
   drivers::Device& device() { return *device_; }
+  const drivers::DeviceInfo& info() const { return device_->info(); }
   /// Everything that the driver noted, a line each.
   std::string notes() const {
     const std::lock_guard lock(mutex_);
