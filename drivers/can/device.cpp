@@ -71,7 +71,7 @@ template <class Visit>
 void CanDevice::for_streams_of(const drivers::CanFrame& frame, Visit visit) {
   const drivers::CanMessage* const message =
       settings_.channels.database().find(frame.id, frame.extended);
-  if (message == nullptr || frame.remote) return;
+  if (message == nullptr) return;
   drivers::Refusals ignored;  // signals that are missing are counted by their streams
   drivers::decode_signals(*message, frame.data(), present_, ignored);
   for (std::size_t s = 0; s < streams_.size(); ++s) {

@@ -84,8 +84,8 @@ void CanImu::report_error(std::uint32_t kind) {
 }
 
 void CanImu::put_on_bus(Composed composed) {
+  const std::lock_guard lock(mutex_);  // who has received a frame finds it in sent()
   if (composed.record.sent) composed.record.sent = line_.send(composed.frame);
-  const std::lock_guard lock(mutex_);
   sent_.push_back(std::move(composed.record));
 }
 
