@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace imunoise::emulator {
@@ -53,6 +55,14 @@ std::size_t Pty::read(std::span<std::uint8_t> into, int timeout_ms) const {
 
 void Pty::write(drivers::Bytes bytes) const {
   [[maybe_unused]] const ssize_t count = ::write(device_end_, bytes.data(), bytes.size());
+}
+
+void Pty::drain() const {
+  int unread = 1;
+  for (int i = 0; unread > 0 && i < 200; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    checked(::ioctl(host_end_, FIONREAD, &unread), "FIONREAD");
+  }
 }
 
 std::uint32_t Pty::host_baud() const {

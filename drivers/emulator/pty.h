@@ -22,6 +22,8 @@ class Pty {
   std::size_t read(std::span<std::uint8_t> into, int timeout_ms) const;
   /// Writes what the line has room for; the rest is lost, as on a line that nobody reads.
   void write(drivers::Bytes bytes) const;
+  /// Waits until the host has read what was written; a second at most.
+  void drain() const;
   /// The baud rate that the host has set.
   std::uint32_t host_baud() const;
 

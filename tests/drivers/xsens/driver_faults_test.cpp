@@ -111,6 +111,7 @@ TEST_F(MtiFaults, CancelAndCloseWhileItIsAway) {
   drivers::Block block = session_->device().make_block(10);
   const auto start = RecordingSession::Clock::now();
   EXPECT_EQ(*session_->device().read(1h, block), drivers::ReadOutcome::kCancelled);
+  canceller.join();
   session_.reset();
   EXPECT_LT(RecordingSession::Clock::now() - start, 10s);
 }
