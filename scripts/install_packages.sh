@@ -17,6 +17,7 @@ build_packages=(
   libhdf5-dev      # recordings
   libcli11-dev     # the command line
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
+  libserialport-dev  # the driver xsens
 )
 test_packages=(
   libgtest-dev nlohmann-json3-dev

@@ -17,7 +17,8 @@ Result<CanChannels> CanChannels::make(CanDatabase database,
     entry.used = true;
     for (std::size_t i = 0; i < message.signals.size(); ++i) {
       const CanSignal& signal = message.signals[i];
-      entry.channels[i] = Channel{signal.name, si_unit(signal.unit), std::nullopt};
+      entry.channels[i] =
+          Channel{{message.name, signal.name, signal.name, signal.unit, {}}, si_unit(signal.unit)};
     }
   }
   for (const ChannelMapping& line : mapping) {
@@ -37,10 +38,11 @@ Result<CanChannels> CanChannels::make(CanDatabase database,
     auto& channel = entry.channels[static_cast<std::size_t>(signal - message->signals.begin())];
     if (channel) {
       return fail(fmt::format("channel {}: signal {} of message {} is channel {} already",
-                              line.channel, line.signal, line.message, channel->name));
+                              line.channel, line.signal, line.message, channel->mapping.channel));
     }
-    channel = Channel{line.channel, si_unit(line.unit.empty() ? signal->unit : line.unit),
-                      line.invalid_from};
+    channel = Channel{line, {}};
+    if (line.unit.empty()) channel->mapping.unit = signal->unit;
+    channel->unit = si_unit(channel->mapping.unit);
     entry.used = true;
   }
   return out;
@@ -67,10 +69,11 @@ CanChannels::Outcome CanChannels::decode(const CanFrame& frame, DecodedSample& s
     const auto& channel =
         entry.channels[static_cast<std::size_t>(value.signal - message->signals.data())];
     if (!channel) continue;
-    if (channel->invalid_from && value.bits >= *channel->invalid_from) {
+    const auto& invalid_from = channel->mapping.invalid_from;
+    if (invalid_from && value.bits >= *invalid_from) {
       refused.add(Refusal::kOutOfRange);
     } else {
-      append_value(sample, channel->name, channel->unit, value.physical, refused);
+      append_value(sample, channel->mapping.channel, channel->unit, value.physical, refused);
     }
   }
   return Outcome::kSample;

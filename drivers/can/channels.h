@@ -23,6 +23,8 @@ struct ChannelMapping {
   std::string unit;     ///< Of the physical value; empty: as the database says.
   /// Bits from this value on mean "not valid" (J1939's upper codes).
   std::optional<std::uint64_t> invalid_from;
+  /// Of a counter: the value after which it is 0 again; unset: all its bits are ones.
+  std::optional<std::uint64_t> last = {};
 };
 
 /// A database and the channels made of it. Samples borrow names and units from it. Immutable once
@@ -43,15 +45,21 @@ class CanChannels {
 
   const CanDatabase& database() const { return database_; }
 
- private:
+  /// What a signal was mapped to.
   struct Channel {
-    std::string name;
+    ChannelMapping mapping;  ///< Its unit: as the database says where the user said nothing.
     SiUnit unit;
-    std::optional<std::uint64_t> invalid_from;
   };
+  /// As the message's signals; nothing where a signal is no channel. Precondition: a message of the
+  /// database.
+  const std::vector<std::optional<Channel>>& channels_of(const CanMessage& message) const {
+    return messages_[static_cast<std::size_t>(&message - database_.messages().data())].channels;
+  }
+
+ private:
   struct Message {
     bool used = false;
-    std::vector<std::optional<Channel>> channels;  // as the message's signals
+    std::vector<std::optional<Channel>> channels;
   };
 
   explicit CanChannels(CanDatabase database) : database_(std::move(database)) {}

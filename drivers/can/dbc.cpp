@@ -242,7 +242,7 @@ class Parser {
     expect_mark("@");
     out.field.order = whole("byte order", 1) == 1 ? ByteOrder::kLittle : ByteOrder::kBig;
     if (!token_.is("+") && !token_.is("-")) return refuse_instead_of("'+' or '-'");
-    out.type = take().is("-") ? NumberType::kSigned : NumberType::kUnsigned;
+    out.type = take().is("-") ? SignalType::kSigned : SignalType::kUnsigned;
   }
 
   static CanSignal* find_signal(CanMessage& message, std::string_view name) {
@@ -285,7 +285,7 @@ class Parser {
                     fmt::format("signal {} has {} bits; a {} has {}", signal->name,
                                 signal->field.length, type == 1 ? "float" : "double", 32 * type));
     }
-    signal->type = type == 1 ? NumberType::kFloat32 : NumberType::kFloat64;
+    signal->type = type == 1 ? SignalType::kFloat32 : SignalType::kFloat64;
   }
 
   // SG_MUL_VAL_ id signal multiplexor first-last, first-last ...;

@@ -77,13 +77,13 @@ BO_ 380 Z: 8 IMU
 
 struct Named {
   std::string_view name;
-  CanPreset (*make)();
+  CanPreset (*make)(std::uint8_t source_address);
 };
 
 constexpr std::array kPresets = {
-    Named{"mti600", [] { return mti600_preset(); }},
-    Named{"aceinna", [] { return aceinna_preset(); }},
-    Named{"mm5.10", [] { return mm510_preset(); }},
+    Named{"mti600", [](std::uint8_t) { return mti600_preset(); }},
+    Named{"aceinna", aceinna_preset},
+    Named{"mm5.10", [](std::uint8_t) { return mm510_preset(); }},
 };
 
 }  // namespace
@@ -148,10 +148,10 @@ std::vector<std::string_view> preset_names() {
   return out;
 }
 
-Result<CanChannels> make_preset(std::string_view name) {
+Result<CanChannels> make_preset(std::string_view name, std::uint8_t source_address) {
   for (const Named& known : kPresets) {
     if (known.name != name) continue;
-    const CanPreset preset = known.make();
+    const CanPreset preset = known.make(source_address);
     Result<CanDatabase> database = parse_dbc(preset.dbc, name);
     if (!database) return tl::unexpected(database.error());
     return CanChannels::make(std::move(*database), preset.mapping);

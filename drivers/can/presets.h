@@ -25,7 +25,8 @@ CanPreset mti600_preset();
 
 /// ACEINNA's J1939 units at one source address: slope, rate, acceleration. Sources: Aceinna's
 /// documents; a real log agrees. Open: the order of axes; here as the documents say, X, Y, Z.
-CanPreset aceinna_preset(std::uint8_t source_address = 0x80);
+CanPreset aceinna_preset(std::uint8_t source_address);
+inline constexpr std::uint8_t kAceinnaAddress = 0x80;  ///< From the factory.
 
 /// Bosch MM5.10: yaw and roll rate, three accelerations. Sources: rusEFI's identifiers, Bosch's
 /// ABS-M5 manual for the scales.
@@ -33,7 +34,9 @@ CanPreset mm510_preset();
 
 /// Names for people to choose from: "mti600", "aceinna", "mm5.10".
 std::vector<std::string_view> preset_names();
-/// The preset of that name, ready to decode. Error: no such name, with the known ones.
-Result<CanChannels> make_preset(std::string_view name);
+/// The preset of that name, ready to decode; the address is J1939's, where the preset has one.
+/// Error: no such name, with the known ones.
+Result<CanChannels> make_preset(std::string_view name,
+                                std::uint8_t source_address = kAceinnaAddress);
 
 }  // namespace imunoise::drivers

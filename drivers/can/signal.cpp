@@ -71,19 +71,16 @@ void insert_bits(std::span<std::uint8_t> data, const BitField& field, std::uint6
 double physical_value(const CanSignal& signal, std::uint64_t bits) {
   double number = 0.0;
   switch (signal.type) {
-    case NumberType::kUnsigned:
+    case SignalType::kUnsigned:
       number = static_cast<double>(bits);
       break;
-    case NumberType::kSigned: {
-      const std::size_t unused = 64 - signal.field.length;
-      number = static_cast<double>(static_cast<std::int64_t>(bits << unused) >>
-                                   static_cast<int>(unused));
+    case SignalType::kSigned:
+      number = static_cast<double>(sign_extended(bits, signal.field.length));
       break;
-    }
-    case NumberType::kFloat32:
+    case SignalType::kFloat32:
       number = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
       break;
-    case NumberType::kFloat64:
+    case SignalType::kFloat64:
       number = std::bit_cast<double>(bits);
       break;
   }
@@ -92,12 +89,12 @@ double physical_value(const CanSignal& signal, std::uint64_t bits) {
 
 Result<std::uint64_t> bits_for(const CanSignal& signal, double physical) {
   const double number = (physical - signal.offset) / signal.factor;
-  if (signal.type == NumberType::kFloat32) {
+  if (signal.type == SignalType::kFloat32) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(number))};
   }
-  if (signal.type == NumberType::kFloat64) return std::bit_cast<std::uint64_t>(number);
+  if (signal.type == SignalType::kFloat64) return std::bit_cast<std::uint64_t>(number);
   const int bits = static_cast<int>(signal.field.length);
-  const bool is_signed = signal.type == NumberType::kSigned;
+  const bool is_signed = signal.type == SignalType::kSigned;
   const double above = std::ldexp(1.0, is_signed ? bits - 1 : bits);  // first that does not fit
   const double rounded = std::nearbyint(number);
   if (!(rounded >= (is_signed ? -above : 0.0) && rounded < above)) {

@@ -19,7 +19,7 @@ enum class ByteOrder : std::uint8_t {
   kLittle,  ///< Intel (@1): the start is the least significant bit
 };
 
-enum class NumberType : std::uint8_t { kUnsigned, kSigned, kFloat32, kFloat64 };
+enum class SignalType : std::uint8_t { kUnsigned, kSigned, kFloat32, kFloat64 };
 
 /// Where a number lies. Bit 8·i + k of the data is bit k (0 the least significant) of byte i.
 struct BitField {
@@ -44,7 +44,7 @@ struct MultiplexRange {
 struct CanSignal {
   std::string name;
   BitField field;
-  NumberType type = NumberType::kUnsigned;
+  SignalType type = SignalType::kUnsigned;
   double factor = 1.0;  ///< physical = number · factor + offset; not zero
   double offset = 0.0;
   std::string unit;
@@ -53,6 +53,12 @@ struct CanSignal {
   std::optional<std::size_t> switched_by;
   std::vector<MultiplexRange> present_at;
 };
+
+/// The bits of a field of that length as a signed number.
+constexpr std::int64_t sign_extended(std::uint64_t bits, std::size_t length) {
+  const std::size_t unused = 64 - length;
+  return static_cast<std::int64_t>(bits << unused) >> static_cast<int>(unused);
+}
 
 /// The physical value of the field's bits.
 double physical_value(const CanSignal& signal, std::uint64_t bits);

@@ -5,12 +5,6 @@
 #include "drivers/xsens/messages.h"
 
 namespace imunoise::drivers {
-namespace {
-
-constexpr std::int64_t kTickNs = 100'000;
-
-}  // namespace
-
 bool XbusDecoder::next(DecodedSample& sample) {
   bool found = false;
   while (!found) {
@@ -31,10 +25,8 @@ bool XbusDecoder::decode(const XbusFrame& frame, DecodedSample& sample) {
       std::swap(sample, data2_.sample);
       if (data2_.packet_counter) count(*data2_.packet_counter, sample);
       if (data2_.sample_time_fine) {
-        const std::int64_t raw = *data2_.sample_time_fine;
-        if (raw >= ticks_.modulus()) ticks_.widen(std::int64_t{1} << 32U);
         sample.clock = Clock::kDevice;
-        sample.time_ns = ticks_(raw) * kTickNs;
+        sample.time_ns = clock_(*data2_.sample_time_fine);
       }
       return true;
     case XsensMessage::kMtData:

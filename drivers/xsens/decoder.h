@@ -7,14 +7,12 @@
 #include "drivers/xsens/frame.h"
 #include "drivers/xsens/legacy.h"
 #include "drivers/xsens/mtdata2.h"
+#include "drivers/xsens/sample_clock.h"
 
 namespace imunoise::drivers {
 
-/// SampleTimeFine of the MTi 10 and 100 series starts again after a day, in ticks of 100 µs.
-inline constexpr std::int64_t kXsensDayTicks = 864'000'000;
-
 /// Xbus bytes in, samples out: MTData2, and legacy MTData once a Configuration message has said its
-/// layout. SampleTimeFine wraps after a day until a larger value shows that it uses all 32 bits.
+/// layout.
 class XbusDecoder final : public StreamDecoder {
  public:
   void push(Bytes bytes) override { parser_.push(bytes); }
@@ -32,7 +30,7 @@ class XbusDecoder final : public StreamDecoder {
   std::optional<LegacyLayout> layout_;
   Unwrapper counter_{65536};
   std::optional<std::int64_t> last_count_;
-  Unwrapper ticks_{kXsensDayTicks};
+  XsensSampleClock clock_;
   Refusals own_;  // what was refused within whole frames
 };
 

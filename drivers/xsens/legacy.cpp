@@ -8,34 +8,41 @@
 
 #include "drivers/codec/si_unit.h"
 #include "drivers/xsens/field.h"
-#include "drivers/xsens/number.h"
 
 namespace imunoise::drivers {
 namespace {
 
 using Kind = XsensField::Kind;
 
+// A unit as the device states it, and in SI.
+struct FieldUnit {
+  explicit FieldUnit(std::string_view text) : name(text), si(si_unit(text)) {}
+  std::string_view name;
+  SiUnit si;
+};
+
 struct Field {
   Kind kind;
   std::string_view channel;
-  const SiUnit* unit;
+  const FieldUnit* unit;
   double scale;
 };
 
 struct Units {
-  SiUnit none = si_unit("1");
-  SiUnit counts = si_unit("counts");
-  SiUnit second = si_unit("s");
-  SiUnit metre = si_unit("m");
-  SiUnit degree = si_unit("deg");
-  SiUnit celsius = si_unit("degC");
-  SiUnit field = si_unit("a.u.");
-  SiUnit rate = si_unit("rad/s");
-  SiUnit velocity = si_unit("m/s");
-  SiUnit acceleration = si_unit("m/s^2");
+  FieldUnit none{"1"};
+  FieldUnit counts{"counts"};
+  FieldUnit second{"s"};
+  FieldUnit metre{"m"};
+  FieldUnit degree{"deg"};
+  FieldUnit celsius{"degC"};
+  FieldUnit field{"a.u."};
+  FieldUnit rate{"rad/s"};
+  FieldUnit velocity{"m/s"};
+  FieldUnit acceleration{"m/s^2"};
 };
 
 constexpr std::size_t kConfigurationBytes = 118;
+constexpr double kPeriodTicksPerSecond = 115200.0;
 
 enum Mode : std::uint32_t {
   kTemperature = 0x0001,
@@ -62,15 +69,11 @@ enum Setting : std::uint32_t {
   kNed = 0x8000'0000,
 };
 
-XsensFormat format_of(LegacyLayout layout) {
-  return static_cast<XsensFormat>(layout.settings >> 8U & 3U);
-}
-
 // The groups that come before the status byte, in the order of the wire.
 std::vector<Field> fields_of(LegacyLayout layout) {
   static const Units kUnits;
   std::vector<Field> out;
-  const auto add = [&](Kind kind, const SiUnit& unit,
+  const auto add = [&](Kind kind, const FieldUnit& unit,
                        std::initializer_list<std::string_view> channels, double scale = 1.0) {
     for (const std::string_view channel : channels) out.push_back({kind, channel, &unit, scale});
   };
@@ -137,6 +140,22 @@ void append_whole(std::vector<std::uint8_t>& out, Kind kind, double number) {
 
 }  // namespace
 
+LegacyLayout calibrated_layout(LegacyCalibrated wanted, XsensFormat format) {
+  const auto mode = kCalibrated | kStatus | (wanted.temperature ? kTemperature : 0U);
+  const auto settings = kCounter | static_cast<std::uint32_t>(format) << 8U |
+                        (wanted.acceleration ? 0U : kNoAcceleration) |
+                        (wanted.rate ? 0U : kNoRate) | (wanted.field ? 0U : kNoField);
+  return {static_cast<std::uint16_t>(mode), settings};
+}
+
+double rate_of(const XsensConfiguration& configuration) {
+  return kPeriodTicksPerSecond / configuration.period / (configuration.skip_factor + 1);
+}
+
+std::uint16_t legacy_period(double rate_hz) {
+  return static_cast<std::uint16_t>(std::lround(kPeriodTicksPerSecond / rate_hz));
+}
+
 Result<XsensConfiguration> decode_configuration(Bytes payload) {
   if (payload.size() != kConfigurationBytes) {
     return fail(
@@ -171,8 +190,20 @@ std::vector<std::uint8_t> encode_configuration(const XsensConfiguration& configu
   return out;
 }
 
+std::vector<LegacyChannel> channels_of(LegacyLayout layout) {
+  std::vector<LegacyChannel> out;
+  for (const Field& field : fields_of(layout)) out.push_back({field.channel, field.unit->name});
+  return out;
+}
+
+XsensFormat format_of(LegacyLayout layout) {
+  return static_cast<XsensFormat>(layout.settings >> 8U & 3U);
+}
+
 bool decode_legacy(Bytes payload, LegacyLayout layout, LegacyData& out, Refusals& refused) {
   out.counter.reset();
+  out.status.reset();
+  out.numbers.clear();
   out.sample.clear();
   out.sample.stream = "imu";
   Refusals within;
@@ -180,9 +211,13 @@ bool decode_legacy(Bytes payload, LegacyLayout layout, LegacyData& out, Refusals
   for (const Field& field : fields_of(layout)) {
     const double number = field.kind == Kind::kNumber ? take_number(in, format_of(layout))
                                                       : take_whole(in, field.kind) * field.scale;
-    append_value(out.sample, field.channel, *field.unit, number, within);
+    out.numbers.push_back(number);
+    append_value(out.sample, field.channel, field.unit->si, number, within);
   }
-  if ((layout.mode & kStatus) != 0) append_status_flags(in.take<std::uint8_t>(), out.sample.flags);
+  if ((layout.mode & kStatus) != 0) {
+    out.status = in.take<std::uint8_t>();
+    append_status_flags(*out.status, out.sample.flags);
+  }
   if ((layout.settings & kCounter) != 0) out.counter = in.take<std::uint16_t>();
   if ((layout.settings & kUtc) != 0) append_utc_value(out.sample, take_utc(in), within);
   if ((layout.settings & kNed) != 0) out.sample.flags.push_back("ned");

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/support/result.h"
@@ -15,6 +16,7 @@
 #include "drivers/codec/refusal.h"
 #include "drivers/codec/sample.h"
 #include "drivers/xsens/fields.h"
+#include "drivers/xsens/number.h"
 
 namespace imunoise::drivers {
 
@@ -25,6 +27,15 @@ struct LegacyLayout {
   friend bool operator==(const LegacyLayout&, const LegacyLayout&) = default;
 };
 
+/// Calibrated acceleration, rate and field (those that are wanted), temperature, status, counter.
+struct LegacyCalibrated {
+  bool acceleration = true;
+  bool rate = true;
+  bool field = true;
+  bool temperature = true;
+};
+LegacyLayout calibrated_layout(LegacyCalibrated wanted, XsensFormat format);
+
 /// Answer to ReqConfiguration; 118 bytes.
 struct XsensConfiguration {
   std::uint32_t device_id = 0;
@@ -34,24 +45,41 @@ struct XsensConfiguration {
   friend bool operator==(const XsensConfiguration&, const XsensConfiguration&) = default;
 };
 
+/// Messages a second.
+double rate_of(const XsensConfiguration& configuration);
+/// SetPeriod's number for a rate; rounded. Precondition: at least 2 Hz.
+std::uint16_t legacy_period(double rate_hz);
+
 /// Error: any other length than 118 bytes.
 Result<XsensConfiguration> decode_configuration(Bytes payload);
 /// Payload of a Configuration message; fields that nobody reads are zero.
 std::vector<std::uint8_t> encode_configuration(const XsensConfiguration& configuration);
 
+/// One number of an MTData message. Texts are the program's.
+struct LegacyChannel {
+  std::string_view name;
+  std::string_view unit;  ///< As the device states it.
+};
+
+/// What an MTData message of this layout holds before its status byte, in the order of the wire.
+std::vector<LegacyChannel> channels_of(LegacyLayout layout);
+/// The format of those that are not counts.
+XsensFormat format_of(LegacyLayout layout);
+
 /// What one MTData message says.
 struct LegacyData {
   std::optional<std::uint16_t> counter;
-  DecodedSample sample;  ///< stream "imu", values and flags; no time, no counter.
+  std::optional<std::uint8_t> status;
+  std::vector<double> numbers;  ///< As channels_of() names them, in the device's units.
+  DecodedSample sample;         ///< stream "imu", values in SI and flags; no time, no counter.
 };
 
 /// Reads `payload`; `out` is overwritten. False, and refused for its length, when the payload is
 /// not exactly as long as the layout says.
 bool decode_legacy(Bytes payload, LegacyLayout layout, LegacyData& out, Refusals& refused);
 
-/// Composes the payload of an MTData message. `numbers` are the values in the order in which
-/// decode_legacy() gives them, in the units of the device (m/s², rad/s, °C, °). Precondition: as
-/// many as the layout has.
+/// Composes the payload of an MTData message. Precondition: as many numbers as channels_of() the
+/// layout.
 std::vector<std::uint8_t> encode_legacy(LegacyLayout layout, std::span<const double> numbers,
                                         std::uint8_t status, std::uint16_t counter,
                                         const XsensUtc& utc);

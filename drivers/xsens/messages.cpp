@@ -32,27 +32,20 @@ constexpr auto kBaudRates = [] {
   return out;
 }();
 
-template <std::integral T>
-std::vector<std::uint8_t> encode_with(XsensMessage message, T number) {
-  std::vector<std::uint8_t> payload;
-  append_big_endian(payload, number);
-  return encode_message(message, payload);
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_message(XsensMessage message, Bytes payload) {
   return encode_xbus_frame(static_cast<std::uint8_t>(message), payload);
 }
 
-std::vector<std::uint8_t> encode_set_output_configuration(std::span<const XsensOutput> outputs) {
+std::vector<std::uint8_t> payload_of(std::span<const XsensOutput> outputs) {
   assert(outputs.size() <= kXsensMaximumOutputs);
   std::vector<std::uint8_t> payload;
   for (const XsensOutput& output : outputs) {
     append_big_endian(payload, output.data_id);
     append_big_endian(payload, output.rate_hz);
   }
-  return encode_message(XsensMessage::kSetOutputConfiguration, payload);
+  return payload;
 }
 
 Result<std::vector<XsensOutput>> decode_output_configuration(Bytes payload) {
@@ -70,11 +63,11 @@ Result<std::vector<XsensOutput>> decode_output_configuration(Bytes payload) {
   return out;
 }
 
-std::optional<std::vector<std::uint8_t>> encode_set_baud_rate(std::uint32_t baud) {
+std::optional<std::uint8_t> baud_code_of(std::uint32_t baud) {
   const auto* const found = std::find_if(kBaudCodes.begin(), kBaudCodes.end(),
                                          [&](const BaudCode& code) { return code.baud == baud; });
   if (found == kBaudCodes.end()) return std::nullopt;
-  return encode_with(XsensMessage::kSetBaudRate, found->code);
+  return found->code;
 }
 
 std::span<const std::uint32_t> baud_rates() { return kBaudRates; }
@@ -85,18 +78,6 @@ std::optional<std::uint32_t> baud_rate_of(std::uint8_t code) {
                                          [&](const BaudCode& known) { return known.code == code; });
   if (found == kBaudCodes.end()) return std::nullopt;
   return found->baud;
-}
-
-std::vector<std::uint8_t> encode_set_output_mode(std::uint16_t mode) {
-  return encode_with(XsensMessage::kSetOutputMode, mode);
-}
-
-std::vector<std::uint8_t> encode_set_output_settings(std::uint32_t settings) {
-  return encode_with(XsensMessage::kSetOutputSettings, settings);
-}
-
-std::vector<std::uint8_t> encode_set_period(std::uint16_t ticks) {
-  return encode_with(XsensMessage::kSetPeriod, ticks);
 }
 
 std::string_view error_text(std::uint8_t code) {

@@ -3,6 +3,7 @@
 // The messages that configure an Xsens device, and its answers. Source: Xsens MT0101P 2020.A and
 // ethzasl_xsens_driver, which agree.
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,7 +19,7 @@ namespace imunoise::drivers {
 enum class XsensMessage : std::uint8_t {
   kRequestDeviceId = 0x00,
   kDeviceId = 0x01,
-  kSetPeriod = 0x04,
+  kSetPeriod = 0x04,  ///< Legacy; ticks of 1/115200 s.
   kRequestConfiguration = 0x0c,
   kConfiguration = 0x0d,
   kRestoreFactoryDefaults = 0x0e,
@@ -39,9 +40,9 @@ enum class XsensMessage : std::uint8_t {
   kError = 0x42,
   kSetOutputConfiguration = 0xc0,
   kOutputConfiguration = 0xc1,
-  kSetOutputMode = 0xd0,
-  kSetOutputSettings = 0xd2,
-  kSetOutputSkipFactor = 0xd4,
+  kSetOutputMode = 0xd0,        ///< Legacy.
+  kSetOutputSettings = 0xd2,    ///< Legacy.
+  kSetOutputSkipFactor = 0xd4,  ///< Legacy.
 };
 
 /// Message identifier of the answer to `request`.
@@ -52,6 +53,14 @@ constexpr std::uint8_t acknowledged_by(XsensMessage request) {
 /// A frame without payload: GoToConfig, GoToMeasurement, Reset, every request.
 std::vector<std::uint8_t> encode_message(XsensMessage message, Bytes payload = {});
 
+/// The payload of a message that carries one number.
+template <std::integral T>
+std::vector<std::uint8_t> payload_of(T number) {
+  std::vector<std::uint8_t> out;
+  append_big_endian(out, number);
+  return out;
+}
+
 /// One output of an MTData2 device.
 struct XsensOutput {
   std::uint16_t data_id = 0;  ///< With its format and frame in the low nibble, e.g. 0x4020.
@@ -61,24 +70,21 @@ struct XsensOutput {
 
 inline constexpr std::size_t kXsensMaximumOutputs = 32;
 
-/// SetOutputConfiguration; no outputs at all asks for the present ones. Precondition: at most 32.
-/// {0, 0} as the only one returns a device of the fourth generation to legacy MTData.
-std::vector<std::uint8_t> encode_set_output_configuration(std::span<const XsensOutput> outputs);
+/// The payload of SetOutputConfiguration and of its answer. Without payload the message asks for
+/// the present outputs. Precondition: at most 32. {0, 0} as the only one returns a device of the
+/// fourth generation to legacy MTData.
+std::vector<std::uint8_t> payload_of(std::span<const XsensOutput> outputs);
 /// Payload of (Set)OutputConfiguration. Error: its length.
 Result<std::vector<XsensOutput>> decode_output_configuration(Bytes payload);
 
-/// SetBaudRate, in force after the next reset. Nothing if the device has no such rate.
-std::optional<std::vector<std::uint8_t>> encode_set_baud_rate(std::uint32_t baud);
+/// The payload of SetBaudRate, in force after the next reset. Nothing if the device has no such
+/// rate.
+std::optional<std::uint8_t> baud_code_of(std::uint32_t baud);
 /// Baud rates in the order in which a device of unknown setting is best searched: the factory's
 /// first, then the common ones.
 std::span<const std::uint32_t> baud_rates();
 /// The rate that `code` stands for in a device's answer.
 std::optional<std::uint32_t> baud_rate_of(std::uint8_t code);
-
-/// SetOutputMode (legacy), SetOutputSettings (legacy) and SetPeriod (legacy; ticks of 1/115200 s).
-std::vector<std::uint8_t> encode_set_output_mode(std::uint16_t mode);
-std::vector<std::uint8_t> encode_set_output_settings(std::uint32_t settings);
-std::vector<std::uint8_t> encode_set_period(std::uint16_t ticks);
 
 /// What an Error message says, e.g. "invalid message".
 std::string_view error_text(std::uint8_t code);

@@ -4,66 +4,20 @@
 #include <array>
 #include <cassert>
 
-#include "drivers/codec/si_unit.h"
 #include "drivers/xsens/gnss.h"
 
 namespace imunoise::drivers {
 namespace {
 
-// An item of numbers in one of the four formats.
-struct NumberItem {
-  XsensItem item;
-  SiUnit unit;
-  std::vector<std::string_view> channels;
-  bool framed = false;  // the identifier says in which frame: ENU, NED or NWU
-};
-
-const std::vector<NumberItem>& number_items() {
-  static const std::vector<NumberItem> kItems = {
-      {XsensItem::kTemperature, si_unit("degC"), {"temperature"}},
-      {XsensItem::kQuaternion, si_unit("1"), {"q0", "q1", "q2", "q3"}, true},
-      {XsensItem::kRotationMatrix,
-       si_unit("1"),
-       {"r11", "r21", "r31", "r12", "r22", "r32", "r13", "r23", "r33"},
-       true},
-      {XsensItem::kEulerAngles, si_unit("deg"), {"roll", "pitch", "yaw"}, true},
-      {XsensItem::kDeltaV, si_unit("m/s"), {"delta_v_x", "delta_v_y", "delta_v_z"}},
-      {XsensItem::kAcceleration, si_unit("m/s^2"), {"acc_x", "acc_y", "acc_z"}},
-      {XsensItem::kFreeAcceleration,
-       si_unit("m/s^2"),
-       {"free_acc_x", "free_acc_y", "free_acc_z"},
-       true},
-      {XsensItem::kAccelerationHr, si_unit("m/s^2"), {"acc_hr_x", "acc_hr_y", "acc_hr_z"}},
-      {XsensItem::kAltitude, si_unit("m"), {"altitude"}},
-      {XsensItem::kPositionEcef, si_unit("m"), {"ecef_x", "ecef_y", "ecef_z"}},
-      {XsensItem::kLatLon, si_unit("deg"), {"latitude", "longitude"}},
-      {XsensItem::kRateOfTurn, si_unit("rad/s"), {"gyro_x", "gyro_y", "gyro_z"}},
-      {XsensItem::kDeltaQ, si_unit("1"), {"delta_q0", "delta_q1", "delta_q2", "delta_q3"}},
-      {XsensItem::kRateOfTurnHr, si_unit("rad/s"), {"gyro_hr_x", "gyro_hr_y", "gyro_hr_z"}},
-      {XsensItem::kMagneticField, si_unit("a.u."), {"mag_x", "mag_y", "mag_z"}},
-      {XsensItem::kVelocity, si_unit("m/s"), {"velocity_x", "velocity_y", "velocity_z"}, true},
-  };
-  return kItems;
-}
-
-const NumberItem* find_number_item(XsensItem item) {
-  const auto& items = number_items();
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const NumberItem& known) { return known.item == item; });
-  return found == items.end() ? nullptr : &*found;
-}
-
-XsensItem kind_of(std::uint16_t id) { return static_cast<XsensItem>(id & 0xfff0U); }
-
-void decode_numbers(const NumberItem& item, const XsensItemData& data, DecodedSample& sample,
+void decode_numbers(const XsensNumberItem& item, const XsensItemData& data, DecodedSample& sample,
                     Refusals& refused) {
-  const auto format = static_cast<XsensFormat>(data.id & 3U);
+  const XsensFormat format = format_of(data.id);
   if (data.data.size() != item.channels.size() * size_of(format)) {
     return refused.add(Refusal::kLength);
   }
   BigEndianReader in(data.data);
   for (const std::string_view channel : item.channels) {
-    append_value(sample, channel, item.unit, take_number(in, format), refused);
+    append_value(sample, channel, item.si, take_number(in, format), refused);
   }
   constexpr std::array<std::string_view, 4> kFrames = {"", "ned", "nwu", "unknown_frame"};
   const std::string_view frame = kFrames[data.id >> 2U & 3U];
@@ -111,11 +65,13 @@ void decode_item(const XsensItemData& item, MtData2& out, Refusals& refused) {
       return;
     case XsensItem::kStatusByte:
       if (const auto status = whole<std::uint8_t>(item.data, refused)) {
+        out.status = *status;
         append_status_flags(*status, sample.flags);
       }
       return;
     case XsensItem::kStatusWord:
       if (const auto status = whole<std::uint32_t>(item.data, refused)) {
+        out.status = *status;
         append_status_flags(*status, sample.flags);
       }
       return;
@@ -126,7 +82,7 @@ void decode_item(const XsensItemData& item, MtData2& out, Refusals& refused) {
       sample.stream = "gnss";
       return append_gnss_satellites(sample, item.data, refused);
     default:
-      if (const NumberItem* const numbers = find_number_item(kind_of(item.id))) {
+      if (const XsensNumberItem* const numbers = find_number_item(item.id)) {
         return decode_numbers(*numbers, item, sample, refused);
       }
       refused.add(Refusal::kUnknownItem);
@@ -147,6 +103,7 @@ std::optional<XsensItemData> take_item(Bytes& payload) {
 void decode_mtdata2(Bytes payload, MtData2& out, Refusals& refused) {
   out.packet_counter.reset();
   out.sample_time_fine.reset();
+  out.status.reset();
   out.sample.clear();
   out.sample.stream = "imu";
   while (const auto item = take_item(payload)) decode_item(*item, out, refused);
@@ -185,8 +142,7 @@ void MtData2Writer::pressure(std::uint32_t pascal) {
 }
 
 void MtData2Writer::numbers(XsensItem item, XsensFormat format, std::span<const double> values) {
-  header(static_cast<std::uint16_t>(static_cast<unsigned>(item) | static_cast<unsigned>(format)),
-         values.size() * size_of(format));
+  header(id_of(item, format), values.size() * size_of(format));
   for (const double value : values) append_number(payload_, format, value);
 }
 

@@ -12,38 +12,9 @@
 #include "drivers/codec/refusal.h"
 #include "drivers/codec/sample.h"
 #include "drivers/xsens/fields.h"
-#include "drivers/xsens/number.h"
+#include "drivers/xsens/items.h"
 
 namespace imunoise::drivers {
-
-/// Identifiers without format and frame (the low nibble).
-enum class XsensItem : std::uint16_t {
-  kTemperature = 0x0810,
-  kUtcTime = 0x1010,
-  kPacketCounter = 0x1020,
-  kSampleTimeFine = 0x1060,
-  kSampleTimeCoarse = 0x1070,
-  kQuaternion = 0x2010,
-  kRotationMatrix = 0x2020,
-  kEulerAngles = 0x2030,
-  kPressure = 0x3010,
-  kDeltaV = 0x4010,
-  kAcceleration = 0x4020,
-  kFreeAcceleration = 0x4030,
-  kAccelerationHr = 0x4040,
-  kAltitude = 0x5020,
-  kPositionEcef = 0x5030,
-  kLatLon = 0x5040,
-  kGnssSolution = 0x7010,
-  kGnssSatellites = 0x7020,
-  kRateOfTurn = 0x8020,
-  kDeltaQ = 0x8030,
-  kRateOfTurnHr = 0x8040,
-  kMagneticField = 0xc020,
-  kVelocity = 0xd010,
-  kStatusByte = 0xe010,
-  kStatusWord = 0xe020,
-};
 
 /// Identifier and data of one item; the data is borrowed.
 struct XsensItemData {
@@ -59,6 +30,7 @@ std::optional<XsensItemData> take_item(Bytes& payload);
 struct MtData2 {
   std::optional<std::uint16_t> packet_counter;
   std::optional<std::uint32_t> sample_time_fine;  ///< Ticks of 100 µs.
+  std::optional<std::uint32_t> status;            ///< Word, or byte.
   /// stream ("gnss" where the receiver speaks, else "imu"), values and flags; no time, no counter.
   DecodedSample sample;
 };

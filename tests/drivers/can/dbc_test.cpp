@@ -51,12 +51,12 @@ TEST(Dbc, ReadsMessagesAndSignals) {
   EXPECT_TRUE(mixed.signals[0].multiplexor);
   EXPECT_EQ(mixed.signals[1].factor, 0.25);
   EXPECT_EQ(mixed.signals[1].offset, -15.0);
-  EXPECT_EQ(mixed.signals[1].type, NumberType::kSigned);
+  EXPECT_EQ(mixed.signals[1].type, SignalType::kSigned);
   EXPECT_EQ(mixed.signals[1].unit, "deg/s");
   EXPECT_EQ(mixed.signals[1].switched_by, 0U);
   EXPECT_EQ(mixed.signals[2].factor, 0.5);
   EXPECT_EQ(mixed.signals[2].offset, 10.0);
-  EXPECT_EQ(mixed.signals[3].type, NumberType::kFloat32);
+  EXPECT_EQ(mixed.signals[3].type, SignalType::kFloat32);
   EXPECT_NE(database->find(0, true), nullptr);
   EXPECT_EQ(database->find(0, false), nullptr);
   EXPECT_EQ(database->find("Extended")->signals[0].field.order, ByteOrder::kBig);

@@ -80,7 +80,7 @@ TEST(CanSignal, PhysicalValuesReturn) {
     CanSignal signal;
     signal.field = random_field(random);
     signal.field.length = 1 + random() % 50;  // whole numbers that a double holds
-    signal.type = random() % 2 == 0 ? NumberType::kSigned : NumberType::kUnsigned;
+    signal.type = random() % 2 == 0 ? SignalType::kSigned : SignalType::kUnsigned;
     signal.factor = std::ldexp(1.0, static_cast<int>(random() % 20) - 10);
     signal.offset = signal.factor * (static_cast<double>(random() % 2001) - 1000.0);
     const std::uint64_t mask = (std::uint64_t{1} << signal.field.length) - 1;
@@ -100,7 +100,7 @@ TEST(CanSignal, SignsFloatsAndLimits) {
   EXPECT_FALSE(bits_for(signal, 16.0));
   EXPECT_FALSE(bits_for(signal, -1.0));
   EXPECT_FALSE(bits_for(signal, std::nan("")));
-  signal.type = NumberType::kSigned;
+  signal.type = SignalType::kSigned;
   EXPECT_EQ(physical_value(signal, 0xf), -1.0);
   EXPECT_EQ(physical_value(signal, 0x8), -8.0);
   EXPECT_EQ(*bits_for(signal, -8.0), 0x8U);
@@ -108,11 +108,11 @@ TEST(CanSignal, SignsFloatsAndLimits) {
   signal.field.length = 64;
   EXPECT_EQ(physical_value(signal, ~std::uint64_t{0}), -1.0);
   signal.field.length = 32;
-  signal.type = NumberType::kFloat32;
+  signal.type = SignalType::kFloat32;
   EXPECT_EQ(physical_value(signal, 0x3f800000), 1.0);
   EXPECT_EQ(*bits_for(signal, -2.0), 0xc0000000U);
   signal.field.length = 64;
-  signal.type = NumberType::kFloat64;
+  signal.type = SignalType::kFloat64;
   EXPECT_EQ(physical_value(signal, *bits_for(signal, 0.1)), 0.1);
 }
 

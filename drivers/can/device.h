@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/can/bus_trouble.h"
+#include "drivers/can/channels.h"
+#include "drivers/can/streams.h"
+#include "drivers/plugin/device.h"
+#include "drivers/transport/can_socket.h"
+
+namespace imunoise::can {
+
+/// What the user chose.
+struct Settings {
+  std::string interface;
+  drivers::CanChannels channels;
+  std::string product;            ///< Preset or database.
+  bool all_required = false;      ///< Every mapped message must come; else those that do are taken.
+  std::optional<double> rate_hz;  ///< Of the fastest message; others are whole fractions of it.
+  std::chrono::milliseconds listen{1000};
+};
+
+/// A CAN IMU that sends by itself. Streams are the messages that came while it listened at the
+/// beginning. An interface that goes down or away, and an IMU that falls silent, are waited for.
+class CanDevice final : public plugin::Device {
+ public:
+  /// Opens the interface and listens.
+  CanDevice(Settings settings, const plugin::Host& host);
+
+  drivers::DeviceInfo describe() override;
+  void read(plugin::Samples& samples, const plugin::Wait& wait) override;
+
+ private:
+  using Clock = plugin::Wait::Clock;
+
+  void listen();
+  [[noreturn]] void refuse_silence(const CanStream* missing) const;
+  bool reopen(const plugin::Wait& wait);
+  void receive(plugin::Samples& samples);
+  void take(const transport::ReceivedCanFrame& received, plugin::Samples& samples);
+  void count_lost(std::uint32_t frames, plugin::Samples& samples);
+  void fall_silent();
+  void restart();
+  // Fills present_ and calls visit(stream number) for every stream that the frame belongs to.
+  template <class Visit>
+  void for_streams_of(const drivers::CanFrame& frame, Visit visit);
+
+  Settings settings_;
+  plugin::Host host_;
+  std::vector<CanStream> streams_;
+  std::vector<transport::CanFilter> filters_;
+  std::optional<transport::CanSocket> socket_;  // none while the interface is away
+  BusTrouble trouble_;
+  std::vector<std::uint32_t> flags_;  // by stream, of its next sample
+  std::vector<drivers::SignalValue> present_;
+  Clock::time_point last_frame_;
+  Clock::duration patience_{};
+  bool silent_ = false;
+  bool off_ = false;  // the controller went off the bus, and nothing came since
+};
+
+}  // namespace imunoise::can

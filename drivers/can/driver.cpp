@@ -1,0 +1,116 @@
+// The driver "can": IMUs on a CAN bus, by SocketCAN.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/can/channel_option.h"
+#include "drivers/can/dbc.h"
+#include "drivers/can/device.h"
+#include "drivers/can/presets.h"
+#include "drivers/plugin.h"
+
+namespace imunoise::can {
+namespace {
+
+drivers::DriverInfo describe_driver() {
+  using enum drivers::OptionType;
+  const auto presets = drivers::preset_names();
+  return {
+      "can",
+      "IMUs on a CAN or CAN FD bus (SocketCAN), as a DBC file or a preset describes them",
+      IMUNOISE_VERSION,
+      {
+          {.name = "interface",
+           .type = kText,
+           .description = "CAN interface, up and at the IMU's bit rate: can0",
+           .required = true},
+          {.name = "preset",
+           .type = kText,
+           .description = "An IMU whose messages are known",
+           .choices = {presets.begin(), presets.end()}},
+          {.name = "dbc", .type = kText, .description = "DBC file with the IMU's messages"},
+          {.name = "channel",
+           .type = kText,
+           .description = "A signal to record, as gyro_x=RateOfTurn.X (default: all of the dbc "
+                          "file); behind it ,unit=UNIT,invalid=NUMBER,last=NUMBER",
+           .repeated = true},
+          {.name = "rate",
+           .type = kNumber,
+           .description = "Rate of the fastest message (default: as it is heard, to three digits)",
+           .unit = "Hz",
+           .minimum = 0.001,
+           .maximum = 100000.0},
+          {.name = "listen",
+           .type = kNumber,
+           .description = "How long to listen for messages at the beginning",
+           .unit = "s",
+           .by_default = "1",
+           .minimum = 0.1,
+           .maximum = 60.0},
+          {.name = "address",
+           .type = kInteger,
+           .description = "J1939 source address of an ACEINNA unit",
+           .by_default = fmt::format("{}", drivers::kAceinnaAddress),
+           .minimum = 0,
+           .maximum = 253},
+      },
+  };
+}
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw plugin::DeviceError(IMUNOISE_BAD_OPTION, text);
+}
+
+template <class T>
+T or_throw(Result<T> result) {
+  if (!result) refuse(result.error().message);
+  return std::move(*result);
+}
+
+drivers::CanDatabase read_database(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file.is_open() || file.bad()) {
+    throw plugin::DeviceError(IMUNOISE_NOT_FOUND, path + ": cannot be read; is it there?");
+  }
+  return or_throw(drivers::parse_dbc(text, path));
+}
+
+drivers::CanChannels channels_of(const plugin::Options& options) {
+  if (options.has("preset") == options.has("dbc")) {
+    refuse("choose one of preset=NAME and dbc=FILE: they say what the IMU's messages mean");
+  }
+  std::vector<drivers::ChannelMapping> mapping;
+  for (const std::string& text : options.texts("channel")) {
+    mapping.push_back(or_throw(parse_channel_option(text)));
+  }
+  if (options.has("dbc")) {
+    return or_throw(drivers::CanChannels::make(read_database(options.text("dbc")), mapping));
+  }
+  drivers::CanChannels preset = or_throw(drivers::make_preset(
+      options.text("preset"), static_cast<std::uint8_t>(options.integer("address"))));
+  if (mapping.empty()) return preset;
+  return or_throw(drivers::CanChannels::make(preset.database(), mapping));
+}
+
+std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
+                                            const plugin::Host& host) {
+  Settings settings{options.text("interface"), channels_of(options), {}, false, {}, {}};
+  settings.product = options.has("preset") ? options.text("preset") : options.text("dbc");
+  settings.all_required = options.has("channel");
+  if (options.has("rate")) settings.rate_hz = options.number("rate");
+  settings.listen = std::chrono::milliseconds(std::llround(options.number("listen") * 1e3));
+  return std::make_unique<CanDevice>(std::move(settings), host);
+}
+
+}  // namespace
+}  // namespace imunoise::can
+
+IMUNOISE_DRIVER(imunoise::can::describe_driver, imunoise::can::open_device)

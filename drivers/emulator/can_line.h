@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "drivers/can/frame.h"
+
+namespace imunoise::emulator {
+
+/// Where an emulated CAN device puts its frames.
+class CanLine {
+ public:
+  CanLine() = default;
+  CanLine(const CanLine&) = delete;
+  CanLine& operator=(const CanLine&) = delete;
+  virtual ~CanLine() = default;
+
+  /// False where the line is down, and the frame lost.
+  virtual bool send(const drivers::CanFrame& frame) = 0;
+};
+
+/// A CAN interface of Linux, best a virtual one: ip link add dev vcan0 type vcan. Throws
+/// std::system_error where there is none.
+class SocketCanLine final : public CanLine {
+ public:
+  explicit SocketCanLine(const std::string& interface);
+  ~SocketCanLine() override;
+
+  bool send(const drivers::CanFrame& frame) override;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace imunoise::emulator

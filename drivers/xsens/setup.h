@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "drivers/xsens/dialogue.h"
+#include "drivers/xsens/legacy.h"
+#include "drivers/xsens/messages.h"
+#include "drivers/xsens/settings.h"
+
+namespace imunoise::xsens {
+
+/// What a configured device is and sends.
+struct Setup {
+  std::string product;
+  std::string serial;  ///< Device identifier, hexadecimal.
+  std::string firmware;
+  /// As the device confirms them: outputs of MTData2, or all about legacy MTData.
+  std::variant<std::vector<drivers::XsensOutput>, drivers::XsensConfiguration> sends;
+};
+
+/// Asks a device in its configuration state who it is, makes it send what the settings say (writing
+/// nothing that it has already: its memory wears), and starts the measurement. Throws
+/// plugin::DeviceError.
+Setup configure(Dialogue& dialogue, const Settings& settings);
+
+}  // namespace imunoise::xsens

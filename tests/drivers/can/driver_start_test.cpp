@@ -1,0 +1,71 @@
+// What the driver says when it cannot begin.
+
+#include <linux/can/error.h>
+
+#include "tests/drivers/can/imu_fixture.h"
+
+namespace imunoise::testing {
+namespace {
+
+class CanStart : public CanImuTest {
+ protected:
+  static void expect_refused(const Options& options, const std::string& text) {
+    const auto session = open(options);
+    ASSERT_FALSE(session);
+    EXPECT_NE(session.error().message.find(text), std::string::npos) << session.error().message;
+  }
+};
+
+TEST_F(CanStart, TheInterfaceIsMissingOrDown) {
+  bus_.set_up(false);
+  expect_refused({{"preset", "mti600"}}, "can7: is down; bring it up with the IMU's bit rate: ip");
+  bus_.unplug();
+  expect_refused({{"preset", "mti600"}}, "can7: no such network interface; see: ip");
+}
+
+TEST_F(CanStart, NothingComes) {
+  expect_refused({{"preset", "mti600"}, {"listen", "0.1"}},
+                 "no message of the IMU in 0.1 s; is it powered");
+  std::jthread noise([&](const std::stop_token& stop) {
+    drivers::CanFrame error;
+    error.error = true;
+    error.id = CAN_ERR_BUSERROR;
+    error.length = 8;
+    while (!stop.stop_requested()) {
+      bus_.send(error);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  expect_refused({{"preset", "mti600"}, {"listen", "0.2"}},
+                 "is the interface's bit rate the IMU's");
+}
+
+TEST_F(CanStart, TheDescriptionIsWrong) {
+  expect_refused({}, "choose one of preset=NAME and dbc=FILE");
+  expect_refused({{"dbc", "/nowhere/imu.dbc"}}, "/nowhere/imu.dbc: cannot be read");
+  expect_refused({{"preset", "mti600"}, {"channel", "gyro_x=RateOfTurn"}},
+                 "write NAME=MESSAGE.SIGNAL");
+  expect_refused({{"preset", "mti600"}, {"channel", "gyro_x=RateOfTurn.W"}},
+                 "message RateOfTurn has no signal W");
+  expect_refused({{"preset", "mti600"}, {"channel", "counter=RateOfTurn.X"}},
+                 "no unsigned whole number");
+}
+
+TEST(CanChannelOption, IsReadWhole) {
+  const auto read = can::parse_channel_option("gyro_x=Rate.X,unit=deg/s,invalid=0xfb00,last=14");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->channel, "gyro_x");
+  EXPECT_EQ(read->message, "Rate");
+  EXPECT_EQ(read->signal, "X");
+  EXPECT_EQ(read->unit, "deg/s");
+  EXPECT_EQ(read->invalid_from, 0xfb00U);
+  EXPECT_EQ(read->last, 14U);
+  EXPECT_TRUE(can::parse_channel_option("a=B.C")->unit.empty());
+  for (const char* wrong : {"", "a", "=B.C", "a=", "a=B", "a=B.", "a=.C", "a=B.C,", "a=B.C,unit",
+                            "a=B.C,unit=", "a=B.C,last=x", "a=B.C,last=", "a=B.C,colour=red"}) {
+    EXPECT_FALSE(can::parse_channel_option(wrong)) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace imunoise::testing
