@@ -70,7 +70,7 @@ usb::Address Adis16405Device::choose() {
   throw DeviceError(
       IMUNOISE_NOT_FOUND,
       fmt::format("ADIS16405: no USB-SPI bridge{}{} is plugged in (FT232H 0403:6014, "
-                  "CP2130 10c4:87a0); look at its cable, and at lsusb{}",
+                  "CP2130 10c4:87a0); look at its cable, its permission, and lsusb{}",
                   choice_.serial.empty() ? "" : " with serial number ", choice_.serial, there));
 }
 

@@ -21,7 +21,7 @@ struct Choice {
 
 /// Streams of describe_streams(). A sensor that falls silent for a second is started again; one
 /// that is unplugged, or does not come back, is DISCONNECTED, and every read looks for the same
-/// bridge until its time is over. A start-up takes about 0.5 s, during which a read neither times
+/// bridge until its time is over. A start-up takes about 0.6 s, during which a read neither times
 /// out nor is cancelled.
 class Adis16405Device final : public plugin::Device {
  public:

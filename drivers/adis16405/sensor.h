@@ -24,7 +24,7 @@ class Sensor {
   explicit Sensor(SpiBus& bus) : bus_(bus) {}
 
   /// Resets, asks for the product id, runs the self-test, writes range, filter, rate and data-ready
-  /// and reads them back; takes about 0.5 s and leaves the bus at the clock for bursts. Throws
+  /// and reads them back; takes about 0.6 s and leaves the bus at the clock for bursts. Throws
   /// BAD_DEVICE: no answer, another product, self-test failed, a register that does not hold what
   /// was written.
   void start(const Settings& settings, const Note& note);

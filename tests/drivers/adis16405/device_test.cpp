@@ -11,6 +11,7 @@
 namespace imunoise::testing {
 namespace {
 
+using namespace std::chrono_literals;
 using drivers::ReadOutcome;
 using drivers::adis16405::Choice;
 using drivers::adis16405::kCp2130Id;
@@ -120,8 +121,9 @@ TEST_P(Polled, LosesNothing) {
 TEST_P(Polled, BeginsWithAWholeSample) {
   for (int phase = 0; phase < 40; ++phase) {
     Rig rig(GetParam());
-    rig.bus.hold_up(phase * std::chrono::microseconds(61));  // of a period of 1221
     rig.open({"any", "", true, {}});
+    const emulator::Time end = rig.bridge->now() + phase * 61us;  // of a period of 1221
+    while (rig.bridge->now() < end) rig.bridge->run(end);
     ASSERT_EQ(rig.read(5), ReadOutcome::kSamples);
     for (const Stream stream : {kImu, kMagnetometer, kHousekeeping}) {
       expect_stretch(rig.received[stream].rows, rig.taken(stream));
