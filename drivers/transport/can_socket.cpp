@@ -13,6 +13,8 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "drivers/plugin/device.h"
@@ -41,7 +43,7 @@ CanSocket::CanSocket(std::string interface, std::span<const CanFilter> filters)
     }
     fail(IMUNOISE_NOT_FOUND,
          fmt::format("this kernel opens no CAN socket ({}); try modprobe can_raw",
-                     std::strerror(errno)));
+                     std::generic_category().message(errno)));
   }
   configure(filters);
   bind_to_interface();
@@ -55,7 +57,7 @@ template <class Value>
 void CanSocket::set(int level, int option, const Value& value) {
   if (::setsockopt(descriptor_, level, option, &value, sizeof value) == 0) return;
   fail(IMUNOISE_FAILED, fmt::format("socket option {}/{}: {}; is the kernel older than 3.6?", level,
-                                    option, std::strerror(errno)));
+                                    option, std::generic_category().message(errno)));
 }
 
 void CanSocket::configure(std::span<const CanFilter> filters) {
@@ -92,7 +94,8 @@ void CanSocket::bind_to_interface() {
   address.can_ifindex = request.ifr_ifindex;
   const auto* const generic = static_cast<const sockaddr*>(static_cast<const void*>(&address));
   if (::bind(descriptor_, generic, sizeof address) != 0) {
-    fail(IMUNOISE_NOT_FOUND, fmt::format("no CAN interface ({})", std::strerror(errno)));
+    fail(IMUNOISE_NOT_FOUND,
+         fmt::format("no CAN interface ({})", std::generic_category().message(errno)));
   }
   if (::ioctl(descriptor_, SIOCGIFFLAGS, &request) != 0 ||
       (static_cast<unsigned>(request.ifr_flags) & IFF_UP) == 0) {
@@ -117,7 +120,7 @@ std::optional<ReceivedCanFrame> CanSocket::receive() {
     if (errno == EAGAIN || errno == EINTR) return std::nullopt;
     fail(IMUNOISE_DISCONNECTED,
          fmt::format("{}; plug the adapter in, or bring it up: ip link set {} up",
-                     std::strerror(errno), interface_));
+                     std::generic_category().message(errno), interface_));
   }
   ReceivedCanFrame out;
   for (cmsghdr* part_of = CMSG_FIRSTHDR(&message); part_of != nullptr;

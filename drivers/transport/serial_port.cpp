@@ -7,8 +7,9 @@
 #include <sys/ioctl.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "drivers/plugin/device.h"
@@ -78,7 +79,8 @@ SerialPort::SerialPort(std::string path) : path_(std::move(path)) {
            "again");
     }
     if (reason == EBUSY) fail(IMUNOISE_NO_ACCESS, "in use by another program; close that first");
-    fail(IMUNOISE_NOT_FOUND, fmt::format("cannot be opened: {}", std::strerror(reason)));
+    fail(IMUNOISE_NOT_FOUND,
+         fmt::format("cannot be opened: {}", std::generic_category().message(reason)));
   }
   port_.reset(port);
   sp_get_port_handle(port, &descriptor_);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "drivers/plugin/wait.h"
 #include "drivers/transport/serial_port.h"

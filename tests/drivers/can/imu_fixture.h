@@ -8,6 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "drivers/can/channel_option.h"
 #include "drivers/can/dbc.h"

@@ -6,6 +6,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "drivers/emulator/xsens_on_pty.h"
 #include "tests/drivers/lively_source.h"
