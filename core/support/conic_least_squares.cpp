@@ -1,5 +1,3 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -67,11 +65,10 @@ class ScaledCones {
         full(i, j) = x(begin + packed_index(n, i, j)) / weight(i, j);
       }
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(full);
-    if (eigen.eigenvalues()(0) >= 0.0) return;
+    const SymmetricEigen eigen = symmetric_eigen(full);
+    if (eigen.values(0) >= 0.0) return;
     inside = false;
-    full = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-           eigen.eigenvectors().transpose();
+    full = eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
     for (Eigen::Index i = 0; i < n; ++i) {
       for (Eigen::Index j = i; j < n; ++j) {
         x(begin + packed_index(n, i, j)) = full(i, j) * weight(i, j);
@@ -93,8 +90,7 @@ Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& mome
   const Eigen::VectorXd c = shrink.asDiagonal() * moment;
   const Eigen::Index n = g.rows();
 
-  const Eigen::LDLT<Eigen::MatrixXd> plain(g);
-  Eigen::VectorXd x = plain.solve(c);
+  Eigen::VectorXd x = solve_symmetric(g, c);
   bool inside = false;
   Eigen::VectorXd z = cones.project(x, inside);
   const bool solved = x.allFinite() && (g * x - c).norm() <= 1e-9 * c.norm();
@@ -102,14 +98,13 @@ Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& mome
   if (!x.allFinite()) z.setZero();
 
   // The penalty of least iterations for a quadratic lies between the extreme eigenvalues of G.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(g);
-  const double largest = eigen.eigenvalues()(n - 1);
-  const double rho = std::sqrt(largest * std::max(eigen.eigenvalues()(0), 1e-6 * largest));
-  const Eigen::VectorXd damped = (eigen.eigenvalues().array() + rho).inverse();
+  const SymmetricEigen eigen = symmetric_eigen(g);
+  const double largest = eigen.values(n - 1);
+  const double rho = std::sqrt(largest * std::max(eigen.values(0), 1e-6 * largest));
+  const Eigen::VectorXd damped = (eigen.values.array() + rho).inverse();
   Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
   for (int round = 0; round < kMostRounds; ++round) {
-    x = eigen.eigenvectors() *
-        (damped.asDiagonal() * (eigen.eigenvectors().transpose() * (c + rho * (z - u))));
+    x = eigen.vectors * (damped.asDiagonal() * (eigen.vectors.transpose() * (c + rho * (z - u))));
     const Eigen::VectorXd before = z;
     z = cones.project(x + u, inside);
     u += x - z;

@@ -27,9 +27,9 @@ ScaledEigen scaled_eigen(const MatrixRef& symmetric) {
   out.scale =
       symmetric.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   const Eigen::MatrixXd scaled = out.scale.asDiagonal() * symmetric * out.scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  out.values = solver.eigenvalues();
-  out.vectors = solver.eigenvectors();
+  SymmetricEigen eigen = symmetric_eigen(scaled);
+  out.values = std::move(eigen.values);
+  out.vectors = std::move(eigen.vectors);
   return out;
 }
 
@@ -75,6 +75,15 @@ class PassiveSet {
 
 }  // namespace
 
+SymmetricEigen symmetric_eigen(const MatrixRef& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd solve_symmetric(const MatrixRef& symmetric, const VectorRef& right) {
+  return Eigen::LDLT<Eigen::MatrixXd>(symmetric).solve(right);
+}
+
 Whitening whiten(const MatrixRef& covariance) {
   const ScaledEigen eigen = scaled_eigen(covariance);
   const Eigen::Index n = covariance.rows();
@@ -89,8 +98,8 @@ Whitening whiten(const MatrixRef& covariance) {
 }
 
 Eigen::MatrixXd square_root(const MatrixRef& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen(symmetric);
+  return eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 PseudoInverse pseudo_inverse(const MatrixRef& symmetric, double tolerance) {

@@ -26,6 +26,17 @@ Whitening whiten(const MatrixRef& covariance);
 /// are rounding, count as zero.
 Eigen::MatrixXd square_root(const MatrixRef& symmetric);
 
+/// Eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors, one a column.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+SymmetricEigen symmetric_eigen(const MatrixRef& symmetric);
+
+/// The solution of Sx = b for a symmetric positive semidefinite S; not finite, or no solution,
+/// where S is singular.
+Eigen::VectorXd solve_symmetric(const MatrixRef& symmetric, const VectorRef& right);
+
 /// A symmetric positive semidefinite matrix inverted on the space where it is not zero.
 struct PseudoInverse {
   Eigen::MatrixXd matrix;  ///< p × p

@@ -93,7 +93,16 @@ TEST_F(Array, SaysWhatItCannotDo) {
     EXPECT_NE(done.status, 0) << arguments;
     EXPECT_NE(done.errors.find(words), std::string::npos) << arguments << ": " << done.errors;
   };
-  std::ofstream(folder_ / "stuck.csv") << "p,q,r\n1,2,3\n2,2,5\n4,2,1\n1,2,2\n3,2,2\n";
+  std::ofstream stuck_file(folder_ / "stuck.csv");
+  std::ofstream mixed_file(folder_ / "mixed.csv");
+  stuck_file << "p,q,r\n";
+  mixed_file << "gyro (rad/s),acc (m/s^2)\n";
+  for (int i = 0; i < 32; ++i) {
+    stuck_file << i * i % 7 << ",2," << i * i % 5 << '\n';
+    mixed_file << i * i % 7 << ',' << i * i % 5 << '\n';
+  }
+  stuck_file.close();
+  mixed_file.close();
   const Outcome stuck = run("array stuck.csv --rate 1");
   EXPECT_NE(stuck.errors.find("q never changes"), std::string::npos) << stuck.errors;
   expect("--channel gyro_a", "at least two sensors");
@@ -104,7 +113,6 @@ TEST_F(Array, SaysWhatItCannotDo) {
   expect("--optimise 1,2", "13 weights");
   expect("--optimise sometimes", "13 weights");
   expect("--robust 0.6", "not for arrays");
-  std::ofstream(folder_ / "mixed.csv") << "gyro (rad/s),acc (m/s^2)\n1,2\n2,3\n1,1\n5,2\n";
   const Outcome mixed = run("array mixed.csv --rate 100");
   EXPECT_NE(mixed.status, 0);
   EXPECT_NE(mixed.errors.find("measure the same thing"), std::string::npos) << mixed.errors;

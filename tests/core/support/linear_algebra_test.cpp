@@ -66,5 +66,41 @@ TEST(PseudoInverse, TellsWhatCannotBeToldApart) {
   EXPECT_NEAR(inverse.null_share(2), 0.5, 1e-9);
 }
 
+// A random problem over one 3 × 3 matrix and two numbers, at the optimum: the slope in every cone
+// is itself in the cone (dual) and orthogonal to the solution.
+TEST(ConicLeastSquares, MeetsTheOptimalityConditions) {
+  std::mt19937_64 random(20261121);
+  std::normal_distribution<double> normal;
+  int singular = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::MatrixXd a(12, 8);
+    Eigen::VectorXd b(12);
+    for (double& x : a.reshaped()) x = normal(random);
+    for (double& x : b) x = normal(random);
+    const Eigen::VectorXd beta =
+        conic_least_squares(a.transpose() * a, a.transpose() * b, {3, 1, 1});
+    const Eigen::VectorXd slope = a.transpose() * (a * beta - b);
+    Eigen::Matrix3d solution;
+    Eigen::Matrix3d dual;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        solution(i, j) = beta(packed_index(3, i, j));
+        dual(i, j) = slope(packed_index(3, i, j)) * (i == j ? 1.0 : 0.5);
+      }
+    }
+    const double size = b.norm();
+    EXPECT_GT(symmetric_eigen(solution).values(0), -1e-8 * size);
+    EXPECT_GT(symmetric_eigen(dual).values(0), -1e-6 * size);
+    EXPECT_NEAR((solution * dual).trace(), 0.0, 1e-6 * size * size);
+    for (const Eigen::Index i : {6, 7}) {
+      EXPECT_GE(beta(i), 0.0);
+      EXPECT_GT(slope(i), -1e-6 * size);
+      EXPECT_NEAR(beta(i) * slope(i), 0.0, 1e-6 * size * size);
+    }
+    singular += symmetric_eigen(solution).values(0) < 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(singular, 100) << "the constraint must matter in most trials";
+}
+
 }  // namespace
 }  // namespace imunoise
