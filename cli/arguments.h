@@ -2,6 +2,7 @@
 
 // What the user asked for. CLI11 is slow to compile: it lives in cli/parse alone.
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -68,6 +69,22 @@ struct ArrayArguments {
   ShowArguments show;
 };
 
+/// A device to record: a driver and its options, "name=value".
+struct DeviceArguments {
+  std::string driver;
+  std::vector<std::string> options;
+};
+
+struct RecordArguments {
+  std::filesystem::path folder;
+  std::vector<DeviceArguments> devices;
+  std::optional<std::chrono::duration<double>> duration;  ///< unset: until the devices end
+  std::uint32_t replicates = 1;
+  std::optional<std::uint32_t> replicate;             ///< number of the first; unset: the next free
+  std::vector<std::filesystem::path> driver_folders;  ///< searched before all others
+  bool json = false;
+};
+
 struct DriversArguments {
   std::vector<std::filesystem::path> folders;  ///< searched before all others
   bool json = false;
@@ -93,9 +110,9 @@ struct VerifyArguments {
 };
 
 struct Arguments {
-  using Command =
-      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
-                   SimulateArguments, VerifyArguments, DriversArguments, DecodeArguments>;
+  using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
+                               ArrayArguments, SimulateArguments, RecordArguments, VerifyArguments,
+                               DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

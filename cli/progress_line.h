@@ -17,8 +17,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  Progress progress() {
-    return Progress([this](double fraction) { report(fraction); });
+  Progress progress(std::stop_token stop = {}) {
+    return Progress([this](double fraction) { report(fraction); }, std::move(stop));
   }
 
  private:

@@ -12,6 +12,16 @@ Examples:
       --rate 100 --samples 1000000 --replicates 6 --seed 42 --unit rad/s --out run.h5
   writes run_1.h5 .. run_6.h5 (also .csv and .npy). The same seed gives the same numbers.)help";
 
+constexpr const char* kRecordExamples = R"help(
+Examples:
+  imunoise record recordings/monday --device "adis16405 rate=102.4" --duration 3600 --replicates 6
+  imunoise record recordings/monday --device "xsens port=/dev/ttyUSB0" --device "can interface=can0 preset=mti600" \
+      --duration 600
+  imunoise record copy --device "replay file=run1.h5 speed=0"
+
+A device is a driver and its options (imunoise drivers lists them), in quotes. Ctrl-C ends a recording in good
+order: what was recorded is kept. Without --duration it lasts until then, or until every device has ended.)help";
+
 constexpr const char* kVerifyExamples = R"help(
 Examples:
   imunoise verify recordings/monday                      every chunk, gap and count of a recording
@@ -62,6 +72,59 @@ ParsedCommand simulate_command(CLI::App& program) {
           }};
 }
 
+// "driver name=value 'name=value with blanks'".
+DeviceArguments device_from(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::string& word : CLI::detail::split_up(text)) {
+    if (!word.empty()) words.push_back(std::move(word));
+  }
+  if (words.empty()) refuse("--device", "name a driver, and behind it its options");
+  DeviceArguments out{words.front(), {}};
+  out.options.assign(words.begin() + 1, words.end());
+  return out;
+}
+
+ParsedCommand record_command(CLI::App& program) {
+  struct Raw {
+    RecordArguments arguments;
+    std::string folder;
+    std::vector<std::string> devices;
+    std::vector<std::string> driver_folders;
+    double duration = 0.0;
+    std::uint32_t replicate = 0;
+  };
+  CLI::App* const record = program.add_subcommand("record", "Record devices");
+  record->footer(kRecordExamples);
+  const auto raw = std::make_shared<Raw>();
+  record->add_option("FOLDER", raw->folder, "The recording's folder; made when missing")
+      ->required();
+  record->add_option("--device", raw->devices, "A driver and its options; repeatable")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("\"DRIVER NAME=VALUE ..\"");
+  record->add_option("--duration", raw->duration, "Of each replicate, in s")
+      ->check(CLI::PositiveNumber);
+  record->add_option("--replicates", raw->arguments.replicates, "How many, one after another")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  record->add_option("--replicate", raw->replicate, "Number of the first (default: the next free)")
+      ->check(CLI::Range(1, 1000000));
+  record
+      ->add_option("--driver-path", raw->driver_folders,
+                   "A folder to search for drivers before the others; repeatable")
+      ->check(CLI::ExistingDirectory);
+  record->add_flag("--json", raw->arguments.json, "Print the result as JSON");
+  return {record, [raw] {
+            RecordArguments out = raw->arguments;
+            out.folder = raw->folder;
+            for (const std::string& text : raw->devices) out.devices.push_back(device_from(text));
+            out.driver_folders.assign(raw->driver_folders.begin(), raw->driver_folders.end());
+            if (raw->duration > 0.0) out.duration = std::chrono::duration<double>(raw->duration);
+            if (raw->replicate > 0) out.replicate = raw->replicate;
+            return out;
+          }};
+}
+
 ParsedCommand verify_command(CLI::App& program) {
   CLI::App* const verify = program.add_subcommand("verify", "Check a recording, and repair it");
   verify->footer(kVerifyExamples);
@@ -86,7 +149,7 @@ ParsedCommand verify_command(CLI::App& program) {
 }  // namespace
 
 std::vector<ParsedCommand> recording_commands(CLI::App& program) {
-  return {simulate_command(program), verify_command(program)};
+  return {simulate_command(program), record_command(program), verify_command(program)};
 }
 
 }  // namespace imunoise::cli

@@ -12,11 +12,12 @@
 namespace imunoise::recording {
 namespace {
 
-constexpr std::array<std::pair<Refused, std::string_view>, 6> kWords = {{
+constexpr std::array<std::pair<Refused, std::string_view>, 7> kWords = {{
     {Refused::kChecksum, "checksum"},
     {Refused::kStale, "stale"},
     {Refused::kOutOfRange, "out_of_range"},
     {Refused::kMalformed, "malformed"},
+    {Refused::kInvalid, "invalid"},
     {Refused::kOverrun, "overrun"},
     {Refused::kNotWritten, "not_written"},
 }};

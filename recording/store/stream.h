@@ -40,10 +40,11 @@ enum class Refused {
   kStale,       ///< The device had not made a new sample yet.
   kOutOfRange,  ///< A value that the device cannot measure.
   kMalformed,   ///< Not what the protocol allows.
+  kInvalid,     ///< The device itself marks it as invalid.
   kOverrun,     ///< It came faster than it could be written.
   kNotWritten,  ///< The disk took it no longer.
 };
-/// "checksum", "stale", "out_of_range", "malformed", "overrun", "not_written".
+/// "checksum", "stale", "out_of_range", "malformed", "invalid", "overrun", "not_written".
 std::string_view word(Refused reason);
 std::optional<Refused> refused_from_word(std::string_view word);
 
