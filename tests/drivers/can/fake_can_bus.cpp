@@ -84,7 +84,7 @@ bool FakeCanBus::send(const drivers::CanFrame& frame) {
   std::memcpy(&raw, bytes.bytes.data(), bytes.count);
   bool heard = false;  // a frame that nobody listens to is as good as not sent
   for (auto& [descriptor, socket] : kernel().sockets) {
-    if (socket.bus_end < 0) continue;
+    if (socket.bus_end < 0 || !socket.bound) continue;
     heard = true;
     if (!passes(socket, raw, bytes.count)) continue;
     ::send(socket.bus_end, bytes.bytes.data(), bytes.count, MSG_NOSIGNAL);
