@@ -82,12 +82,10 @@ bool FakeCanBus::send(const drivers::CanFrame& frame) {
   const transport::CanFrameBytes bytes = transport::bytes_of(frame);
   canfd_frame raw{};
   std::memcpy(&raw, bytes.bytes.data(), bytes.count);
-  bool heard = false;  // a frame that nobody listens to is as good as not sent
+  bool heard = false;  // a frame that nobody listens to, or no longer, is as good as not sent
   for (auto& [descriptor, socket] : kernel().sockets) {
-    if (socket.bus_end < 0 || !socket.bound) continue;
-    heard = true;
-    if (!passes(socket, raw, bytes.count)) continue;
-    ::send(socket.bus_end, bytes.bytes.data(), bytes.count, MSG_NOSIGNAL);
+    if (socket.bus_end < 0 || !passes(socket, raw, bytes.count)) continue;
+    heard = ::send(socket.bus_end, bytes.bytes.data(), bytes.count, MSG_NOSIGNAL) >= 0 || heard;
   }
   return heard;
 }
