@@ -1,7 +1,5 @@
 #include "core/array/array_estimate.h"
 
-#include <algorithm>
-
 #include "core/array/array_blocks.h"
 #include "core/array/array_inference.h"
 #include "core/array/array_start.h"
@@ -16,11 +14,7 @@ Segment segment_of(const ArrayModel& model, const Pair& pair, const Scales& scal
   Segment out{scales, {}};
   for (std::size_t t = 0; t < model.latents.size(); ++t) {
     const Latent& latent = model.latents[t];
-    const auto acts = [&](Eigen::Index sensor) {
-      return std::find(latent.sensors.begin(), latent.sensors.end(), sensor) !=
-             latent.sensors.end();
-    };
-    if (!acts(pair.a) || !acts(pair.b)) continue;
+    if (!latent.acts_on(pair.a) || !latent.acts_on(pair.b)) continue;
     out.shares.push_back(
         {t, latent.matrix() ? packed_index(model.sensors, pair.a, pair.b) : Eigen::Index{0}});
   }

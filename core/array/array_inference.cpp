@@ -11,10 +11,6 @@
 namespace imunoise {
 namespace {
 
-bool acts_on(const Latent& latent, Eigen::Index sensor) {
-  return std::find(latent.sensors.begin(), latent.sensors.end(), sensor) != latent.sensors.end();
-}
-
 // Every free parameter of a model.
 std::vector<ArrayParameter> parameters_of(const ArrayModel& model) {
   std::vector<ArrayParameter> out;
@@ -44,7 +40,7 @@ double value_of(const ArrayModel& model, const ArrayParameter& parameter) {
 double factor(const Latent& latent, const ArrayParameter& parameter, const Pair& pair) {
   if (parameter.parameter > 0) return latent.power(pair.a, pair.b);
   if (latent.matrix()) return pair.a == parameter.row && pair.b == parameter.column ? 1.0 : 0.0;
-  return acts_on(latent, pair.a) && acts_on(latent, pair.b) ? 1.0 : 0.0;
+  return latent.acts_on(pair.a) && latent.acts_on(pair.b) ? 1.0 : 0.0;
 }
 
 // The sandwich of a fit's parameters, were the moments to scatter as under `scatter`.

@@ -29,6 +29,10 @@ std::vector<double> shape_values(const Latent& latent) {
 
 }  // namespace
 
+bool Latent::acts_on(Eigen::Index sensor) const {
+  return std::find(sensors.begin(), sensors.end(), sensor) != sensors.end();
+}
+
 void Latent::set_scalar(double value) {
   for (const Eigen::Index a : sensors) {
     for (const Eigen::Index b : sensors) power(a, b) = value;

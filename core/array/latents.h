@@ -23,6 +23,7 @@ struct Latent {
 
   /// Its power is a free positive semidefinite matrix; else one number for all its sensors.
   bool matrix() const { return term.sharing == Sharing::kCorrelated; }
+  bool acts_on(Eigen::Index sensor) const;
   /// The number, where it is one.
   double scalar() const { return power(sensors.front(), sensors.front()); }
   void set_scalar(double value);
