@@ -151,7 +151,7 @@ Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gr
 // positive semidefinite. Columns are scaled inside.
 Eigen::VectorXd Profile::solve(const Eigen::MatrixXd& columns,
                                const Eigen::VectorXd& target) const {
-  if (!problem_.matrix_powers.empty()) {
+  if (!problem_.matrix_powers.empty() || free_columns_ > kMostColumns) {
     std::vector<Eigen::Index> sizes;
     for (const FreePower& power : free_powers_) sizes.push_back(power.size);
     return conic_least_squares(columns.transpose() * columns, columns.transpose() * target, sizes);

@@ -10,7 +10,6 @@
 namespace imunoise {
 namespace {
 
-constexpr int kMostColumns = 64;
 using SmallMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;

@@ -50,9 +50,12 @@ struct PseudoInverse {
 /// zero.
 PseudoInverse pseudo_inverse(const MatrixRef& symmetric, double tolerance = 1e-11);
 
+/// Columns that nonnegative_least_squares() takes.
+inline constexpr int kMostColumns = 64;
+
 /// Non-negative least squares in normal form: the minimiser of βᵀGβ - 2cᵀβ over β ≥ 0, with G = AᵀA
-/// (p × p, p ≤ 64, unit diagonal advised) and c = Aᵀb. Columns that depend linearly on those in use
-/// stay at zero. Active set of Lawson & Hanson (1974), chapter 23; deterministic.
+/// (p × p, p ≤ kMostColumns, unit diagonal advised) and c = Aᵀb. Columns that depend linearly on
+/// those in use stay at zero. Active set of Lawson & Hanson (1974), chapter 23; deterministic.
 Eigen::VectorXd nonnegative_least_squares(const MatrixRef& gram, const VectorRef& moment);
 
 /// The same over a product of cones: β holds the upper triangles of symmetric matrices of the given

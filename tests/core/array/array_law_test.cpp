@@ -175,6 +175,25 @@ TEST(FitArray, FindsTheModelThatItsMomentsComeFrom) {
   }
 }
 
+TEST(FitArray, TakesMoreSensorsThanOneActiveSetHolds) {
+  constexpr std::size_t kSensors = 24;  // 72 powers
+  const Scales scales = Scales::for_samples(1 << 12);
+  const Model written = parse_array_model("RW + WN + QN", Hertz{1.0}).value();
+  ArrayModel truth = expand(written, {kSensors, {}});
+  for (std::size_t t = 0; t < truth.latents.size(); ++t) {
+    const bool walk = std::holds_alternative<RandomWalk>(truth.latents[t].term.process);
+    truth.latents[t].set_scalar((walk ? 1e-4 : 1.0) * (1.0 + 0.1 * static_cast<double>(t)));
+  }
+  const WaveletCovariance exact{scales, covariance(truth, scales), 1 << 12, Hertz{1.0}};
+  ArrayOptions own;
+  own.cross = false;
+  const ArrayFit fit = fit_array(written, {kSensors, {}}, std::span(&exact, 1), own);
+  for (std::size_t t = 0; t < truth.latents.size(); ++t) {
+    const double power = truth.latents[t].scalar();
+    EXPECT_NEAR(fit.model.latents[t].scalar(), power, 1e-6 * power) << t;
+  }
+}
+
 TEST(FitArray, PowersArePositiveSemidefiniteWhenTheMomentsAreNot) {
   const Scales scales = Scales::for_samples(4096);
   ArrayModel impossible = expand(parse_array_model("RW[corr] + WN", Hertz{1.0}).value(), {2, {}});
