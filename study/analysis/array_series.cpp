@@ -241,8 +241,14 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   const Result<Measured> measured =
       measure_array(sensors, options.per_octave, progress.part(0.0, 0.6));
   if (!measured) return tl::unexpected(measured.error());
-  const Result<Eigen::VectorXd> scale_weights =
-      scale_weights_of(options.scales, measured->front().scales.size());
+  const std::size_t scales = measured->front().scales.size();
+  if (free_parameters(*written) > scales) {
+    return fail(fmt::format(
+        "model: {} has {} free parameters a sensor, but the recording has only {} scales; take a "
+        "smaller model, record longer, or ask for more scales an octave",
+        print(*written), free_parameters(*written), scales));
+  }
+  const Result<Eigen::VectorXd> scale_weights = scale_weights_of(options.scales, scales);
   if (!scale_weights) return tl::unexpected(scale_weights.error());
 
   const ArrayOptions how{options.weighting, options.cross, options.confidence};
