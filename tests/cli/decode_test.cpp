@@ -1,55 +1,44 @@
 // `imunoise decode` as a user runs it.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "drivers/xsens/messages.h"
 #include "drivers/xsens/mtdata2.h"
+#include "tests/cli/program.h"
 
 namespace imunoise {
 namespace {
 
 using nlohmann::json;
 
-class Decode : public ::testing::Test {
+class Decode : public testing::Program {
  protected:
-  Decode()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("imunoise_decode_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Decode() override { std::filesystem::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
   }
 
-  // Status and the lines of standard output; standard error comes among them only when asked for.
-  std::pair<int, std::vector<std::string>> run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" IMUNOISE_BINARY "' decode " + arguments;
-    std::FILE* const pipe = popen(command.c_str(), "r");
-    std::string text;
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-      text.append(buffer.data(), n);
-    }
-    const int status = WEXITSTATUS(pclose(pipe));
-    std::vector<std::string> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return {status, lines};
+  struct Decoded {
+    int status;
+    std::vector<std::string> lines;   // of standard output
+    std::vector<std::string> errors;  // of standard error
+  };
+  Decoded decode(const std::string& arguments) const {
+    const testing::Outcome done = run("decode " + arguments);
+    return {done.status, lines_of(done.out), lines_of(done.errors)};
   }
 
-  std::filesystem::path folder_;
+ private:
+  static std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> out;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) out.push_back(line);
+    return out;
+  }
 };
 
 std::string xbus_message(std::uint16_t counter) {
@@ -68,7 +57,7 @@ TEST_F(Decode, PrintsSamplesAndSaysWhatItRefused) {
   bytes += xbus_message(6);
   bytes.back() = static_cast<char>(bytes.back() + 1);  // its checksum
   write("x.bin", bytes);
-  const auto [status, lines] = run("--format xbus x.bin --json");
+  const auto [status, lines, errors] = decode("--format xbus x.bin --json");
   EXPECT_EQ(status, 0);
   ASSERT_EQ(lines.size(), 4U);
   const json first = json::parse(lines[0]);
@@ -88,16 +77,16 @@ TEST_F(Decode, PrintsSamplesAndSaysWhatItRefused) {
 
 TEST_F(Decode, SummaryForPeopleGoesToStandardError) {
   write("x.bin", xbus_message(1) + "noise");
-  const auto [status, lines] = run("--format xbus x.bin 2>&1 >/dev/null");
+  const auto [status, lines, errors] = decode("--format xbus x.bin");
   EXPECT_EQ(status, 0);
-  ASSERT_EQ(lines.size(), 2U);
-  EXPECT_NE(lines[0].find("1 samples"), std::string::npos);
-  EXPECT_NE(lines[1].find("outside_messages"), std::string::npos);
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_NE(errors[0].find("1 samples"), std::string::npos);
+  EXPECT_NE(errors[1].find("outside_messages"), std::string::npos);
 }
 
 TEST_F(Decode, ReadsStandardInputAndPresets) {
   write("c.log", "(1.25) can0 032#0033FF800500");
-  const auto [status, lines] = run("--format candump --preset mti600 - < c.log");
+  const auto [status, lines, errors] = decode("--format candump --preset mti600 - < c.log");
   EXPECT_EQ(status, 0);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(json::parse(lines[0])["source"], "can0");
@@ -107,11 +96,11 @@ TEST_F(Decode, ReadsStandardInputAndPresets) {
 TEST_F(Decode, ReadsADatabase) {
   write("d.dbc", "BO_ 1 M: 1 I\n SG_ \"\n");
   write("c.log", "(1.0) can0 001#10\n");
-  const auto bad = run("--format candump --dbc d.dbc c.log 2>&1");
-  EXPECT_EQ(bad.first, 1);
-  EXPECT_NE(bad.second.at(0).find("d.dbc:2:6:"), std::string::npos) << bad.second.at(0);
+  const Decoded bad = decode("--format candump --dbc d.dbc c.log");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_NE(bad.errors.at(0).find("d.dbc:2:6:"), std::string::npos) << bad.errors.at(0);
   write("d.dbc", "BO_ 1 M: 1 I\n SG_ T : 0|8@1- (0.5,1) [0|0] \"degC\" H\n");
-  const auto [status, lines] = run("--format candump --dbc d.dbc c.log");
+  const auto [status, lines, errors] = decode("--format candump --dbc d.dbc c.log");
   EXPECT_EQ(status, 0);
   EXPECT_EQ(json::parse(lines.at(0))["values"]["T"]["value"], 9.0 + 273.15);
 }
@@ -121,7 +110,7 @@ TEST_F(Decode, ReadsBurstsWithTheRangeOfTheRegister) {
   for (int i = 0; i < 12; ++i) bytes += "\x80\x64";  // 100 counts, new
   write("b.bin", bytes);
   const auto at = [&](const char* option) {
-    const auto lines = run(std::string("--format adis16405 b.bin ") + option).second;
+    const auto lines = decode(std::string("--format adis16405 b.bin ") + option).lines;
     return json::parse(lines.at(0))["values"]["gyro_x"]["value"].get<double>();
   };
   EXPECT_NEAR(at(""), 5.0 * 0.017453292519943295, 1e-12);
@@ -131,9 +120,9 @@ TEST_F(Decode, ReadsBurstsWithTheRangeOfTheRegister) {
 TEST_F(Decode, RefusesWithTheWayOut) {
   write("x.txt", "this is text");
   const auto error = [&](const std::string& arguments, int status) {
-    const auto [got, lines] = run(arguments + " 2>&1 >/dev/null");
-    EXPECT_EQ(got, status) << arguments;
-    return lines.empty() ? std::string() : lines.back();
+    const Decoded done = decode(arguments);
+    EXPECT_EQ(done.status, status) << arguments;
+    return done.errors.empty() ? std::string() : done.errors.back();
   };
   EXPECT_NE(error("--format xbus x.txt", 1).find("is this xbus?"), std::string::npos);
   EXPECT_NE(error("--format xbus absent.bin", 1).find("No such file"), std::string::npos);
