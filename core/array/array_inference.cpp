@@ -11,7 +11,35 @@
 namespace imunoise {
 namespace {
 
-// Every free parameter of a model.
+// By how much the cross-covariance of a pair moves with a parameter, per unit of what its process
+// contributes.
+double factor(const Latent& latent, const ArrayParameter& parameter, const Pair& pair) {
+  if (parameter.parameter > 0) return latent.power(pair.a, pair.b);
+  if (latent.matrix()) return pair.a == parameter.row && pair.b == parameter.column ? 1.0 : 0.0;
+  return latent.acts_on(pair.a) && latent.acts_on(pair.b) ? 1.0 : 0.0;
+}
+
+// The sandwich of a fit's parameters, were the moments to scatter as under `scatter`.
+ArrayCovariance sandwich(const ArrayFit& fit, const ArrayModel& scatter,
+                         const std::vector<ArrayBlock>& blocks,
+                         const std::vector<Eigen::MatrixXd>& roots) {
+  const auto p = static_cast<Eigen::Index>(fit.parameters.size());
+  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(p, p);
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(p, p);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Eigen::MatrixXd slope =
+        roots[b] * parameter_slopes(fit, blocks[b].pairs, blocks[b].group->scales);
+    const Eigen::MatrixXd spread =
+        roots[b] * covariance_of(scatter, blocks[b]) * roots[b].transpose();
+    bread += slope.transpose() * slope;
+    meat += slope.transpose() * spread * slope;
+  }
+  const PseudoInverse inverse = pseudo_inverse(bread);
+  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+}
+
+}  // namespace
+
 std::vector<ArrayParameter> parameters_of(const ArrayModel& model) {
   std::vector<ArrayParameter> out;
   for (std::size_t t = 0; t < model.latents.size(); ++t) {
@@ -35,40 +63,6 @@ double value_of(const ArrayModel& model, const ArrayParameter& parameter) {
   return latent.power(parameter.row, parameter.column);
 }
 
-// By how much the cross-covariance of a pair moves with a parameter, per unit of what its process
-// contributes.
-double factor(const Latent& latent, const ArrayParameter& parameter, const Pair& pair) {
-  if (parameter.parameter > 0) return latent.power(pair.a, pair.b);
-  if (latent.matrix()) return pair.a == parameter.row && pair.b == parameter.column ? 1.0 : 0.0;
-  return latent.acts_on(pair.a) && latent.acts_on(pair.b) ? 1.0 : 0.0;
-}
-
-// The sandwich of a fit's parameters, were the moments to scatter as under `scatter`.
-struct Sandwich {
-  Eigen::MatrixXd covariance;
-  Eigen::VectorXd null_share;
-};
-
-Sandwich sandwich(const ArrayFit& fit, const ArrayModel& scatter,
-                  const std::vector<ArrayBlock>& blocks,
-                  const std::vector<Eigen::MatrixXd>& roots) {
-  const auto p = static_cast<Eigen::Index>(fit.parameters.size());
-  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(p, p);
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(p, p);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const Eigen::MatrixXd slope =
-        roots[b] * parameter_slopes(fit, blocks[b].pairs, blocks[b].group->scales);
-    const Eigen::MatrixXd spread =
-        roots[b] * covariance_of(scatter, blocks[b]) * roots[b].transpose();
-    bread += slope.transpose() * slope;
-    meat += slope.transpose() * spread * slope;
-  }
-  const PseudoInverse inverse = pseudo_inverse(bread);
-  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
-}
-
-}  // namespace
-
 Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const Scales& scales) {
   const Eigen::ArrayXd m = scales.half_widths();
   const auto n = m.size();
@@ -87,13 +81,11 @@ Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const 
   return out;
 }
 
-void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
-           const std::vector<Eigen::MatrixXd>& roots, double confidence) {
+void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& covariance_under) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kHidden = 0.2;  // share of a parameter that other parameters can imitate
-  fit.parameters = parameters_of(fit.model);
-  const Sandwich here = sandwich(fit, fit.model, blocks, roots);
-  fit.covariance = here.covariance;
+  const ArrayCovariance here = covariance_under(fit.model);
+  fit.covariance = here.matrix;
   const double z = normal_quantile(0.5 + 0.5 * confidence);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     ArrayParameter& parameter = fit.parameters[i];
@@ -119,11 +111,18 @@ void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
         } else {
           grown.set_scalar(power);
         }
-        return std::sqrt(std::max(sandwich(fit, moved, blocks, roots).covariance(at, at), 0.0));
+        return std::sqrt(std::max(covariance_under(moved).matrix(at, at), 0.0));
       };
       parameter.estimate.upper = upper_bound(value, parameter.estimate.upper, z, error_at);
     }
   }
+}
+
+void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
+           const std::vector<Eigen::MatrixXd>& roots, double confidence) {
+  fit.parameters = parameters_of(fit.model);
+  fill_estimates(fit, confidence,
+                 [&](const ArrayModel& scatter) { return sandwich(fit, scatter, blocks, roots); });
 }
 
 }  // namespace imunoise

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/array/array_blocks.h"
@@ -7,9 +8,25 @@
 
 namespace imunoise {
 
+/// Every free parameter of a model, without its estimate. The entries of a matrix of powers come
+/// together, in the order of packed_index().
+std::vector<ArrayParameter> parameters_of(const ArrayModel& model);
+double value_of(const ArrayModel& model, const ArrayParameter& parameter);
+
+/// Covariance of a fit's parameters.
+struct ArrayCovariance {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd null_share;  ///< near 1 where a parameter cannot be told from the others
+};
+/// What it would be, were the noise that of the model given.
+using CovarianceUnder = std::function<ArrayCovariance(const ArrayModel& scatter)>;
+
+/// Fills the estimates of fit.parameters, which are there, and their covariance: intervals on the
+/// scale that suits each.
+void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& covariance_under);
+
 /// Fills the parameters of a fit and their covariance: the sandwich H⁻¹BH⁻¹ with the exact
-/// covariance of the moments, intervals on the scale that suits each parameter. The blocks and the
-/// weight roots are those of the estimate.
+/// covariance of the moments. The blocks and the weight roots are those of the estimate.
 void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
            const std::vector<Eigen::MatrixXd>& roots, double confidence);
 

@@ -148,20 +148,12 @@ Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gr
 }
 
 // The powers that minimise |target - columns·powers|², each number non-negative and each matrix
-// positive semidefinite. Columns are scaled inside.
+// positive semidefinite.
 Eigen::VectorXd Profile::solve(const Eigen::MatrixXd& columns,
                                const Eigen::VectorXd& target) const {
-  if (!problem_.matrix_powers.empty() || free_columns_ > kMostColumns) {
-    std::vector<Eigen::Index> sizes;
-    for (const FreePower& power : free_powers_) sizes.push_back(power.size);
-    return conic_least_squares(columns.transpose() * columns, columns.transpose() * target, sizes);
-  }
-  const Eigen::VectorXd norms =
-      columns.colwise().norm().transpose().unaryExpr([](double n) { return n > 0.0 ? n : 1.0; });
-  const Eigen::MatrixXd scaled = columns * norms.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd powers =
-      nonnegative_least_squares(scaled.transpose() * scaled, scaled.transpose() * target);
-  return powers.cwiseQuotient(norms);
+  std::vector<Eigen::Index> sizes;
+  for (const FreePower& power : free_powers_) sizes.push_back(power.size);
+  return conic_least_squares(columns.transpose() * columns, columns.transpose() * target, sizes);
 }
 
 void Profile::set_powers(const Eigen::VectorXd& powers, Point& point) const {

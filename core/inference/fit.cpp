@@ -7,47 +7,22 @@
 #include "core/inference/goodness.h"
 #include "core/inference/intervals.h"
 #include "core/inference/parameter_covariance.h"
+#include "core/inference/residuals.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
 namespace {
 
-// The model with one of its powers (by its column) worth `value`.
-Model with_power(Model model, Eigen::Index column, double value) {
-  for (Term& term : model.terms) {
-    if (column == 0) {
-      std::vector<double> v = values(term.process);
-      v[0] = value;
-      set_values(term.process, v);
-    }
-    column -= static_cast<Eigen::Index>(term.given.size());
-  }
-  return model;
-}
-
 // Standard error of a power, were it worth `value`: the moments scatter accordingly.
 double error_of_power(const Model& model, std::span<const WaveletVariance> replicates,
                       const std::vector<Eigen::MatrixXd>& weight_roots,
-                      std::vector<Eigen::Index> interior, Eigen::Index column, double value) {
-  auto found = std::find(interior.begin(), interior.end(), column);
-  if (found == interior.end()) found = interior.insert(found, column);
+                      const std::vector<Eigen::Index>& interior, Eigen::Index column,
+                      double value) {
   const MomentCovariances covariances =
       moment_covariances(with_power(model, column, value), replicates);
-  const auto at = static_cast<Eigen::Index>(found - interior.begin());
-  const ParameterCovariance c =
-      parameter_covariance(model, replicates, weight_roots, covariances, interior);
-  if (c.null_share(at) > 0.2) return std::numeric_limits<double>::infinity();
-  return std::sqrt(c.matrix(at, at));
-}
-
-void fill_residuals(Fit& fit, std::span<const WaveletVariance> replicates,
-                    const PerReplicate<NormalScores>& scores) {
-  for (std::size_t k = 0; k < replicates.size(); ++k) {
-    const Eigen::ArrayXd nu = variance(fit.estimate.model, replicates[k].scales.half_widths());
-    fit.residuals.emplace_back((replicates[k].variance - nu) /
-                               fit.covariances[k].diagonal().array().sqrt());
-    fit.tested.push_back(scores[k].used());
-  }
+  return error_among(interior, column, [&](const std::vector<Eigen::Index>& set) {
+    return parameter_covariance(model, replicates, weight_roots, covariances, set);
+  });
 }
 
 TestOutcome test_of_fit(const Model& model, std::span<const WaveletVariance> replicates,

@@ -1,5 +1,9 @@
 #include "core/inference/parameter_covariance.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace imunoise {
 
 ParameterSets parameter_sets(const Model& model) {
@@ -48,6 +52,29 @@ ParameterCovariance parameter_covariance(const Model& model,
   }
   const PseudoInverse inverse = pseudo_inverse(bread);
   return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+}
+
+Model with_power(Model model, Eigen::Index column, double value) {
+  for (Term& term : model.terms) {
+    if (column == 0) {
+      std::vector<double> v = values(term.process);
+      v[0] = value;
+      set_values(term.process, v);
+    }
+    column -= static_cast<Eigen::Index>(term.given.size());
+  }
+  return model;
+}
+
+double error_among(
+    std::vector<Eigen::Index> interior, Eigen::Index column,
+    const std::function<ParameterCovariance(const std::vector<Eigen::Index>&)>& covariance_of) {
+  auto found = std::find(interior.begin(), interior.end(), column);
+  if (found == interior.end()) found = interior.insert(found, column);
+  const auto at = static_cast<Eigen::Index>(found - interior.begin());
+  const ParameterCovariance covariance = covariance_of(interior);
+  if (covariance.null_share(at) > 0.2) return std::numeric_limits<double>::infinity();
+  return std::sqrt(covariance.matrix(at, at));
 }
 
 }  // namespace imunoise

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,5 +31,14 @@ ParameterCovariance parameter_covariance(const Model& model,
                                          const std::vector<Eigen::MatrixXd>& weight_roots,
                                          const MomentCovariances& covariances,
                                          const std::vector<Eigen::Index>& set);
+
+/// The model with one of its powers (by its column) worth `value`.
+Model with_power(Model model, Eigen::Index column, double value);
+
+/// Standard error of the parameter of a column, when it is estimated together with those of
+/// `interior`; infinite when it cannot be told from them.
+double error_among(
+    std::vector<Eigen::Index> interior, Eigen::Index column,
+    const std::function<ParameterCovariance(const std::vector<Eigen::Index>&)>& covariance_of);
 
 }  // namespace imunoise

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -80,10 +81,20 @@ class ScaledCones {
   Eigen::VectorXd factor_;
 };
 
+// Numbers only: by their active set, with the columns scaled.
+Eigen::VectorXd numbers(const MatrixRef& gram, const VectorRef& moment) {
+  const Eigen::VectorXd shrink =
+      gram.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 1.0; });
+  return shrink.cwiseProduct(nonnegative_least_squares(
+      shrink.asDiagonal() * gram * shrink.asDiagonal(), shrink.cwiseProduct(moment)));
+}
+
 }  // namespace
 
 Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& moment,
                                     const std::vector<Eigen::Index>& sizes) {
+  const bool plain = std::all_of(sizes.begin(), sizes.end(), [](auto size) { return size == 1; });
+  if (plain && gram.rows() <= kMostColumns) return numbers(gram, moment);
   const ScaledCones cones(gram, sizes);
   const Eigen::VectorXd shrink = cones.factor().cwiseInverse();
   const Eigen::MatrixXd g = shrink.asDiagonal() * gram * shrink.asDiagonal();

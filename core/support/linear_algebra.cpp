@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace imunoise {
 namespace {
@@ -81,6 +82,16 @@ SymmetricEigen symmetric_eigen(const MatrixRef& symmetric) {
 
 Eigen::VectorXd solve_symmetric(const MatrixRef& symmetric, const VectorRef& right) {
   return Eigen::LDLT<Eigen::MatrixXd>(symmetric).solve(right);
+}
+
+PositiveInverse positive_inverse(const MatrixRef& symmetric) {
+  const Eigen::Index n = symmetric.rows();
+  const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);
+  const Eigen::VectorXd diagonal = factor.matrixLLT().diagonal();
+  if (factor.info() != Eigen::Success || !(diagonal.array() > 0.0).all()) {
+    return {Eigen::MatrixXd::Zero(n, n), std::numeric_limits<double>::infinity()};
+  }
+  return {factor.solve(Eigen::MatrixXd::Identity(n, n)), 2.0 * diagonal.array().log().sum()};
 }
 
 Whitening whiten(const MatrixRef& covariance) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "core/estimate/problem.h"
+#include "core/support/progress.h"
+
+namespace imunoise {
+
+/// What a likelihood looks like next to a point.
+struct Curvature {
+  Eigen::MatrixXd information;  ///< Fisher's, n × n
+  Eigen::VectorXd score;        ///< slope of the log likelihood, n
+};
+
+/// A likelihood to be maximised over n coordinates.
+struct Likelihood {
+  /// What each coordinate, or run of them, may be, in their order: kFree, any number; 1, a power
+  /// ≥ 0; s > 1, the packed upper triangle of a positive semidefinite s × s matrix.
+  std::vector<Eigen::Index> cones;
+  std::function<double(const Eigen::VectorXd&)> objective;  ///< -log likelihood; may be infinite
+  std::function<Curvature(const Eigen::VectorXd&)> curvature;
+
+  static constexpr Eigen::Index kFree = 0;
+};
+
+struct Scored {
+  Eigen::VectorXd at;
+  double objective = 0.0;
+  Termination termination = Termination::kConverged;
+};
+
+/// Fisher scoring from `start`; one whose objective is not finite is returned as it is. Each step
+/// solves the least squares of the linearised likelihood inside the cones, and is halved until the
+/// likelihood grows. A free coordinate moves by at most 1 a step, so it is best on a logarithmic or
+/// logit scale.
+Scored fisher_scoring(const Likelihood& likelihood, const Eigen::VectorXd& start,
+                      const Progress& progress = {}, int most_steps = 100);
+
+}  // namespace imunoise

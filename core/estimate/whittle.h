@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/estimate/problem.h"
+#include "core/model/model.h"
+#include "core/spectrum/banded_power.h"
+#include "core/support/progress.h"
+
+namespace imunoise {
+
+/// Whittle's likelihood: coefficients of the cosine transform are taken as independent, with the
+/// model's spectrum as variance. A ramp (DR) is their mean; each replicate's runs up or down.
+
+/// -log likelihood in nats, less what does not depend on the model: Σ n/2 (log S + P/S). Infinite
+/// where the model has no power.
+double whittle_objective(const Model& model, std::span<const BandedPower> replicates);
+
+/// Fisher information of the parameters named by their column (of all terms, in order; per sample,
+/// as in the grammar): columns × columns. Its inverse is the Cramér-Rao bound.
+Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPower> replicates,
+                                    const std::vector<Eigen::Index>& columns);
+
+struct WhittleEstimate {
+  Model model;  ///< sorted
+  double objective = 0.0;
+  Termination termination = Termination::kConverged;
+};
+
+/// Maximum of the likelihood next to `start`, whose values are all set: Fisher scoring, powers ≥ 0.
+/// Given parameters stay. Efficient where the model is right; where it is not, the many
+/// coefficients of high frequencies decide, while moments weigh every octave.
+WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replicates,
+                        const Progress& progress = {});
+
+}  // namespace imunoise

@@ -1,0 +1,47 @@
+#include "core/inference/efficient_fit.h"
+
+#include "core/inference/intervals.h"
+#include "core/inference/parameter_covariance.h"
+#include "core/inference/residuals.h"
+
+namespace imunoise {
+namespace {
+
+ParameterCovariance bound(const Model& model, std::span<const BandedPower> powers,
+                          const std::vector<Eigen::Index>& columns) {
+  const PseudoInverse inverse = pseudo_inverse(whittle_information(model, powers, columns));
+  return {inverse.matrix, inverse.null_share};
+}
+
+double weighted_misfit(const Estimate& estimate, std::span<const WaveletVariance> replicates) {
+  double out = 0.0;
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const Eigen::ArrayXd nu = variance(estimate.model, replicates[k].scales.half_widths());
+    out += (estimate.weight_roots[k] * (replicates[k].variance - nu).matrix()).squaredNorm();
+  }
+  return out;
+}
+
+}  // namespace
+
+Fit make_efficient(Fit fit, std::span<const WaveletVariance> replicates,
+                   std::span<const BandedPower> powers, const Progress& progress) {
+  WhittleEstimate found = whittle(fit.estimate.model, powers, progress);
+  fit.estimate.model = std::move(found.model);
+  fit.estimate.termination = found.termination;
+  fit.estimate.objective = weighted_misfit(fit.estimate, replicates);
+  const Model& model = fit.estimate.model;
+  fit.covariances = moment_covariances(model, replicates);
+  fill_residuals(fit, replicates, normal_scores(model, replicates, fit.covariances));
+  const ParameterSets sets = parameter_sets(model);
+  const auto power_error = [&](Eigen::Index column, double value) {
+    const Model worth = with_power(model, column, value);
+    return error_among(sets.interior, column, [&](const std::vector<Eigen::Index>& set) {
+      return bound(worth, powers, set);
+    });
+  };
+  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, replicates[0].rate);
+  return fit;
+}
+
+}  // namespace imunoise

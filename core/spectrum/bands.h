@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace imunoise {
+
+/// Bands of the coefficients k = 1 … n-1 of a cosine transform of length n. The first 256 stand
+/// alone; above, a band is about 1/256 of its frequency wide, over which the spectra of all but the
+/// sharpest resonances are straight.
+struct Bands {
+  /// Precondition: n ≥ 2.
+  explicit Bands(Eigen::Index n);
+
+  Eigen::Index size() const { return frequency.size(); }
+
+  Eigen::ArrayXd frequency;         ///< middle of each, cycles per sample
+  Eigen::ArrayXd count;             ///< coefficients in each
+  std::vector<Eigen::Index> edges;  ///< place of the first coefficient of each, and the end
+};
+
+}  // namespace imunoise

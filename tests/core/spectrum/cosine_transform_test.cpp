@@ -1,0 +1,117 @@
+// The cosine transform against its definition, and what makes it the transform of choice: white
+// noise and a random walk together have independent coefficients of known variance.
+
+#include "core/spectrum/cosine_transform.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/spectrum/banded_power.h"
+
+namespace imunoise {
+namespace {
+
+// Rows k = 1 … n-1 of the orthonormal DCT-II.
+Eigen::MatrixXd dense_transform(Eigen::Index n) {
+  Eigen::MatrixXd out(n - 1, n);
+  for (Eigen::Index k = 1; k < n; ++k) {
+    for (Eigen::Index t = 0; t < n; ++t) {
+      out(k - 1, t) = std::sqrt(2.0 / static_cast<double>(n)) *
+                      std::cos(std::numbers::pi * static_cast<double>(k) *
+                               (static_cast<double>(t) + 0.5) / static_cast<double>(n));
+    }
+  }
+  return out;
+}
+
+Eigen::VectorXd some_series(Eigen::Index n) {
+  Eigen::VectorXd x(n);
+  for (Eigen::Index t = 0; t < n; ++t) {
+    const auto at = static_cast<double>(t);
+    x(t) = std::sin(0.7 * at * at) + 0.01 * at + 5.0;
+  }
+  return x;
+}
+
+TEST(CosineTransform, IsWhatItsFormulaSays) {
+  for (const Eigen::Index n : {4, 12, 60, 1000}) {
+    const Eigen::VectorXd x = some_series(n);
+    const Eigen::VectorXd direct = dense_transform(n) * x;
+    EXPECT_LT((cosine_transform(x) - direct).norm(), 1e-12 * x.norm()) << n;
+  }
+}
+
+TEST(CosineTransform, MakesAWalkIndependent) {
+  constexpr Eigen::Index kN = 60;
+  Eigen::MatrixXd walk(kN, kN);
+  for (Eigen::Index s = 0; s < kN; ++s) {
+    for (Eigen::Index t = 0; t < kN; ++t) walk(s, t) = static_cast<double>(std::min(s, t) + 1);
+  }
+  const Eigen::MatrixXd transform = dense_transform(kN);
+  Eigen::MatrixXd found = transform * walk * transform.transpose();
+  for (Eigen::Index k = 1; k < kN; ++k) {
+    const double half = std::sin(std::numbers::pi * static_cast<double>(k) / (2.0 * kN));
+    EXPECT_NEAR(found(k - 1, k - 1), 1.0 / (4.0 * half * half), 1e-9) << k;
+  }
+  found.diagonal().setZero();
+  EXPECT_LT(found.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(CosineTransform, QuickLengthsAreCloseAndSmooth) {
+  EXPECT_EQ(quick_length(3), 0U);
+  EXPECT_EQ(quick_length(4), 4U);
+  EXPECT_EQ(quick_length(1'000'000), 1'000'000U);
+  for (const std::size_t n : {std::size_t{1009}, std::size_t{65'537}, std::size_t{999'983}}) {
+    std::size_t rest = quick_length(n);
+    EXPECT_LE(rest, n);
+    EXPECT_GE(static_cast<double>(rest), 0.98 * static_cast<double>(n));
+    EXPECT_EQ(rest % 4, 0U);
+    for (const std::size_t factor : {2U, 3U, 5U}) {
+      while (rest % factor == 0) rest /= factor;
+    }
+    EXPECT_EQ(rest, 1U) << n;
+  }
+}
+
+TEST(BandedPower, HoldsEveryCoefficientOnce) {
+  constexpr Eigen::Index kN = 4000;
+  const Eigen::VectorXd x = some_series(kN);
+  const BandedPower bands =
+      banded_power(Signal(std::span<const double>(x.data(), kN), Hertz{100.0}));
+  const Eigen::VectorXd c = cosine_transform(x);
+  EXPECT_EQ(bands.count.sum(), kN - 1);
+  EXPECT_NEAR((bands.count * bands.power).sum(), c.squaredNorm(), 1e-9 * c.squaredNorm());
+  EXPECT_EQ(bands.frequency(0), 1.0 / (2.0 * kN));
+  EXPECT_LT(bands.frequency(bands.frequency.size() - 1), 0.5);
+  EXPECT_GT(bands.frequency.size(), 700);
+  // One more coefficient for every 256 below the band.
+  const Eigen::ArrayXd below = 2.0 * kN * bands.frequency - 0.5 * bands.count;
+  EXPECT_LE((bands.count - 1.0 - below / 256.0).maxCoeff(), 0.01);
+}
+
+TEST(BandedPower, ReadsCountsWithTheirScaleAndDropsTheOffset) {
+  std::vector<std::int16_t> counts(640);
+  std::vector<double> values(640);
+  for (std::size_t t = 0; t < counts.size(); ++t) {
+    counts[t] = static_cast<std::int16_t>((t * t * 31) % 201);
+    values[t] = 0.5 * counts[t];
+  }
+  const BandedPower a = banded_power(
+      Signal(std::span<const std::int16_t>(counts), Hertz{1.0}, Quantity::kUnknown, 0.5, 1e9));
+  const BandedPower b = banded_power(Signal(std::span<const double>(values), Hertz{1.0}));
+  EXPECT_LT((a.power - b.power).abs().maxCoeff(), 1e-10);
+}
+
+TEST(BandedPower, ARampOfSlopeOneIsItsOwnRamp) {
+  std::vector<double> x(960);
+  for (std::size_t t = 0; t < x.size(); ++t) x[t] = -3.0 * static_cast<double>(t);
+  const BandedPower bands = banded_power(Signal(std::span<const double>(x), Hertz{1.0}));
+  EXPECT_NEAR(bands.ramp_cross(0) / bands.ramp_power(0), -3.0, 1e-12);
+  EXPECT_NEAR(bands.power(0) / bands.ramp_power(0), 9.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace imunoise
