@@ -48,6 +48,15 @@ A sensor is a channel, a file a replicate of all of them. Each sensor has proces
 the model says: [corr] one of one shape in each sensor, correlated; [group] the same in all sensors
 of a group; [all] the same in all.)help";
 
+constexpr const char* kMixedExamples = R"help(Examples:
+  imunoise mixed sites.csv --rate 0.1 --regress temperature --model "AR1[all] + AR1 + WN"
+  imunoise mixed sites.csv --rate 1 --regress time --regress "t=t_a,t_b" --channel a,b
+  imunoise mixed sites.csv --rate 1 --regress temperature --group a,b --group c,d \
+      --model "RES[all] + AR1[group] + WN" --bootstrap 999 --report mixed.html
+
+A series is a channel of one file; channels that --regress names explain the others, each by a constant
+of its own and one coefficient a regressor. The noise of the series may be shared, as in imunoise array.)help";
+
 // What the commands of analysis have in common, as it was typed.
 struct RawAnalysis {
   RawInput input;
@@ -66,6 +75,11 @@ std::optional<std::filesystem::path> path_from(const std::string& text) {
 
 Weighting weighting_from(const std::string& text) {
   return text == "diag" ? Weighting::kDiagonal : Weighting::kFull;
+}
+
+study::Estimator estimator_from(const std::string& text) {
+  if (text == "agmwm") return study::Estimator::kAGmwm;
+  return text == "whittle" ? study::Estimator::kWhittle : study::Estimator::kMuGmwm;
 }
 
 // What was typed, were it nothing: an empty model is no request for the default.
@@ -132,8 +146,9 @@ ParsedCommand fit_command(CLI::App& program) {
   add_model(*fit, *raw);
   add_weights(*fit, *raw);
   fit->add_option("--estimator", *estimator,
-                  "mugmwm: one model for all replicates; agmwm: average of one each")
-      ->check(CLI::IsMember({"mugmwm", "agmwm"}))
+                  "mugmwm: one model for all replicates; agmwm: average of one each; whittle: "
+                  "mugmwm, then the maximum of the likelihood")
+      ->check(CLI::IsMember({"mugmwm", "agmwm", "whittle"}))
       ->capture_default_str();
   fit->add_option("--svg", *svg, "Write the noise budget as a picture for papers")
       ->type_name("OUT.svg");
@@ -141,8 +156,7 @@ ParsedCommand fit_command(CLI::App& program) {
             FitArguments out;
             out.input = input_from(raw->input);
             out.fit.model = model_from(*raw);
-            out.fit.estimator =
-                *estimator == "agmwm" ? study::Estimator::kAGmwm : study::Estimator::kMuGmwm;
+            out.fit.estimator = estimator_from(*estimator);
             out.fit.weighting = weighting_from(raw->weights);
             out.fit.measure = measure_from(raw->input);
             out.fit.confidence = raw->confidence;
@@ -258,11 +272,52 @@ ParsedCommand array_command(CLI::App& program) {
           }};
 }
 
+ParsedCommand mixed_command(CLI::App& program) {
+  CLI::App* const mixed = program.add_subcommand("mixed", "Regression of series that share noise");
+  mixed->footer(kMixedExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto groups = std::make_shared<std::vector<std::string>>();
+  const auto options = std::make_shared<study::MixedSeriesOptions>();
+  add_input(*mixed, raw->input);
+  add_confidence(*mixed, *raw);
+  add_json(*mixed, *raw);
+  add_report(*mixed, *raw);
+  add_model(*mixed, *raw, study::kDefaultMixedModel);
+  add_weights(*mixed, *raw);
+  mixed
+      ->add_option("--regress", options->regressors,
+                   "What explains the series: a channel, time, or NAME=a,b,c with one channel a "
+                   "series; may be repeated")
+      ->allow_extra_args(false)
+      ->required();
+  mixed
+      ->add_option("--group", *groups,
+                   "Series that share the model's [group] processes, e.g. a,b; may be repeated")
+      ->allow_extra_args(false);
+  mixed
+      ->add_option("--bootstrap", options->regression.bootstraps,
+                   "Sets of the parametric bootstrap of the coefficients' test; 0: none")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  mixed->add_option("--seed", options->regression.seed, "Seed of the bootstrap")
+      ->capture_default_str();
+  return {mixed, [raw, groups, options] {
+            if (!raw->input.robust.empty()) refuse("--robust", "not for regression");
+            if (raw->input.per_octave != 1) refuse("--per-octave", "not for regression");
+            MixedArguments out{input_from(raw->input), *options, show_from(*raw)};
+            out.mixed.model = model_from(*raw);
+            for (const std::string& group : *groups) out.mixed.groups.push_back(names_in(group));
+            out.mixed.regression.confidence = raw->confidence;
+            out.mixed.regression.weighting = weighting_from(raw->weights);
+            return out;
+          }};
+}
+
 }  // namespace
 
 std::vector<ParsedCommand> analysis_commands(CLI::App& program) {
-  return {wv_command(program), fit_command(program), test_command(program), select_command(program),
-          array_command(program)};
+  return {wv_command(program),     fit_command(program),   test_command(program),
+          select_command(program), array_command(program), mixed_command(program)};
 }
 
 }  // namespace imunoise::cli

@@ -6,35 +6,13 @@
 #include <limits>
 
 #include "core/array/array_inference.h"
+#include "core/array/cross_spectra.h"
 #include "core/estimate/fisher_scoring.h"
 #include "core/estimate/parameter_scale.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {
 namespace {
-
-Eigen::ArrayXd spectrum_over(const Process& process, const Eigen::ArrayXd& frequency) {
-  return frequency.unaryExpr([&](double f) { return spectrum(process, f); });
-}
-
-// Cross spectra of the model, a band.
-class CrossSpectra {
- public:
-  CrossSpectra(const ArrayModel& model, const Eigen::ArrayXd& frequency) : model_(model) {
-    for (const Latent& latent : model.latents)
-      spectra_.push_back(spectrum_over(latent.term.process, frequency));
-  }
-  Eigen::MatrixXd operator()(Eigen::Index band) const {
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model_.sensors, model_.sensors);
-    for (std::size_t t = 0; t < spectra_.size(); ++t)
-      out += spectra_[t](band) * model_.latents[t].power;
-    return out;
-  }
-
- private:
-  const ArrayModel& model_;
-  std::vector<Eigen::ArrayXd> spectra_;
-};
 
 ParameterScale scale_of(const ArrayModel& model, const ArrayParameter& parameter) {
   const Process& process = model.latents[parameter.latent].term.process;
@@ -79,7 +57,7 @@ Direction direction_of(const ArrayModel& model, const ArrayParameter& parameter,
     const auto side = [&](double to) {
       ArrayModel moved = model;
       set(moved, parameter, to);
-      return spectrum_over(moved.latents[parameter.latent].term.process, frequency);
+      return spectrum(moved.latents[parameter.latent].term.process, frequency);
     };
     return {(side(at + kStep) - side(at - kStep)) / (2.0 * kStep), latent.power};
   }
@@ -91,7 +69,7 @@ Direction direction_of(const ArrayModel& model, const ArrayParameter& parameter,
   } else {
     unit.set_scalar(1.0);
   }
-  return {spectrum_over(latent.term.process, frequency), unit.power};
+  return {spectrum(latent.term.process, frequency), unit.power};
 }
 
 Curvature curvature_at(const ArrayModel& model, const std::vector<ArrayParameter>& parameters,

@@ -10,13 +10,9 @@
 namespace imunoise {
 namespace {
 
-Eigen::ArrayXd spectrum_over(const Process& process, const Eigen::ArrayXd& frequency) {
-  return frequency.unaryExpr([&](double f) { return spectrum(process, f); });
-}
-
 Eigen::ArrayXd spectrum_over(const Model& model, const Eigen::ArrayXd& frequency) {
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(frequency.size());
-  for (const Term& term : model.terms) out += spectrum_over(term.process, frequency);
+  for (const Term& term : model.terms) out += spectrum(term.process, frequency);
   return out;
 }
 

@@ -39,6 +39,13 @@ Eigen::ArrayXXd shape_jacobian(const Process& process, HalfWidths m) {
 double spectrum(const Process& process, double f) {
   return std::visit([&](const auto& p) { return p.spectrum(f); }, process);
 }
+Eigen::ArrayXd spectrum(const Process& process, const Eigen::ArrayXd& f) {
+  return std::visit(
+      [&](const auto& p) -> Eigen::ArrayXd {
+        return f.unaryExpr([&](double at) { return p.spectrum(at); });
+      },
+      process);
+}
 SumCovariance sum_covariance(const Process& process) {
   return std::visit([](const auto& p) { return p.sum_covariance(); }, process);
 }

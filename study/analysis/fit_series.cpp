@@ -1,8 +1,48 @@
 #include "study/analysis/fit_series.h"
 
+#include <fmt/format.h>
+
+#include "core/inference/efficient_fit.h"
 #include "study/analysis/prepare.h"
 
 namespace imunoise::study {
+namespace {
+
+constexpr std::size_t kFewestSamples = 16;  // of a cosine transform
+
+Result<void> check_likelihood(const Series& series, const MeasureOptions& measure) {
+  if (measure.robust) {
+    return fail(
+        "estimator: a likelihood is not robust: leave --robust out, or take another estimator");
+  }
+  for (std::size_t k = 0; k < series.replicates.size(); ++k) {
+    if (series.replicates[k].size() >= kFewestSamples) continue;
+    return fail(fmt::format("{}: too short for a likelihood: at least {} samples are needed",
+                            series.names[k], kFewestSamples));
+  }
+  return {};
+}
+
+Fit estimate(const Series& series, const Model& model, const std::vector<WaveletVariance>& measured,
+             const FitOptions& options, const Progress& progress) {
+  if (options.estimator == Estimator::kAGmwm) {
+    return infer(agmwm(model, measured, options.weighting, progress), measured, options.confidence);
+  }
+  Fit fit =
+      infer(mugmwm(model, measured, options.weighting, progress), measured, options.confidence);
+  if (options.estimator != Estimator::kWhittle || progress.stopped()) return fit;
+  std::vector<BandedPower> powers;
+  for (const Signal& signal : series.replicates) powers.push_back(banded_power(signal));
+  return make_efficient(std::move(fit), measured, powers, progress);
+}
+
+std::string name_of(Estimator estimator, std::size_t replicates) {
+  if (estimator == Estimator::kAGmwm) return "AGMWM";
+  const std::string moments = replicates > 1 ? "MuGMWM" : "GMWM";
+  return estimator == Estimator::kWhittle ? moments + " + Whittle" : moments;
+}
+
+}  // namespace
 
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
                                  const Progress& progress) {
@@ -10,17 +50,16 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
                                             options.measure, progress.part(0.0, 0.6));
   if (!prepared) return tl::unexpected(prepared.error());
   const auto& [model, measured] = *prepared;
+  if (options.estimator == Estimator::kWhittle) {
+    if (auto able = check_likelihood(series, options.measure); !able)
+      return tl::unexpected(able.error());
+  }
   const Progress fitting = progress.part(0.6, 0.9);
-  const Fit fit =
-      options.estimator == Estimator::kMuGmwm
-          ? infer(mugmwm(model, measured, options.weighting, fitting), measured, options.confidence)
-          : infer(agmwm(model, measured, options.weighting, fitting), measured, options.confidence);
+  const Fit fit = estimate(series, model, measured, options, fitting);
   if (progress.stopped()) return fail("stopped");
   v1::FitReport out = fit_report(fit, series, measured);
   out.set_default_model(!options.model);
-  out.set_estimator(options.estimator == Estimator::kAGmwm ? "AGMWM"
-                    : series.replicates.size() > 1         ? "MuGMWM"
-                                                           : "GMWM");
+  out.set_estimator(name_of(options.estimator, series.replicates.size()));
   if (!options.model) out.add_notes(default_model_note("was fitted"));
   progress.report(1.0);
   return out;

@@ -9,8 +9,9 @@
 namespace imunoise::study {
 
 enum class Estimator {
-  kMuGmwm,  ///< one model for all replicates (GMWM when there is only one)
-  kAGmwm,   ///< the average of one model a replicate
+  kMuGmwm,   ///< one model for all replicates (GMWM when there is only one)
+  kAGmwm,    ///< the average of one model a replicate
+  kWhittle,  ///< MuGMWM, carried on to the maximum of Whittle's likelihood
 };
 
 struct FitOptions {
@@ -22,7 +23,8 @@ struct FitOptions {
 };
 
 /// Measures the replicates, fits the model and says everything about it. Error: a model that cannot
-/// be read (with the place), more free parameters than moments, or the caller stopped it.
+/// be read (with the place), more free parameters than moments, replicates too short for the
+/// likelihood, or the caller stopped it.
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
                                  const Progress& progress = {});
 

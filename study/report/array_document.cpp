@@ -1,44 +1,12 @@
 #include <fmt/format.h>
 
+#include "study/report/array_tables.h"
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
 
 namespace imunoise::report {
 namespace {
-
-std::string joined(const google::protobuf::RepeatedPtrField<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
-Table parameters(const v1::ArrayReport& report, Digits digits) {
-  Table out{"Parameters", {"term", "sensors", "", "value", "interval", "unit"}, {}};
-  for (const v1::ArrayParameter& one : report.parameters()) {
-    if (one.has_correlation()) continue;
-    const double upper = one.has_upper() ? one.upper() : one.lower();
-    out.rows.push_back({one.term(), joined(one.sensors()), one.parameter(),
-                        rounded(one.value(), one.lower(), upper, digits),
-                        interval(one.value(), one.lower(), upper, digits),
-                        one.unit() == "1" ? "" : one.unit()});
-  }
-  return out;
-}
-
-Table correlations(const v1::ArrayReport& report, Digits digits) {
-  Table out{"Correlation of what the sensors have of a process",
-            {"term", "sensors", "correlation", "interval"},
-            {}};
-  for (const v1::ArrayParameter& one : report.parameters()) {
-    if (!one.has_correlation()) continue;
-    out.rows.push_back(
-        {one.term(), joined(one.sensors()),
-         rounded(one.correlation(), one.correlation_lower(), one.correlation_upper(), digits),
-         interval(one.correlation(), one.correlation_lower(), one.correlation_upper(), digits)});
-  }
-  return out;
-}
 
 Table pairs(const v1::ArrayReport& report, Digits digits) {
   Table out{"Which sensors share noise",
@@ -50,19 +18,6 @@ Table pairs(const v1::ArrayReport& report, Digits digits) {
                         p < 1e-4 ? "< 0.0001" : number(p, 2, digits),
                         duration(one.strongest_tau_s()), number(one.correlation(), 2, digits),
                         signed_sigma(one.z(), digits)});
-  }
-  return out;
-}
-
-Table budgets(const v1::ArrayReport& report) {
-  Table out{"What explains each sensor's noise, over all averaging times", {"sensor"}, {}};
-  for (const v1::SensorBudget& one : report.budgets()) {
-    std::vector<std::string> row = {one.sensor()};
-    for (const v1::TermShare& term : one.terms()) {
-      if (out.rows.empty()) out.head.push_back(term.term());
-      row.push_back(percent(term.share()));
-    }
-    out.rows.push_back(std::move(row));
   }
   return out;
 }
@@ -122,9 +77,11 @@ Document document(const v1::ArrayReport& report, Digits digits) {
     section.figures.push_back(std::move(*figure));
   }
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
-                    gains(report.virtual_sensor(), digits), budgets(report),
-                    parameters(report, digits)};
-  if (Table shown = correlations(report, digits); !shown.rows.empty()) {
+                    gains(report.virtual_sensor(), digits),
+                    sensor_budgets("What explains each sensor's noise, over all averaging times",
+                                   report.budgets()),
+                    array_parameters("Parameters", report.parameters(), digits)};
+  if (Table shown = array_correlations(report.parameters(), digits); !shown.rows.empty()) {
     section.tables.push_back(std::move(shown));
   }
   section.notes.assign(report.notes().begin(), report.notes().end());
