@@ -251,6 +251,13 @@ ParsedCommand array_command(CLI::App& program) {
                    "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
       ->allow_extra_args(false);
   array->add_flag("!--no-cross", options->cross, "Fit each sensor's own variances only");
+  const auto estimator = std::make_shared<std::string>("mgmwm");
+  array
+      ->add_option("--estimator", *estimator,
+                   "mgmwm: from moments; whittle: then the maximum of the likelihood, for short "
+                   "recordings")
+      ->check(CLI::IsMember({"mgmwm", "whittle"}))
+      ->capture_default_str();
   array
       ->add_option("--optimise", options->scales,
                    "Averaging times at which the virtual sensor is to be quiet: short, long, all, "
@@ -259,7 +266,7 @@ ParsedCommand array_command(CLI::App& program) {
   array->add_option("--rule", *rule, "What its weights must satisfy")
       ->check(CLI::IsMember({"unit-gain", "non-negative", "unit-length"}))
       ->capture_default_str();
-  return {array, [raw, groups, options, rule] {
+  return {array, [raw, groups, options, rule, estimator] {
             if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
             ArrayArguments out{input_from(raw->input), *options, show_from(*raw)};
             out.array.model = model_from(*raw);
@@ -268,6 +275,7 @@ ParsedCommand array_command(CLI::App& program) {
             out.array.confidence = raw->confidence;
             out.array.weighting = weighting_from(raw->weights);
             out.array.rule = rule_from(*rule);
+            out.array.efficient = *estimator == "whittle";
             return out;
           }};
 }

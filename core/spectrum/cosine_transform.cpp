@@ -9,16 +9,20 @@
 
 namespace imunoise {
 
-std::size_t quick_length(std::size_t n) {
-  std::size_t best = 0;
-  for (std::size_t fives = 4; fives <= n; fives *= 5) {
-    for (std::size_t threes = fives; threes <= n; threes *= 3) {
-      std::size_t length = threes;
-      while (length * 2 <= n) length *= 2;
-      best = std::max(best, length);
-    }
+namespace {
+
+bool quick(std::size_t n) {
+  for (const std::size_t factor : {2U, 3U, 5U, 7U, 11U, 13U}) {
+    while (n % factor == 0) n /= factor;
   }
-  return best;
+  return n == 1;
+}
+
+}  // namespace
+
+std::size_t quick_length(std::size_t n) {
+  while (n > 0 && !quick(n)) --n;
+  return n;
 }
 
 Eigen::VectorXd cosine_transform(const VectorRef& x) {

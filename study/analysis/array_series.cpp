@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/array/array_whittle.h"
 #include "core/array/dependence.h"
 #include "study/analysis/array_parameters.h"
 #include "study/analysis/array_weights.h"
@@ -94,6 +95,36 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
   }
 }
 
+Result<void> check_likelihood(const Model& written, const ArrayLayout& layout,
+                              const std::vector<Series>& sensors) {
+  constexpr std::size_t kFewestSamples = 16;  // of a cosine transform
+  if (!has_likelihood(expand(written, layout))) {
+    return fail(
+        "model: the likelihood of an array takes no ramp: leave DR out, or fit moments only");
+  }
+  for (const Signal& signal : sensors.front().replicates) {
+    if (signal.size() < kFewestSamples)
+      return fail(fmt::format("too short: a likelihood needs at least {} samples", kFewestSamples));
+  }
+  return {};
+}
+
+// The fit of the first `count` replicates.
+ArrayFit fit_of(const std::vector<Series>& sensors, const Measured& measured, std::size_t count,
+                const Model& written, const ArrayLayout& layout, const ArraySeriesOptions& options,
+                const Progress& progress) {
+  ArrayFit out = fit_array(written, layout, std::span(measured).first(count),
+                           {options.weighting, options.cross, options.confidence}, progress);
+  if (!options.efficient || progress.stopped()) return out;
+  std::vector<CrossPower> powers;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<Signal> signals;
+    for (const Series& one : sensors) signals.push_back(one.replicates[k]);
+    powers.push_back(cross_power(samples_of(signals), signals.front().rate()));
+  }
+  return make_efficient(std::move(out), powers, options.confidence, progress);
+}
+
 // How much of each sensor's variance each term explains: its share of the sum of the model's
 // wavelet variances, which for a stationary process is its share of the variance that these scales
 // see.
@@ -169,15 +200,20 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   const Result<Eigen::VectorXd> scale_weights = scale_weights_of(options.scales, scales);
   if (!scale_weights) return tl::unexpected(scale_weights.error());
 
-  const ArrayOptions how{options.weighting, options.cross, options.confidence};
-  const ArrayFit fit = fit_array(*written, *layout, *measured, how, progress.part(0.6, 0.8));
+  if (options.efficient) {
+    if (auto able = check_likelihood(*written, *layout, sensors); !able)
+      return tl::unexpected(able.error());
+  }
+  const auto fit_first = [&](std::size_t count, const Progress& part) {
+    return fit_of(sensors, *measured, count, *written, *layout, options, part);
+  };
+  const ArrayFit fit = fit_first(measured->size(), progress.part(0.6, 0.8));
   std::optional<VirtualSensor> half;
   const bool alike = std::all_of(measured->begin(), measured->end(), [&](const auto& one) {
     return one.scales == measured->front().scales;
   });
   if (measured->size() > 1 && alike) {
-    const auto training = std::span(*measured).first((measured->size() + 1) / 2);
-    half = virtual_sensor_of(fit_array(*written, *layout, training, how, progress.part(0.8, 1.0)),
+    half = virtual_sensor_of(fit_first((measured->size() + 1) / 2, progress.part(0.8, 1.0)),
                              measured->front().scales, *scale_weights, options.rule);
   }
   if (progress.stopped()) return fail("stopped");

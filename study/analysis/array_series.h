@@ -20,6 +20,7 @@ struct ArraySeriesOptions {
   bool cross = true;  ///< use the cross-covariances
   int per_octave = 1;
   Weighting weighting = Weighting::kFull;
+  bool efficient = false;  ///< carry the fit on to the maximum of Whittle's likelihood
   double confidence = 0.95;
   /// What the virtual sensor is to be quiet at: "short" (the three shortest averaging times),
   /// "long" (the three longest), "all", or one weight a scale, separated by commas.
@@ -30,7 +31,7 @@ struct ArraySeriesOptions {
 /// Fits one model to all sensors of an array, tests which of them share noise, and makes the best
 /// virtual sensor of them. `sensors` is one series a sensor, of the same replicates. Error: fewer
 /// than two sensors, sensors of different quantities, a model, group or list that cannot be read,
-/// or the caller stopped it.
+/// a model without a likelihood or sensors too short for it, or the caller stopped it.
 Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
                                      const ArraySeriesOptions& options,
                                      const Progress& progress = {});

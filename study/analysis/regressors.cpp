@@ -69,14 +69,15 @@ Result<Eigen::MatrixXd> values_of(const Written& written, const std::vector<Seri
   return out;
 }
 
+// "m/s²/(K)"; nothing where both are bare numbers.
 std::string unit_over(const Series& response, const Written& written,
                       const std::vector<Series>& channels) {
   const std::string above(si_symbol(response.replicates.front().quantity()));
-  if (written.channels.empty()) return fmt::format("{}/s", above);
-  const auto below = find(channels, written.channels.front());
-  const std::string_view symbol =
-      below ? si_symbol((*below)->replicates.front().quantity()) : std::string_view();
-  return symbol.empty() ? above : fmt::format("{}/({})", above, symbol);
+  if (written.channels.empty()) return above + "/s";
+  const auto found = find(channels, written.channels.front());
+  const std::string below(si_symbol((*found)->replicates.front().quantity()));
+  if (below != "1") return fmt::format("{}/({})", above, below);
+  return above == "1" ? "" : above;
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
                     gains(report.virtual_sensor(), digits),
                     sensor_budgets("What explains each sensor's noise, over all averaging times",
-                                   report.budgets()),
+                                   "sensor", report.budgets()),
                     array_parameters("Parameters", report.parameters(), digits)};
   if (Table shown = array_correlations(report.parameters(), digits); !shown.rows.empty()) {
     section.tables.push_back(std::move(shown));

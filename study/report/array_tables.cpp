@@ -35,8 +35,9 @@ Table array_correlations(const ArrayParameters& parameters, Digits digits) {
   return out;
 }
 
-Table sensor_budgets(const std::string& title, const SensorBudgets& budgets) {
-  Table out{title, {"sensor"}, {}};
+Table sensor_budgets(const std::string& title, const std::string& of,
+                     const SensorBudgets& budgets) {
+  Table out{title, {of}, {}};
   for (const v1::SensorBudget& one : budgets) {
     std::vector<std::string> row = {one.sensor()};
     for (const v1::TermShare& term : one.terms()) {

@@ -18,7 +18,7 @@ std::string joined(const google::protobuf::RepeatedPtrField<std::string>& names)
 Table array_parameters(const std::string& title, const ArrayParameters& parameters, Digits digits);
 /// How what two sensors have of a process is correlated; without rows when there is none.
 Table array_correlations(const ArrayParameters& parameters, Digits digits);
-/// Shares of what explains each sensor, one column a term.
-Table sensor_budgets(const std::string& title, const SensorBudgets& budgets);
+/// Shares of what explains each sensor, or whatever they are called, one column a term.
+Table sensor_budgets(const std::string& title, const std::string& of, const SensorBudgets& budgets);
 
 }  // namespace imunoise::report

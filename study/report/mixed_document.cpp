@@ -33,7 +33,8 @@ Table constants(const v1::MixedReport& report, Digits digits) {
   Table out{
       "Constants, where all regressors are at their first sample", {"series", "value", "unit"}, {}};
   for (const v1::SeriesConstant& one : report.constants())
-    out.rows.push_back({one.series(), number(one.value(), 6, digits), report.unit()});
+    out.rows.push_back(
+        {one.series(), number(one.value(), 6, digits), report.unit() == "1" ? "" : report.unit()});
   return out;
 }
 
@@ -55,10 +56,11 @@ Document document(const v1::MixedReport& report, Digits digits) {
                       ? fmt::format(" · {} bootstraps, seed {}", report.bootstraps(), report.seed())
                       : "");
   section.summary = report.summary();
-  section.tables = {coefficients(report, digits),
-                    sensor_budgets("What explains the variance of each series", report.explained()),
-                    array_parameters("Parameters of the noise", report.parameters(), digits),
-                    constants(report, digits)};
+  section.tables = {
+      coefficients(report, digits),
+      sensor_budgets("What explains the variance of each series", "series", report.explained()),
+      array_parameters("Parameters of the noise", report.parameters(), digits),
+      constants(report, digits)};
   if (Table shown = array_correlations(report.parameters(), digits); !shown.rows.empty())
     section.tables.push_back(std::move(shown));
   section.notes.assign(report.notes().begin(), report.notes().end());

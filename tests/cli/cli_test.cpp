@@ -74,6 +74,26 @@ TEST_F(Cli, ConfidenceMovesIntervalsNotEstimates) {
   EXPECT_NEAR(width(narrow) / width(wide), 0.9945 / 1.9600, 1e-3);
 }
 
+TEST_F(Cli, TheLikelihoodGoesOnFromTheMoments) {
+  simulate("run.h5");
+  const auto moments = nlohmann::json::parse(run("fit run_?.h5 --model 'WN + RW' --json").out);
+  const Outcome done = run("fit run_?.h5 --model 'WN + RW' --estimator whittle --json");
+  ASSERT_EQ(done.status, 0) << done.errors;
+  const auto likelihood = nlohmann::json::parse(done.out);
+  EXPECT_EQ(likelihood["estimator"], "MuGMWM + Whittle");
+  EXPECT_EQ(likelihood["p_value"], moments["p_value"]);  // of the model, not of the estimate
+  for (int term = 0; term < 2; ++term) {
+    const auto& a = moments["terms"][term]["parameters"][0];
+    const auto& b = likelihood["terms"][term]["parameters"][0];
+    EXPECT_NE(a["value"], b["value"]);
+    EXPECT_LT(b["lower"].get<double>(), a["value"].get<double>());
+    EXPECT_GT(b["upper"].get<double>(), a["value"].get<double>());
+  }
+  const Outcome robust = run("fit run_?.h5 --model WN --estimator whittle --robust 0.6");
+  EXPECT_EQ(robust.status, 1);
+  EXPECT_NE(robust.errors.find("not robust"), std::string::npos) << robust.errors;
+}
+
 TEST_F(Cli, SaysWhenItChoosesTheModelItself) {
   simulate("run.csv");
   const Outcome done = run("fit run_1.csv --json");
