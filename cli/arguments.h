@@ -13,6 +13,7 @@
 #include "cli/show.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
+#include "study/analysis/fault_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
@@ -69,6 +70,13 @@ struct ArrayArguments {
   ShowArguments show;
 };
 
+struct FaultsArguments {
+  InputArguments input;
+  InputArguments training;  ///< read like the input; no files: the model is fitted to the input
+  study::FaultSeriesOptions faults;
+  ShowArguments show;
+};
+
 /// A device to record: a driver and its options, "name=value".
 struct DeviceArguments {
   std::string driver;
@@ -111,8 +119,8 @@ struct VerifyArguments {
 
 struct Arguments {
   using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
-                               ArrayArguments, SimulateArguments, RecordArguments, VerifyArguments,
-                               DriversArguments, DecodeArguments>;
+                               ArrayArguments, FaultsArguments, SimulateArguments, RecordArguments,
+                               VerifyArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

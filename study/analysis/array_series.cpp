@@ -7,6 +7,7 @@
 
 #include "core/array/dependence.h"
 #include "core/support/distributions.h"
+#include "study/analysis/array_setup.h"
 #include "study/analysis/array_weights.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
@@ -15,70 +16,6 @@ namespace imunoise::study {
 namespace {
 
 constexpr double kLevel = 0.05;
-
-Result<void> check_sensors(const std::vector<Series>& sensors) {
-  if (sensors.size() < 2) {
-    return fail("an array needs at least two sensors: name more channels, or use imunoise fit");
-  }
-  const Quantity first = sensors.front().replicates.front().quantity();
-  for (const Series& one : sensors) {
-    const Quantity quantity = one.replicates.front().quantity();
-    if (quantity == first) continue;
-    return fail(fmt::format(
-        "{} is in {} and {} is in {}: the sensors of an array measure the same thing; choose them "
-        "with --channel",
-        sensors.front().channel, si_symbol(first), one.channel, si_symbol(quantity)));
-  }
-  return {};
-}
-
-Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
-                              const std::vector<std::vector<std::string>>& groups) {
-  ArrayLayout out{sensors.size(), std::vector<std::size_t>(sensors.size(), groups.size())};
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const std::string& name : groups[g]) {
-      const auto found = std::find_if(sensors.begin(), sensors.end(),
-                                      [&](const Series& s) { return s.channel == name; });
-      if (found == sensors.end()) {
-        return fail(fmt::format("group: there is no sensor '{}' among those analysed", name));
-      }
-      std::size_t& group = out.group[static_cast<std::size_t>(found - sensors.begin())];
-      if (group != groups.size()) return fail(fmt::format("group: '{}' is in two groups", name));
-      group = g;
-    }
-  }
-  return out;
-}
-
-Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octave,
-                               const Progress& progress) {
-  Measured out;
-  const std::size_t count = sensors.front().replicates.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<Signal> signals;
-    for (const Series& one : sensors) signals.push_back(one.replicates[k]);
-    const auto share = [&](std::size_t i) {
-      return static_cast<double>(i) / static_cast<double>(count);
-    };
-    out.push_back(wavelet_covariance(signals,
-                                     Scales::for_samples(signals.front().size(), per_octave),
-                                     progress.part(share(k), share(k + 1))));
-    if (out.back().scales.empty()) {
-      return fail(
-          fmt::format("{}: too short: at least 4 samples are needed", sensors.front().names[k]));
-    }
-    if (progress.stopped()) return fail("stopped");
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      if ((out.back().of(at, at) > 0.0).any()) continue;
-      return fail(
-          fmt::format("{}: {} never changes: the sensor is stuck or was not connected; "
-                      "leave it out with --channel",
-                      sensors[i].names[k], sensors[i].channel));
-    }
-  }
-  return out;
-}
 
 // "RW[corr]", "AR1 (2)".
 std::string array_label(const Model& written, std::size_t term) {
@@ -231,52 +168,41 @@ std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& sca
 
 Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
                                      const ArraySeriesOptions& options, const Progress& progress) {
-  if (auto good = check_sensors(sensors); !good) return tl::unexpected(good.error());
-  const Hertz rate = sensors.front().replicates.front().rate();
-  const Result<Model> written =
-      parse_array_model(options.model ? *options.model : kDefaultArrayModel, rate);
-  if (!written) return tl::unexpected(written.error());
-  const Result<ArrayLayout> layout = layout_of(sensors, options.groups);
-  if (!layout) return tl::unexpected(layout.error());
-  const Result<Measured> measured =
-      measure_array(sensors, options.per_octave, progress.part(0.0, 0.6));
-  if (!measured) return tl::unexpected(measured.error());
-  const std::size_t scales = measured->front().scales.size();
-  if (free_parameters(*written) > scales) {
-    return fail(fmt::format(
-        "model: {} has {} free parameters a sensor, but the recording has only {} scales; take a "
-        "smaller model, record longer, or ask for more scales an octave",
-        print(*written), free_parameters(*written), scales));
-  }
+  const Result<ArraySetup> setup =
+      array_setup(sensors, options.model ? *options.model : kDefaultArrayModel, options.groups,
+                  options.per_octave, progress.part(0.0, 0.6));
+  if (!setup) return tl::unexpected(setup.error());
+  const auto& [written, layout, measured] = *setup;
+  const std::size_t scales = measured.front().scales.size();
   const Result<Eigen::VectorXd> scale_weights = scale_weights_of(options.scales, scales);
   if (!scale_weights) return tl::unexpected(scale_weights.error());
 
   const ArrayOptions how{options.weighting, options.cross, options.confidence};
-  const ArrayFit fit = fit_array(*written, *layout, *measured, how, progress.part(0.6, 0.8));
+  const ArrayFit fit = fit_array(written, layout, measured, how, progress.part(0.6, 0.8));
   std::optional<VirtualSensor> half;
-  const bool alike = std::all_of(measured->begin(), measured->end(), [&](const auto& one) {
-    return one.scales == measured->front().scales;
+  const bool alike = std::all_of(measured.begin(), measured.end(), [&](const auto& one) {
+    return one.scales == measured.front().scales;
   });
-  if (measured->size() > 1 && alike) {
-    const auto training = std::span(*measured).first((measured->size() + 1) / 2);
-    half = virtual_sensor_of(fit_array(*written, *layout, training, how, progress.part(0.8, 1.0)),
-                             measured->front().scales, *scale_weights, options.rule);
+  if (measured.size() > 1 && alike) {
+    const auto training = std::span(measured).first((measured.size() + 1) / 2);
+    half = virtual_sensor_of(fit_array(written, layout, training, how, progress.part(0.8, 1.0)),
+                             measured.front().scales, *scale_weights, options.rule);
   }
   if (progress.stopped()) return fail("stopped");
 
   v1::ArrayReport out;
   out.set_unit(std::string(si_symbol(sensors.front().replicates.front().quantity())));
-  out.set_rate_hz(rate.value);
+  out.set_rate_hz(sensors.front().replicates.front().rate().value);
   for (const Series& one : sensors) out.add_sensors(one.channel);
-  out.set_replicates(static_cast<std::uint32_t>(measured->size()));
-  out.set_model(print(*written));
+  out.set_replicates(static_cast<std::uint32_t>(measured.size()));
+  out.set_model(print(written));
   out.set_termination(std::string(describe(fit.termination)));
   out.set_objective(fit.objective);
   out.set_joint_weights(fit.joint_weights);
-  add_parameters(fit, *written, sensors, options.confidence, out);
-  add_budgets(fit, *written, measured->front().scales, out);
-  add_pairs(fit, *measured, sensors, out);
-  add_virtual_sensor(fit, *measured, *scale_weights, options, half, out);
+  add_parameters(fit, written, sensors, options.confidence, out);
+  add_budgets(fit, written, measured.front().scales, out);
+  add_pairs(fit, measured, sensors, out);
+  add_virtual_sensor(fit, measured, *scale_weights, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {

@@ -21,7 +21,8 @@ using testing::Readings;
 constexpr std::uint64_t kSeed = 20261121;
 constexpr Hertz kRate{1.0};
 
-// False alarms by kind, of recordings of 2^17 samples at one reading a second.
+// False alarms by the kind they are taken for, of recordings of 2^17 samples at one reading a
+// second.
 std::array<double, kFaultKinds> false_alarms(const ArrayModel& truth, const ArrayModel& believed,
                                              double an_hour, std::size_t recordings) {
   constexpr std::size_t kSamples = 1 << 17;
@@ -56,14 +57,13 @@ TEST(FaultTrial, CriesWolfAsOftenAsItMay) {
   const ArrayModel model = coloured_model();
   for (const double an_hour : {0.2, 0.02}) {
     const auto found = false_alarms(model, model, an_hour, kRecordings);
-    const double each = hours * an_hour / 3.0;  // a third for each kind
-    std::printf("allowed %g an hour, %.0f hours: steps %.0f, noise %.0f of %.1f each; stuck %.0f\n",
-                an_hour, hours, found[0], found[1], each, found[2]);
-    for (const double count : {found[0], found[1]}) {
-      EXPECT_LT(count, each + 3.0 * std::sqrt(each));
-      // After each alarm the levels are learnt anew, which takes the longest blocks 5,000 readings.
-      EXPECT_GT(count, 0.9 * each - 3.0 * std::sqrt(each));
-    }
+    const double allowed = hours * an_hour * 2.0 / 3.0;  // a third is for sticking
+    std::printf(
+        "allowed %g an hour, %.0f hours: called steps %.0f, noise %.0f, stuck %.0f of %.1f\n",
+        an_hour, hours, found[0], found[1], found[2], allowed);
+    EXPECT_LT(found[0] + found[1], allowed + 3.0 * std::sqrt(allowed));
+    // After each alarm the levels are learnt anew, which takes the longest blocks 5,000 readings.
+    EXPECT_GT(found[0] + found[1], 0.9 * allowed - 3.0 * std::sqrt(allowed));
     EXPECT_EQ(found[2], 0.0) << "continuous readings do not repeat";
   }
 }
@@ -118,18 +118,18 @@ struct Delays {
 template <class Change>
 Delays delays(const ArrayModel& model, double an_hour, FaultKind kind, const Change& change,
               double resolution = 0.0) {
-  constexpr std::size_t kRuns = 300;
+  constexpr std::size_t kRuns = 150;
   FaultOptions options;
   options.false_alarms_per_hour = an_hour;
-  options.longest = 1 << 13;
+  options.longest = 1 << 12;
   options.resolution.assign(3, resolution);
   const FaultDetector designed(model, kRate, options);
   std::vector<Delays> runs(kRuns);
   for_each_index(kRuns, [&](std::size_t run) {
-    const std::size_t onset = 20'000 + run;
+    const std::size_t onset = 6000 + run;
     const auto sensor = run % 3;
     Readings data =
-        testing::simulated_array(model, onset + 4000, kSeed, static_cast<std::uint32_t>(run));
+        testing::simulated_array(model, onset + 3000, kSeed, static_cast<std::uint32_t>(run));
     RandomStream random(kSeed, {static_cast<std::uint32_t>(run), 99});
     for (std::size_t t = onset; t < data[sensor].size(); ++t) {
       data[sensor][t] = change(data[sensor][t], data[sensor][onset], random);
