@@ -177,10 +177,11 @@ WaveletCovariance wavelet_covariance(std::span<const Signal> signals, const Scal
 }
 
 CovarianceInterval covariance_interval(const WaveletCovariance& measured, Eigen::Index a,
-                                       Eigen::Index b, double confidence) {
+                                       Eigen::Index b, double confidence, std::size_t replicates) {
   const Eigen::ArrayXd own = measured.of(a, b);
   const Eigen::ArrayXd product = measured.of(a, a) * measured.of(b, b);
   const Eigen::ArrayXd degrees =
+      static_cast<double>(replicates) *
       independent_pairs(measured.scales, 0.5 * product.log(), measured.samples);
   Eigen::ArrayXd width = ((product + own.square()) / degrees).sqrt();
   for (Eigen::Index j = 0; j < width.size(); ++j) {

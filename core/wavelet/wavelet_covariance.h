@@ -42,6 +42,7 @@ struct CovarianceInterval {
   Eigen::ArrayXd upper;
 };
 CovarianceInterval covariance_interval(const WaveletCovariance& measured, Eigen::Index a,
-                                       Eigen::Index b, double confidence = 0.95);
+                                       Eigen::Index b, double confidence = 0.95,
+                                       std::size_t replicates = 1);
 
 }  // namespace imunoise

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/array/array_blocks.h"
 #include "core/array/dependence.h"
 #include "core/support/distributions.h"
 #include "study/analysis/array_setup.h"
@@ -80,13 +81,33 @@ void add_parameters(const ArrayFit& fit, const Model& written, const std::vector
   }
 }
 
+void add_scales(const WaveletCovariance& mean, std::size_t replicates,
+                const std::vector<Eigen::MatrixXd>& model, const Pair& pair, double confidence,
+                v1::SensorPair& to) {
+  const CovarianceInterval interval =
+      covariance_interval(mean, pair.a, pair.b, confidence, replicates);
+  for (std::size_t j = 0; j < mean.scales.size(); ++j) {
+    const Eigen::MatrixXd& c = mean.covariance[j];
+    const double unit = std::sqrt(c(pair.a, pair.a) * c(pair.b, pair.b));
+    if (!(unit > 0.0)) continue;
+    v1::CrossScale& scale = *to.add_scales();
+    scale.set_tau_s(2.0 * static_cast<double>(mean.scales[j]) / mean.rate.value);
+    scale.set_covariance(c(pair.a, pair.b));
+    scale.set_lower(interval.lower(static_cast<Eigen::Index>(j)));
+    scale.set_upper(interval.upper(static_cast<Eigen::Index>(j)));
+    scale.set_model(model[j](pair.a, pair.b));
+    scale.set_unit(unit);
+  }
+}
+
 void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<Series>& sensors,
-               v1::ArrayReport& out) {
+               double confidence, v1::ArrayReport& out) {
   for (const WaveletCovariance& one : measured) {
     if (one.samples != measured.front().samples) {
       out.add_notes(
-          "The replicates differ in length: dependence is tested on those as long as the "
-          "first.");
+          "The replicates differ in length: cross-covariances are shown and tested on those as "
+          "long "
+          "as the first.");
       break;
     }
   }
@@ -94,7 +115,10 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
   for (const WaveletCovariance& one : measured) {
     if (one.samples == measured.front().samples) alike.push_back(one);
   }
-  const Eigen::ArrayXd m = measured.front().scales.half_widths();
+  WaveletCovariance mean = alike.front();
+  mean.covariance = groups_of(alike).front().mean;
+  const std::vector<Eigen::MatrixXd> model = covariance(fit.model, mean.scales);
+  const Eigen::ArrayXd m = mean.scales.half_widths();
   for (const PairDependence& from : dependence(fit.model, alike)) {
     v1::SensorPair& to = *out.add_pairs();
     to.set_first(sensors[static_cast<std::size_t>(from.pair.a)].channel);
@@ -104,6 +128,7 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
     to.set_p_value(from.test.p_value);
     to.set_adjusted_p_value(from.adjusted_p);
     to.set_dependent(from.adjusted_p < kLevel);
+    add_scales(mean, alike.size(), model, from.pair, confidence, to);
     if (from.z.size() == 0) continue;
     Eigen::Index strongest = 0;
     from.z.abs().maxCoeff(&strongest);
@@ -201,7 +226,7 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   out.set_joint_weights(fit.joint_weights);
   add_parameters(fit, written, sensors, options.confidence, out);
   add_budgets(fit, written, measured.front().scales, out);
-  add_pairs(fit, measured, sensors, out);
+  add_pairs(fit, measured, sensors, options.confidence, out);
   add_virtual_sensor(fit, measured, *scale_weights, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "study/report/cross_chart.h"
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
@@ -121,6 +122,7 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   if (auto figure = gain_chart(report.virtual_sensor())) {
     section.figures.push_back(std::move(*figure));
   }
+  if (auto figure = cross_chart(report)) section.figures.push_back(std::move(*figure));
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
                     gains(report.virtual_sensor(), digits), budgets(report),
                     parameters(report, digits)};

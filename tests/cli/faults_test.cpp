@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,9 +24,9 @@ constexpr int kOnset = 12'000;
 class Faults : public testing::Program {
  protected:
   void SetUp() override {
-    write("good.csv", [](int, double*) {});
-    write("step.csv", [](int t, double* x) { x[1] += t >= kOnset ? 0.02 : 0.0; });
-    write("many.csv", [this](int t, double* x) {
+    write("good.csv", [](int, auto&) {});
+    write("step.csv", [](int t, auto& x) { x[1] += t >= kOnset ? 0.02 : 0.0; });
+    write("many.csv", [this](int t, auto& x) {
       if (t >= 8000) x[2] += 0.03 * normal_(random_);
       if (t == kOnset) held_ = x[0];
       if (t >= kOnset) x[0] = held_;
@@ -41,8 +42,8 @@ class Faults : public testing::Program {
     double walk = 0.0;
     for (int t = 0; t < kSamples; ++t) {
       walk += 1e-4 * normal_(random_);
-      double x[3] = {walk + 0.01 * normal_(random_), walk + 0.012 * normal_(random_),
-                     walk + 0.015 * normal_(random_)};
+      std::array<double, 3> x = {walk + 0.01 * normal_(random_), walk + 0.012 * normal_(random_),
+                                 walk + 0.015 * normal_(random_)};
       change(t, x);
       file << x[0] << ',' << x[1] << ',' << x[2] << '\n';
     }
