@@ -32,7 +32,11 @@ LogRange range_of(const std::vector<GainPanel>& panels) {
   for (const GainPanel& panel : panels) {
     for (const GainCurve& curve : panel.curves) {
       for (const double r : curve.predicted) out.include(r);
-      for (const double r : curve.measured) out.include(r);
+      for (Eigen::Index j = 0; j < curve.measured.size(); ++j) {
+        const double reach = std::exp(1.96 * curve.measured_error(j));
+        out.include(curve.measured(j) * reach);
+        out.include(curve.measured(j) / reach);
+      }
     }
   }
   return out;
@@ -88,7 +92,7 @@ void draw_key(SvgWriter& svg, const GainPanel& panel, double baseline) {
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     svg.path(fmt::format("term term-{}", c),
              {{left, baseline - 4.0}, {left + 24.0, baseline - 4.0}});
-    words("made for " + panel.curves[c].name);
+    words(panel.curves.size() > 1 ? "made for " + panel.curves[c].name : "by the fitted model");
     measured = measured || panel.curves[c].measured.size() > 0;
   }
   if (!measured) return;
@@ -109,7 +113,7 @@ std::string gain_figure(const std::string& title, const std::vector<GainPanel>& 
            report::kTextSize, Anchor::kStart);
   draw_key(svg, panels.front(), 64.0);
   const LogRange range = range_of(panels);
-  const LogAxis gain(range.low() / 1.25, range.high() * 1.25, kTop + kHeight, kTop);
+  const LogAxis gain(range.low() / 1.1, range.high() * 1.1, kTop + kHeight, kTop);
   const double step = kWidth / static_cast<double>(panels.size());
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const double left = step * static_cast<double>(p) + kMargin;
