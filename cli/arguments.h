@@ -13,6 +13,7 @@
 #include "cli/show.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
+#include "study/analysis/fault_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/mixed_series.h"
 #include "study/analysis/select_model.h"
@@ -76,6 +77,13 @@ struct MixedArguments {
   ShowArguments show;
 };
 
+struct FaultsArguments {
+  InputArguments input;
+  InputArguments training;  ///< read like the input; no files: the model is fitted to the input
+  study::FaultSeriesOptions faults;
+  ShowArguments show;
+};
+
 /// A device to record: a driver and its options, "name=value".
 struct DeviceArguments {
   std::string driver;
@@ -118,8 +126,8 @@ struct VerifyArguments {
 
 struct Arguments {
   using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
-                               ArrayArguments, MixedArguments, SimulateArguments, RecordArguments,
-                               VerifyArguments, DriversArguments, DecodeArguments>;
+                               ArrayArguments, MixedArguments, FaultsArguments, SimulateArguments,
+                               RecordArguments, VerifyArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

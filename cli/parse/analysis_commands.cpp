@@ -56,6 +56,13 @@ constexpr const char* kMixedExamples = R"help(Examples:
 
 A series is a channel of one file; channels that --regress names explain the others, each by a constant
 of its own and one coefficient a regressor. The noise of the series may be shared, as in imunoise array.)help";
+constexpr const char* kFaultsExamples = R"help(
+Examples:
+  imunoise faults today.h5 --train static?.h5 --model "AR1 + WN + RW[corr]"
+  imunoise faults run?.csv --channel gyro_a,gyro_b,gyro_c --false-alarms-per-hour 0.001 --report f.html
+
+Names the sensor that steps, sticks or grows noisy. The sensors, at least two, measure the same motion,
+as three gyros about one axis do; of two that disagree nobody can say which is wrong.)help";
 
 // What the commands of analysis have in common, as it was typed.
 struct RawAnalysis {
@@ -232,6 +239,13 @@ std::vector<std::string> names_in(const std::string& list) {
   return out;
 }
 
+void add_groups(CLI::App& command, std::vector<std::string>& groups) {
+  command
+      .add_option("--group", groups,
+                  "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
+      ->allow_extra_args(false);
+}
+
 ParsedCommand array_command(CLI::App& program) {
   CLI::App* const array =
       program.add_subcommand("array", "Shared noise and the best virtual sensor of an array");
@@ -246,10 +260,7 @@ ParsedCommand array_command(CLI::App& program) {
   add_report(*array, *raw);
   add_model(*array, *raw, study::kDefaultArrayModel);
   add_weights(*array, *raw);
-  array
-      ->add_option("--group", *groups,
-                   "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
-      ->allow_extra_args(false);
+  add_groups(*array, *groups);
   array->add_flag("!--no-cross", options->cross, "Fit each sensor's own variances only");
   const auto estimator = std::make_shared<std::string>("mgmwm");
   array
@@ -321,11 +332,50 @@ ParsedCommand mixed_command(CLI::App& program) {
           }};
 }
 
+ParsedCommand faults_command(CLI::App& program) {
+  CLI::App* const faults =
+      program.add_subcommand("faults", "Which sensor of an array steps, sticks or grows noisy?");
+  faults->footer(kFaultsExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto groups = std::make_shared<std::vector<std::string>>();
+  const auto training = std::make_shared<std::vector<std::string>>();
+  const auto options = std::make_shared<study::FaultSeriesOptions>();
+  add_input(*faults, raw->input);
+  add_json(*faults, *raw);
+  add_report(*faults, *raw);
+  add_model(*faults, *raw, study::kDefaultArrayModel);
+  add_weights(*faults, *raw);
+  add_groups(*faults, *groups);
+  faults
+      ->add_option("--train", *training,
+                   "Static recordings known to be good, to fit the model to (default: FILES)")
+      ->allow_extra_args(true)
+      ->type_name("FILES");
+  faults
+      ->add_option("--false-alarms-per-hour", options->false_alarms_per_hour,
+                   "How often a sound array may be accused, all sensors and faults together")
+      ->check(CLI::Range(1e-9, 1000.0))
+      ->capture_default_str();
+  return {faults, [raw, groups, training, options] {
+            if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
+            FaultsArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
+            RawInput good = raw->input;
+            good.files = *training;
+            out.training = input_from(good);
+            out.faults.model = model_from(*raw);
+            for (const std::string& group : *groups) out.faults.groups.push_back(names_in(group));
+            out.faults.per_octave = raw->input.per_octave;
+            out.faults.weighting = weighting_from(raw->weights);
+            return out;
+          }};
+}
+
 }  // namespace
 
 std::vector<ParsedCommand> analysis_commands(CLI::App& program) {
   return {wv_command(program),     fit_command(program),   test_command(program),
-          select_command(program), array_command(program), mixed_command(program)};
+          select_command(program), array_command(program), mixed_command(program),
+          faults_command(program)};
 }
 
 }  // namespace imunoise::cli

@@ -25,7 +25,8 @@ struct ArrayBlock {
 /// All pairs of a group together while they have at most 1,200 moments, else each by itself.
 std::vector<ArrayBlock> blocks_of(const std::vector<ReplicateGroup>& groups, const Pairs& pairs);
 
-/// Weights of the inverse variances of covariance_interval(), without a model: Ω = rootᵀ·root.
+/// Weights without a model: the inverse of (ν_aa ν_bb + ν_ab²) / (M/2m), on the diagonal of the
+/// variance of the peers' χ² intervals. Ω = rootᵀ·root.
 Eigen::MatrixXd diagonal_root(const ArrayBlock& block);
 
 /// Exact covariance of a block's averaged moments under the model.

@@ -1,6 +1,7 @@
 #include "core/wavelet/wavelet_covariance.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -14,6 +15,7 @@ namespace imunoise {
 namespace {
 
 constexpr std::size_t kSegmentBlocks = 64;
+constexpr double kOctave = 0.69;  // ln 2, but for rounding
 
 // 2m·W_t of one signal at one scale, block after block.
 class Coefficients {
@@ -97,6 +99,32 @@ Eigen::MatrixXd segment_products(const std::vector<std::unique_ptr<Source>>& sou
   return sum.selfadjointView<Eigen::Lower>();
 }
 
+// κ for slopes -1, -1/2 .. 1 of the logarithm of the wavelet variance, linear between them.
+double pairs_per_window(double slope) {
+  constexpr std::array<double, 5> kKnown = {3.000, 2.520, 2.337, 2.191, 1.854};
+  const double at = std::clamp(2.0 * (slope + 1.0), 0.0, 4.0);
+  const auto left = std::min<std::size_t>(3, static_cast<std::size_t>(at));
+  return std::lerp(kKnown[left], kKnown[left + 1], at - static_cast<double>(left));
+}
+
+// n of covariance_interval(), from the logarithm of the wavelet variance.
+Eigen::ArrayXd independent_pairs(const Scales& scales, const Eigen::ArrayXd& log_variance,
+                                 std::size_t samples) {
+  const Eigen::ArrayXd log_m = scales.half_widths().log();
+  Eigen::ArrayXd out = equivalent_degrees(scales, samples);
+  for (Eigen::Index j = 0; j < out.size(); ++j) {
+    // From the nearest scales an octave or more away, where there are such.
+    Eigen::Index low = j;
+    Eigen::Index high = j;
+    while (low > 0 && log_m(j) - log_m(low) < kOctave) --low;
+    while (high + 1 < out.size() && log_m(high) - log_m(j) < kOctave) ++high;
+    const double slope =
+        high > low ? (log_variance(high) - log_variance(low)) / (log_m(high) - log_m(low)) : 1.0;
+    out(j) *= pairs_per_window(std::isfinite(slope) ? slope : 1.0);
+  }
+  return out;
+}
+
 }  // namespace
 
 Eigen::ArrayXd WaveletCovariance::of(Eigen::Index a, Eigen::Index b) const {
@@ -149,12 +177,16 @@ WaveletCovariance wavelet_covariance(std::span<const Signal> signals, const Scal
 }
 
 CovarianceInterval covariance_interval(const WaveletCovariance& measured, Eigen::Index a,
-                                       Eigen::Index b, double confidence) {
+                                       Eigen::Index b, double confidence, std::size_t replicates) {
   const Eigen::ArrayXd own = measured.of(a, b);
-  const Eigen::ArrayXd width = normal_quantile(0.5 + 0.5 * confidence) *
-                               ((measured.of(a, a) * measured.of(b, b) + own.square()) /
-                                equivalent_degrees(measured.scales, measured.samples))
-                                   .sqrt();
+  const Eigen::ArrayXd product = measured.of(a, a) * measured.of(b, b);
+  const Eigen::ArrayXd degrees =
+      static_cast<double>(replicates) *
+      independent_pairs(measured.scales, 0.5 * product.log(), measured.samples);
+  Eigen::ArrayXd width = ((product + own.square()) / degrees).sqrt();
+  for (Eigen::Index j = 0; j < width.size(); ++j) {
+    width(j) *= student_quantile(0.5 + 0.5 * confidence, degrees(j));
+  }
   return {own - width, own + width};
 }
 

@@ -32,14 +32,17 @@ struct WaveletCovariance {
 WaveletCovariance wavelet_covariance(std::span<const Signal> signals, const Scales& scales,
                                      const Progress& progress = {});
 
-/// Interval of one entry without a model: normal, with variance (ν_aa ν_bb + ν_ab²) / edof, the law
-/// of Gaussian signals whose coefficients count as max(M/2m, 1) independent pairs; on the diagonal
-/// it has the variance of the χ² law.
+/// Interval of one entry without a model: Student's, with variance (ν_aa ν_bb + ν_ab²) / n, the law
+/// of Gaussian signals whose coefficients count as n = κM/2m ≥ 1 independent pairs. κ follows from
+/// the slope of the two wavelet variances about this scale: for a power law S ~ f^α, whose wavelet
+/// variance has slope s = -1 - α, κ = (4/π) (∫P)² / ∫P², P = sin⁴x · x^(α-2), which is 3.00 for
+/// white noise, 2.34 for flicker noise and 1.85 for a random walk; steeper slopes count as these.
 struct CovarianceInterval {
   Eigen::ArrayXd lower;
   Eigen::ArrayXd upper;
 };
 CovarianceInterval covariance_interval(const WaveletCovariance& measured, Eigen::Index a,
-                                       Eigen::Index b, double confidence = 0.95);
+                                       Eigen::Index b, double confidence = 0.95,
+                                       std::size_t replicates = 1);
 
 }  // namespace imunoise

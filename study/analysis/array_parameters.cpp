@@ -44,24 +44,6 @@ std::string array_label(const Model& written, std::size_t term) {
   return label_of(written, term) + (shared.empty() ? "" : fmt::format("[{}]", shared));
 }
 
-Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
-                              const std::vector<std::vector<std::string>>& groups) {
-  ArrayLayout out{sensors.size(), std::vector<std::size_t>(sensors.size(), groups.size())};
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const std::string& name : groups[g]) {
-      const auto found = std::find_if(sensors.begin(), sensors.end(),
-                                      [&](const Series& s) { return s.channel == name; });
-      if (found == sensors.end()) {
-        return fail(fmt::format("group: there is no sensor '{}' among those analysed", name));
-      }
-      std::size_t& group = out.group[static_cast<std::size_t>(found - sensors.begin())];
-      if (group != groups.size()) return fail(fmt::format("group: '{}' is in two groups", name));
-      group = g;
-    }
-  }
-  return out;
-}
-
 std::vector<v1::ArrayParameter> array_parameters(const ArrayFit& fit, const Model& written,
                                                  const std::vector<Series>& sensors,
                                                  double confidence) {

@@ -13,11 +13,6 @@ namespace imunoise::study {
 /// "RW[corr]", "AR1 (2)".
 std::string array_label(const Model& written, std::size_t term);
 
-/// The layout of sensors in groups that are given by name; the rest form one. Error: a name that is
-/// no sensor's, or in two groups.
-Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
-                              const std::vector<std::vector<std::string>>& groups);
-
 /// The parameters of an array's fit as messages, in their order.
 std::vector<v1::ArrayParameter> array_parameters(const ArrayFit& fit, const Model& written,
                                                  const std::vector<Series>& sensors,

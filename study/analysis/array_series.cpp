@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/array/array_blocks.h"
 #include "core/array/array_whittle.h"
 #include "core/array/dependence.h"
 #include "study/analysis/array_parameters.h"
+#include "study/analysis/array_setup.h"
 #include "study/analysis/array_weights.h"
 #include "study/analysis/prepare.h"
 
@@ -16,59 +18,33 @@ namespace {
 
 constexpr double kLevel = 0.05;
 
-Result<void> check_sensors(const std::vector<Series>& sensors) {
-  if (sensors.size() < 2) {
-    return fail("an array needs at least two sensors: name more channels, or use imunoise fit");
+void add_scales(const WaveletCovariance& mean, std::size_t replicates,
+                const std::vector<Eigen::MatrixXd>& model, const Pair& pair, double confidence,
+                v1::SensorPair& to) {
+  const CovarianceInterval interval =
+      covariance_interval(mean, pair.a, pair.b, confidence, replicates);
+  for (std::size_t j = 0; j < mean.scales.size(); ++j) {
+    const Eigen::MatrixXd& c = mean.covariance[j];
+    const double unit = std::sqrt(c(pair.a, pair.a) * c(pair.b, pair.b));
+    if (!(unit > 0.0)) continue;
+    v1::CrossScale& scale = *to.add_scales();
+    scale.set_tau_s(2.0 * static_cast<double>(mean.scales[j]) / mean.rate.value);
+    scale.set_covariance(c(pair.a, pair.b));
+    scale.set_lower(interval.lower(static_cast<Eigen::Index>(j)));
+    scale.set_upper(interval.upper(static_cast<Eigen::Index>(j)));
+    scale.set_model(model[j](pair.a, pair.b));
+    scale.set_unit(unit);
   }
-  const Quantity first = sensors.front().replicates.front().quantity();
-  for (const Series& one : sensors) {
-    const Quantity quantity = one.replicates.front().quantity();
-    if (quantity == first) continue;
-    return fail(fmt::format(
-        "{} is in {} and {} is in {}: the sensors of an array measure the same thing; choose them "
-        "with --channel",
-        sensors.front().channel, si_symbol(first), one.channel, si_symbol(quantity)));
-  }
-  return {};
-}
-
-Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octave,
-                               const Progress& progress) {
-  Measured out;
-  const std::size_t count = sensors.front().replicates.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<Signal> signals;
-    for (const Series& one : sensors) signals.push_back(one.replicates[k]);
-    const auto share = [&](std::size_t i) {
-      return static_cast<double>(i) / static_cast<double>(count);
-    };
-    out.push_back(wavelet_covariance(signals,
-                                     Scales::for_samples(signals.front().size(), per_octave),
-                                     progress.part(share(k), share(k + 1))));
-    if (out.back().scales.empty()) {
-      return fail(
-          fmt::format("{}: too short: at least 4 samples are needed", sensors.front().names[k]));
-    }
-    if (progress.stopped()) return fail("stopped");
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      if ((out.back().of(at, at) > 0.0).any()) continue;
-      return fail(
-          fmt::format("{}: {} never changes: the sensor is stuck or was not connected; "
-                      "leave it out with --channel",
-                      sensors[i].names[k], sensors[i].channel));
-    }
-  }
-  return out;
 }
 
 void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<Series>& sensors,
-               v1::ArrayReport& out) {
+               double confidence, v1::ArrayReport& out) {
   for (const WaveletCovariance& one : measured) {
     if (one.samples != measured.front().samples) {
       out.add_notes(
-          "The replicates differ in length: dependence is tested on those as long as the "
-          "first.");
+          "The replicates differ in length: cross-covariances are shown and tested on those as "
+          "long "
+          "as the first.");
       break;
     }
   }
@@ -76,7 +52,10 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
   for (const WaveletCovariance& one : measured) {
     if (one.samples == measured.front().samples) alike.push_back(one);
   }
-  const Eigen::ArrayXd m = measured.front().scales.half_widths();
+  WaveletCovariance mean = alike.front();
+  mean.covariance = groups_of(alike).front().mean;
+  const std::vector<Eigen::MatrixXd> model = covariance(fit.model, mean.scales);
+  const Eigen::ArrayXd m = mean.scales.half_widths();
   for (const PairDependence& from : dependence(fit.model, alike)) {
     v1::SensorPair& to = *out.add_pairs();
     to.set_first(sensors[static_cast<std::size_t>(from.pair.a)].channel);
@@ -86,6 +65,7 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
     to.set_p_value(from.test.p_value);
     to.set_adjusted_p_value(from.adjusted_p);
     to.set_dependent(from.adjusted_p < kLevel);
+    add_scales(mean, alike.size(), model, from.pair, confidence, to);
     if (from.z.size() == 0) continue;
     Eigen::Index strongest = 0;
     from.z.abs().maxCoeff(&strongest);
@@ -110,10 +90,9 @@ Result<void> check_likelihood(const Model& written, const ArrayLayout& layout,
 }
 
 // The fit of the first `count` replicates.
-ArrayFit fit_of(const std::vector<Series>& sensors, const Measured& measured, std::size_t count,
-                const Model& written, const ArrayLayout& layout, const ArraySeriesOptions& options,
-                const Progress& progress) {
-  ArrayFit out = fit_array(written, layout, std::span(measured).first(count),
+ArrayFit fit_of(const std::vector<Series>& sensors, const ArraySetup& setup, std::size_t count,
+                const ArraySeriesOptions& options, const Progress& progress) {
+  ArrayFit out = fit_array(setup.model, setup.layout, std::span(setup.measured).first(count),
                            {options.weighting, options.cross, options.confidence}, progress);
   if (!options.efficient || progress.stopped()) return out;
   std::vector<CrossPower> powers;
@@ -180,58 +159,47 @@ std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& sca
 
 Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
                                      const ArraySeriesOptions& options, const Progress& progress) {
-  if (auto good = check_sensors(sensors); !good) return tl::unexpected(good.error());
-  const Hertz rate = sensors.front().replicates.front().rate();
-  const Result<Model> written =
-      parse_array_model(options.model ? *options.model : kDefaultArrayModel, rate);
-  if (!written) return tl::unexpected(written.error());
-  const Result<ArrayLayout> layout = layout_of(sensors, options.groups);
-  if (!layout) return tl::unexpected(layout.error());
-  const Result<Measured> measured =
-      measure_array(sensors, options.per_octave, progress.part(0.0, 0.6));
-  if (!measured) return tl::unexpected(measured.error());
-  const std::size_t scales = measured->front().scales.size();
-  if (free_parameters(*written) > scales) {
-    return fail(fmt::format(
-        "model: {} has {} free parameters a sensor, but the recording has only {} scales; take a "
-        "smaller model, record longer, or ask for more scales an octave",
-        print(*written), free_parameters(*written), scales));
-  }
+  const Result<ArraySetup> setup =
+      array_setup(sensors, options.model ? *options.model : kDefaultArrayModel, options.groups,
+                  options.per_octave, progress.part(0.0, 0.6));
+  if (!setup) return tl::unexpected(setup.error());
+  const auto& [written, layout, measured] = *setup;
+  const std::size_t scales = measured.front().scales.size();
   const Result<Eigen::VectorXd> scale_weights = scale_weights_of(options.scales, scales);
   if (!scale_weights) return tl::unexpected(scale_weights.error());
 
   if (options.efficient) {
-    if (auto able = check_likelihood(*written, *layout, sensors); !able)
+    if (auto able = check_likelihood(setup->model, setup->layout, sensors); !able)
       return tl::unexpected(able.error());
   }
   const auto fit_first = [&](std::size_t count, const Progress& part) {
-    return fit_of(sensors, *measured, count, *written, *layout, options, part);
+    return fit_of(sensors, *setup, count, options, part);
   };
-  const ArrayFit fit = fit_first(measured->size(), progress.part(0.6, 0.8));
+  const ArrayFit fit = fit_first(measured.size(), progress.part(0.6, 0.8));
   std::optional<VirtualSensor> half;
-  const bool alike = std::all_of(measured->begin(), measured->end(), [&](const auto& one) {
-    return one.scales == measured->front().scales;
+  const bool alike = std::all_of(measured.begin(), measured.end(), [&](const auto& one) {
+    return one.scales == measured.front().scales;
   });
-  if (measured->size() > 1 && alike) {
-    half = virtual_sensor_of(fit_first((measured->size() + 1) / 2, progress.part(0.8, 1.0)),
-                             measured->front().scales, *scale_weights, options.rule);
+  if (measured.size() > 1 && alike) {
+    half = virtual_sensor_of(fit_first((measured.size() + 1) / 2, progress.part(0.8, 1.0)),
+                             measured.front().scales, *scale_weights, options.rule);
   }
   if (progress.stopped()) return fail("stopped");
 
   v1::ArrayReport out;
   out.set_unit(std::string(si_symbol(sensors.front().replicates.front().quantity())));
-  out.set_rate_hz(rate.value);
+  out.set_rate_hz(sensors.front().replicates.front().rate().value);
   for (const Series& one : sensors) out.add_sensors(one.channel);
-  out.set_replicates(static_cast<std::uint32_t>(measured->size()));
-  out.set_model(print(*written));
+  out.set_replicates(static_cast<std::uint32_t>(measured.size()));
+  out.set_model(print(written));
   out.set_termination(std::string(describe(fit.termination)));
   out.set_objective(fit.objective);
   out.set_joint_weights(fit.joint_weights);
-  for (v1::ArrayParameter& one : array_parameters(fit, *written, sensors, options.confidence))
+  for (v1::ArrayParameter& one : array_parameters(fit, written, sensors, options.confidence))
     *out.add_parameters() = std::move(one);
-  add_budgets(fit, *written, measured->front().scales, out);
-  add_pairs(fit, *measured, sensors, out);
-  add_virtual_sensor(fit, *measured, *scale_weights, options, half, out);
+  add_budgets(fit, written, measured.front().scales, out);
+  add_pairs(fit, measured, sensors, options.confidence, out);
+  add_virtual_sensor(fit, measured, *scale_weights, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {

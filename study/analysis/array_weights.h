@@ -8,11 +8,9 @@
 #include "core/array/virtual_sensor.h"
 #include "imunoise/v1/array.pb.h"
 #include "study/analysis/array_series.h"
+#include "study/analysis/array_setup.h"
 
 namespace imunoise::study {
-
-/// Measured cross-covariances, one a replicate.
-using Measured = std::vector<WaveletCovariance>;
 
 /// The weights of `count` scales that a text names (see ArraySeriesOptions::scales), of sum one.
 /// Error: what was expected.

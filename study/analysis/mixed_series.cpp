@@ -7,6 +7,7 @@
 
 #include "core/array/array_whittle.h"
 #include "study/analysis/array_parameters.h"
+#include "study/analysis/array_setup.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/regressors.h"
 #include "study/analysis/vocabulary.h"

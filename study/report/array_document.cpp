@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "study/report/array_tables.h"
+#include "study/report/cross_chart.h"
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
@@ -76,6 +77,7 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   if (auto figure = gain_chart(report.virtual_sensor())) {
     section.figures.push_back(std::move(*figure));
   }
+  if (auto figure = cross_chart(report)) section.figures.push_back(std::move(*figure));
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
                     gains(report.virtual_sensor(), digits),
                     sensor_budgets("What explains each sensor's noise, over all averaging times",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "imunoise/v1/array.pb.h"
+#include "imunoise/v1/faults.pb.h"
 #include "imunoise/v1/inference.pb.h"
 #include "imunoise/v1/mixed.pb.h"
 #include "study/report/document.h"
@@ -8,10 +9,11 @@
 
 namespace imunoise::report {
 
-/// What `imunoise test`, `select`, `array` and `mixed` say, for page and terminal.
+/// What the commands of analysis say, for page and terminal.
 Document document(const v1::StationarityReports& reports, Digits digits);
 Document document(const v1::ChoiceReports& reports, Digits digits);
 Document document(const v1::ArrayReport& report, Digits digits);
 Document document(const v1::MixedReport& report, Digits digits);
+Document document(const v1::FaultReport& report, Digits digits);
 
 }  // namespace imunoise::report

@@ -33,11 +33,7 @@ std::string draw(const std::string& title, const std::string& axis_title,
   const LogAxis axis(range.low() * 0.9, range.high() * 1.1, left, width - kRight);
   const double bottom = kRow * static_cast<double>(rows.size()) + 6.0;
   SvgWriter svg;
-  std::string opening = svg_opening({SvgVariant::kInline, width, kind}, bottom + kFoot, title);
-  const std::string_view plain = R"(class="figure")";
-  opening.replace(opening.find(plain), plain.size(),
-                  std::string(R"(class="figure )") + kind + "\"");
-  svg.raw(opening);
+  svg.raw(page_opening(kind, width, bottom + kFoot, title));
   for (const Tick& tick : axis.fine_ticks(52.0)) {
     const double x = axis(tick.value);
     svg.line(tick.major ? "grid" : "grid minor", {x, 0.0}, {x, bottom});

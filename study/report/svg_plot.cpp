@@ -190,6 +190,13 @@ std::string svg_opening(const SvgOptions& options, double height, const std::str
   return out;
 }
 
+std::string page_opening(const char* kind, double width, double height, const std::string& name) {
+  std::string out = svg_opening({SvgVariant::kInline, width, kind}, height, name);
+  const std::string_view plain = R"(class="figure")";
+  out.replace(out.find(plain), plain.size(), fmt::format(R"(class="figure {}")", kind));
+  return out;
+}
+
 std::string budget_svg(const v1::FitReport& report, const SvgOptions& options) {
   const BudgetView view = budget_view(report);
   const bool paper = options.variant == SvgVariant::kStandalone;

@@ -35,4 +35,7 @@ std::string budget_caption(const v1::FitReport& report);
 /// Opening tag, name for screen readers, background and (standalone) style of a figure.
 std::string svg_opening(const SvgOptions& options, double height, const std::string& name);
 
+/// The same for a figure of the page in one of its two widths: `kind` is "wide" or "narrow".
+std::string page_opening(const char* kind, double width, double height, const std::string& name);
+
 }  // namespace imunoise::report

@@ -7,6 +7,7 @@
 
 #include "core/array/array_estimate.h"
 #include "core/array/virtual_sensor.h"
+#include "tests/core/array/published_arrays.h"
 #include "tests/support/golden.h"
 
 namespace imunoise {
@@ -81,40 +82,13 @@ TEST(Golden, WeightsFromMeasuredCovariances) {
   }
 }
 
-// The three published examples: T = 1e7, J = 22, models as in reference.json's source.
-struct Example {
-  std::string name;
-  std::vector<double> white;
-  Eigen::MatrixXd walk;
-};
-
-std::vector<Example> published_examples() {
-  const Eigen::Vector2d two(2e-16, 2e-15);
-  const Eigen::Vector3d three(2e-16, 2e-15, 2e-15);
-  Eigen::MatrixXd correlated = three.asDiagonal();
-  correlated(1, 2) = correlated(2, 1) = 0.9 * 2e-15;
-  return {{"ex1_two", {2e-8, 2e-9}, two.asDiagonal()},
-          {"ex2_three", {2e-8, 2e-9, 2e-8}, three.asDiagonal()},
-          {"ex3_three_corr0.9", {2e-8, 2e-9, 2e-8}, correlated}};
-}
-
-ArrayModel model_of(const Example& example) {
-  const ArrayLayout layout{example.white.size(), {}};
-  ArrayModel model = expand(parse_array_model("RW[corr] + WN", Hertz{1.0}).value(), layout);
-  model.latents[0].power = example.walk;
-  for (std::size_t i = 0; i < example.white.size(); ++i) {
-    model.latents[1 + i].set_scalar(example.white[i]);
-  }
-  return model;
-}
-
 TEST(Golden, PublishedVirtualSensors) {
   IMUNOISE_NEEDS("golden/reference.json");
   const json golden = read_json("golden/reference.json")["virtual"];
   const Scales scales = Scales::for_samples(10'000'000);
   ASSERT_EQ(scales.size(), 22U);
-  for (const Example& example : published_examples()) {
-    const std::vector<Eigen::MatrixXd> gammas = covariance(model_of(example), scales);
+  for (const testing::PublishedExample& example : testing::published_examples()) {
+    const std::vector<Eigen::MatrixXd> gammas = covariance(testing::model_of(example), scales);
     for (const auto& [preset, first, last] :
          {std::tuple{"short_1_3", 0, 3}, {"long_20_22", 19, 22}, {"all_equal", 0, 22}}) {
       const json& reference = golden[example.name + "/" + preset];

@@ -1,0 +1,25 @@
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/progress_line.h"
+#include "cli/show.h"
+
+namespace imunoise::cli {
+
+int run(const FaultsArguments& arguments) {
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return print_error(replicates.error());
+  std::vector<recording::Replicate> good;
+  if (!arguments.training.files.empty()) {
+    auto read = read_input(arguments.training);
+    if (!read) return print_error(read.error());
+    good = std::move(*read);
+  }
+  ProgressLine line("faults");
+  const auto done = study::fault_series(
+      all_series(*replicates), good.empty() ? std::vector<study::Series>{} : all_series(good),
+      arguments.faults, line.progress());
+  if (!done) return print_error(done.error());
+  return show(*done, arguments.show);
+}
+
+}  // namespace imunoise::cli

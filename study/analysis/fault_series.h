@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/array/array_estimate.h"
+#include "imunoise/v1/faults.pb.h"
+#include "study/analysis/series.h"
+
+namespace imunoise::study {
+
+struct FaultSeriesOptions {
+  std::optional<std::string> model;  ///< in the grammar; unset: kDefaultArrayModel
+  std::vector<std::vector<std::string>>
+      groups;  ///< names of the sensors of each; the rest form one
+  int per_octave = 1;
+  Weighting weighting = Weighting::kFull;
+  double false_alarms_per_hour = 0.01;
+};
+
+/// Fits a model to static recordings of an array and searches `sensors` for one that steps, sticks
+/// or grows noisy. Each is one series a sensor, of the same replicates; `training` may be empty:
+/// the model is then fitted to the recordings that are searched. Error: as array_setup(), training
+/// on other sensors or at another rate, a model without noise between the sensors, a rate of false
+/// alarms that is not above zero, or the caller stopped it.
+Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors,
+                                     const std::vector<Series>& training,
+                                     const FaultSeriesOptions& options,
+                                     const Progress& progress = {});
+
+}  // namespace imunoise::study
