@@ -13,6 +13,7 @@
 #include "cli/show.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
+#include "study/analysis/dynamic_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
@@ -69,6 +70,12 @@ struct ArrayArguments {
   ShowArguments show;
 };
 
+struct DynamicArguments {
+  InputArguments input;
+  study::DynamicOptions dynamic;
+  ShowArguments show;
+};
+
 /// A device to record: a driver and its options, "name=value".
 struct DeviceArguments {
   std::string driver;
@@ -111,8 +118,8 @@ struct VerifyArguments {
 
 struct Arguments {
   using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
-                               ArrayArguments, SimulateArguments, RecordArguments, VerifyArguments,
-                               DriversArguments, DecodeArguments>;
+                               ArrayArguments, DynamicArguments, SimulateArguments, RecordArguments,
+                               VerifyArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "cli/parse/commands.h"
@@ -47,6 +49,18 @@ Examples:
 A sensor is a channel, a file a replicate of all of them. Each sensor has processes of its own unless
 the model says: [corr] one of one shape in each sensor, correlated; [group] the same in all sensors
 of a group; [all] the same in all.)help";
+
+constexpr const char* kDynamicExamples = R"help(
+Examples:
+  imunoise dynamic table.h5 --channel gyro_z --covariate rate --model "QN + WN"
+  imunoise dynamic 30.csv 90.csv 150.csv --covariate rate --model "QN(q2~exp) + WN(sigma2~linear)"
+  imunoise dynamic soak.h5 --covariate temperature --bins 10 --model "AR1(phi~) + WN(sigma2~)"
+
+What follows the covariate c is marked in the model by ~ and, if it is not the first of these, the way:
+  a power     sigma2~exp     exp(a + b*c)               sigma2~linear   a + b*c, nowhere negative
+  a time      tc~exp         exp(a + b*c)
+  other       phi~logistic   logistic(a + b*c) between the bounds of the parameter
+Everything else is the same everywhere. A model without ~ stands for one whose powers all follow as exp.)help";
 
 // What the commands of analysis have in common, as it was typed.
 struct RawAnalysis {
@@ -258,11 +272,76 @@ ParsedCommand array_command(CLI::App& program) {
           }};
 }
 
+// Where the bins are: "8" is how many, "30,90" or "30," are places.
+void set_bins(const std::string& text, study::CovariateOptions& to) {
+  if (text == "auto") return;
+  for (const std::string& one : CLI::detail::split(text, ',')) {
+    double value = 0.0;
+    if (one.empty()) continue;
+    if (!CLI::detail::lexical_cast(one, value) || !std::isfinite(value)) {
+      refuse("--bins", "expected auto, how many, or places such as 30,90,150");
+    }
+    to.values.push_back(value);
+  }
+  if (text.find(',') != std::string::npos && to.values.size() > 1) return;
+  const double count = to.values.empty() ? 0.0 : to.values.front();
+  if (!(count >= 2.0 && count <= 1000.0 && count == std::floor(count))) {
+    refuse("--bins", "at least two, and at most 1000");
+  }
+  to.count = static_cast<std::size_t>(count);
+  to.values.clear();
+}
+
+ParsedCommand dynamic_command(CLI::App& program) {
+  CLI::App* const dynamic =
+      program.add_subcommand("dynamic", "How noise follows a covariate: rate, temperature, ...");
+  dynamic->footer(kDynamicExamples);
+  const auto raw = std::make_shared<RawAnalysis>();
+  const auto covariate = std::make_shared<study::CovariateOptions>();
+  const auto bins = std::make_shared<std::string>("auto");
+  add_input(*dynamic, raw->input);
+  add_confidence(*dynamic, *raw);
+  add_json(*dynamic, *raw);
+  add_report(*dynamic, *raw);
+  add_model(*dynamic, *raw, study::kDefaultDynamicModel);
+  dynamic->add_option("--covariate", covariate->channel, "The channel that noise may follow")
+      ->required();
+  dynamic->add_option("--covariate-unit", covariate->unit,
+                      "What its numbers are called (default: as the file says)");
+  dynamic
+      ->add_option("--bins", *bins,
+                   "Where noise is measured: places such as 30,90,150; or how many bins of equal "
+                   "size; auto: where the covariate stays, else 8 bins")
+      ->capture_default_str();
+  dynamic
+      ->add_option("--settle", covariate->settle_s,
+                   "Seconds left out after the covariate arrives at a bin")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  return {dynamic, [raw, covariate, bins] {
+            DynamicArguments out{input_from(raw->input), {}, show_from(*raw)};
+            out.dynamic.covariate = *covariate;
+            set_bins(*bins, out.dynamic.covariate);
+            // A unit that was typed is that of the channels; the covariate's is then unknown.
+            if (out.input.import.unit && covariate->unit.empty()) out.dynamic.covariate.unit = "1";
+            std::vector<std::string>& read = out.input.import.channels;
+            out.dynamic.channels = read;
+            if (!read.empty() &&
+                std::find(read.begin(), read.end(), covariate->channel) == read.end()) {
+              read.push_back(covariate->channel);
+            }
+            out.dynamic.model = model_from(*raw);
+            out.dynamic.measure = measure_from(raw->input);
+            out.dynamic.confidence = raw->confidence;
+            return out;
+          }};
+}
+
 }  // namespace
 
 std::vector<ParsedCommand> analysis_commands(CLI::App& program) {
-  return {wv_command(program), fit_command(program), test_command(program), select_command(program),
-          array_command(program)};
+  return {wv_command(program),     fit_command(program),   test_command(program),
+          select_command(program), array_command(program), dynamic_command(program)};
 }
 
 }  // namespace imunoise::cli

@@ -15,7 +15,7 @@ struct ParsedCommand {
 };
 
 // Each adds a group of commands to the program.
-std::vector<ParsedCommand> analysis_commands(CLI::App& program);   ///< wv, fit, test, select, array
+std::vector<ParsedCommand> analysis_commands(CLI::App& program);   ///< wv .. dynamic
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 

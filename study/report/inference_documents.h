@@ -1,15 +1,17 @@
 #pragma once
 
 #include "imunoise/v1/array.pb.h"
+#include "imunoise/v1/dynamic.pb.h"
 #include "imunoise/v1/inference.pb.h"
 #include "study/report/document.h"
 #include "study/report/number.h"
 
 namespace imunoise::report {
 
-/// What `imunoise test`, `imunoise select` and `imunoise array` say, for page and terminal.
+/// What `imunoise test`, `select`, `array` and `dynamic` say, for page and terminal.
 Document document(const v1::StationarityReports& reports, Digits digits);
 Document document(const v1::ChoiceReports& reports, Digits digits);
 Document document(const v1::ArrayReport& report, Digits digits);
+Document document(const v1::DynamicReports& reports, Digits digits);
 
 }  // namespace imunoise::report
