@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kCells = 200;  // of the covariate's range, in the search for plateaus
 constexpr double kSparse = 0.2;  // of the mean count of a cell: below, the covariate only passes
+constexpr double kSlack = 4.0;   // standard deviations that noise may take a run beyond its bin
 constexpr double kReach = 3.0;   // of the distance of the outer percentiles from the median
 
 struct Range {
@@ -85,7 +86,12 @@ std::vector<Range> plateaus(Sorted sorted) {
     if (stays) dense.back().upper = i + 1 < kCells ? edge + width : sorted.back();
     inside = stays;
   }
-  if (dense.size() < 2) return {};
+  // A covariate that drifts fills its range; a dwell is more than a few samples.
+  const auto count = [&](const Range& r) { return between(sorted, r.lower, r.upper).size(); };
+  std::erase_if(dense, [&](const Range& r) { return 100 * count(r) < sorted.size(); });
+  double filled = 0.0;
+  for (const Range& range : dense) filled += range.upper - range.lower;
+  if (dense.size() < 2 || filled > 0.5 * (sorted.back() - low)) return {};
   std::vector<Range> out;
   for (std::size_t i = 0; i < dense.size(); ++i) {
     const double reach = sorted.back() - low;
@@ -102,6 +108,21 @@ std::optional<std::size_t> range_of(const std::vector<Range>& ranges, double x) 
                                       [](double value, const Range& r) { return value < r.lower; });
   if (after == ranges.begin() || x > std::prev(after)->upper) return std::nullopt;
   return static_cast<std::size_t>(std::prev(after) - ranges.begin());
+}
+
+// Standard deviation of the covariate's own noise, from second differences, which a slow course
+// does not move: normal ones have a median of 0.6745 √6 of it.
+double noise_of(std::span<const std::vector<double>> recordings) {
+  std::vector<double> steps;
+  for (const std::vector<double>& one : recordings) {
+    for (std::size_t i = 2; i < one.size(); ++i) {
+      steps.push_back(std::abs(one[i] - 2.0 * one[i - 1] + one[i - 2]));
+    }
+  }
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + std::ssize(steps) / 2;
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle / (0.6745 * std::sqrt(6.0));
 }
 
 }  // namespace
@@ -129,13 +150,19 @@ Bins bin_by_covariate(std::span<const std::vector<double>> recordings, const Bin
     bin.lower = range.lower;
     bin.upper = range.upper;
   }
+  // Where bins meet, noise alone does not end a run.
+  const double slack = out.plateaus ? 0.0 : kSlack * noise_of(recordings);
   out.left_out = sorted.size();
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const std::vector<double>& covariate = recordings[r];
     for (std::size_t begin = 0; begin < covariate.size();) {
       const auto bin = range_of(ranges, covariate[begin]);
       std::size_t end = begin + 1;
-      while (end < covariate.size() && range_of(ranges, covariate[end]) == bin) ++end;
+      const auto stays = [&](double x) {
+        if (!bin || slack == 0.0) return range_of(ranges, x) == bin;
+        return x >= ranges[*bin].lower - slack && x <= ranges[*bin].upper + slack;
+      };
+      while (end < covariate.size() && stays(covariate[end])) ++end;
       const std::size_t from = begin + options.settle;
       if (bin && end >= from + kLeastRun) {
         Bin& to = out.bins[*bin];

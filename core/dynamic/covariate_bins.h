@@ -28,7 +28,8 @@ struct BinOptions {
   /// Values near which the covariate stays. The bin about each is as wide as the covariate scatters
   /// there.
   std::vector<double> values{};
-  /// Or this many bins with as many samples each. When neither is given, plateaus are looked for,
+  /// Or this many bins with as many samples each, where the covariate's own noise does not end a
+  /// run. When neither is given, plateaus are looked for,
   /// and if there are not at least two, kCustomaryBins bins are made.
   std::size_t count = 0;
   std::size_t settle = 0;  ///< samples left out at the start of every run

@@ -86,8 +86,9 @@ void add_quantities(const DynamicFit& fit, const std::vector<CovariateBin>& bins
     }
     // Of a term that follows the covariate, some coefficients may not.
     const double first = to.bins().begin()->value();
-    to.set_varies(varies(fit.model.terms[term]) &&
-                  (first == 0.0 || first != to.bins().rbegin()->value()));
+    const bool same =
+        to.bins_size() == std::ssize(bins) && first > 0.0 && first == to.bins().rbegin()->value();
+    to.set_varies(varies(fit.model.terms[term]) && !same);
   }
 }
 
@@ -133,6 +134,17 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g}{}", value, unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
+bool clear_of_zero(const v1::CovariatePoint& point) { return point.lower() > 0.0; }
+
+// "0.146 °/√h at 30 deg/s", or what it is less than.
+std::string place_words(const v1::CovariatePoint& point, const std::string& unit,
+                        const v1::DynamicReport& report) {
+  const bool clear = clear_of_zero(point);
+  return fmt::format("{}{} at {}", clear ? "" : "less than ",
+                     with_unit(clear ? point.value() : point.upper(), unit),
+                     with_unit(point.covariate(), report.covariate_unit()));
+}
+
 // "N of WN grows from 0.146 °/√h at 30 deg/s to 0.439 °/√h at 390 deg/s."
 std::string what_moves(const v1::DynamicReport& report) {
   std::string out;
@@ -140,14 +152,14 @@ std::string what_moves(const v1::DynamicReport& report) {
     const bool follows = std::any_of(
         report.trends().begin(), report.trends().end(),
         [&](const auto& trend) { return trend.term() == one.term() && trend.test().rejected(); });
-    if (!follows || !one.varies()) continue;
+    if (!follows || !one.varies() || one.bins_size() < 2) continue;
     const v1::CovariatePoint& first = *one.bins().begin();
     const v1::CovariatePoint& last = *one.bins().rbegin();
-    out += fmt::format(
-        "{} of {} {} from {} at {} to {} at {}. ", one.symbol(), one.term(),
-        last.value() > first.value() ? "grows" : "falls", with_unit(first.value(), one.unit()),
-        with_unit(first.covariate(), report.covariate_unit()), with_unit(last.value(), one.unit()),
-        with_unit(last.covariate(), report.covariate_unit()));
+    if (!clear_of_zero(first) && !clear_of_zero(last)) continue;
+    out +=
+        fmt::format("{} of {} {} from {} to {}. ", one.symbol(), one.term(),
+                    last.value() > first.value() ? "grows" : "falls",
+                    place_words(first, one.unit(), report), place_words(last, one.unit(), report));
   }
   return out.empty() ? fmt::format("No noise is seen to follow {}. ", report.covariate()) : out;
 }

@@ -72,6 +72,20 @@ TEST(Bins, AreQuantilesWhereTheCovariateOnlyPasses) {
   EXPECT_LE(bin_by_covariate(std::vector<Recording>{two_values}, five).bins.size(), 5U);
 }
 
+TEST(Bins, AreNotCutByTheNoiseOfAPassingCovariate) {
+  RandomStream random(12);
+  Recording ramp(8000);
+  for (std::size_t i = 0; i < ramp.size(); ++i) {
+    ramp[i] = static_cast<double>(i) + 200.0 * random.normal();
+  }
+  const Bins found = bin_by_covariate(std::vector<Recording>{ramp}, {});
+  EXPECT_LT(found.left_out, 400U);
+  for (std::size_t b = 0; b < found.bins.size(); ++b) {
+    EXPECT_NEAR(found.bins[b].mean, 500.0 + 1000.0 * static_cast<double>(b), 500.0);
+    EXPECT_LT(found.bins[b].runs.size(), 20U);
+  }
+}
+
 TEST(Bins, LieWhereTheUserSays) {
   const std::vector<Recording> one = {staircase({30, 90, 150, 210}, 0.3)};
   BinOptions options;
