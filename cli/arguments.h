@@ -13,6 +13,7 @@
 #include "cli/show.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
+#include "study/analysis/dynamic_series.h"
 #include "study/analysis/fault_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/mixed_series.h"
@@ -77,6 +78,12 @@ struct MixedArguments {
   ShowArguments show;
 };
 
+struct DynamicArguments {
+  InputArguments input;
+  study::DynamicOptions dynamic;
+  ShowArguments show;
+};
+
 struct FaultsArguments {
   InputArguments input;
   InputArguments training;  ///< read like the input; no files: the model is fitted to the input
@@ -125,9 +132,10 @@ struct VerifyArguments {
 };
 
 struct Arguments {
-  using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
-                               ArrayArguments, MixedArguments, FaultsArguments, SimulateArguments,
-                               RecordArguments, VerifyArguments, DriversArguments, DecodeArguments>;
+  using Command =
+      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
+                   MixedArguments, FaultsArguments, DynamicArguments, SimulateArguments,
+                   RecordArguments, VerifyArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "cli/parse/commands.h"
-#include "cli/parse/input_options.h"
-#include "study/analysis/prepare.h"
+#include "cli/parse/raw_analysis.h"
 
 namespace imunoise::cli {
 namespace {
@@ -38,92 +39,21 @@ Examples:
   imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      just these
   imunoise select run?.h5 --splits half --weights diag                   CV-WVIC as published)help";
 
-constexpr const char* kArrayExamples = R"help(
+constexpr const char* kDynamicExamples = R"help(
 Examples:
-  imunoise array run?.h5 --channel gyro_a,gyro_b,gyro_c --model "RW[corr] + WN"
-  imunoise array run?.csv --optimise long --rule non-negative --report array.html
-  imunoise array run?.csv --model "AR1[all] + AR1[group] + WN" --group a,b --group c,d
+  imunoise dynamic table.h5 --channel gyro_z --covariate rate --model "QN + WN"
+  imunoise dynamic 30.csv 90.csv 150.csv --covariate rate --model "QN(q2~exp) + WN(sigma2~linear)"
+  imunoise dynamic soak.h5 --covariate temperature --bins 10 --model "AR1(phi~) + WN(sigma2~)"
 
-A sensor is a channel, a file a replicate of all of them. Each sensor has processes of its own unless
-the model says: [corr] one of one shape in each sensor, correlated; [group] the same in all sensors
-of a group; [all] the same in all.)help";
-
-constexpr const char* kMixedExamples = R"help(Examples:
-  imunoise mixed sites.csv --rate 0.1 --regress temperature --model "AR1[all] + AR1 + WN"
-  imunoise mixed sites.csv --rate 1 --regress time --regress "t=t_a,t_b" --channel a,b
-  imunoise mixed sites.csv --rate 1 --regress temperature --group a,b --group c,d \
-      --model "RES[all] + AR1[group] + WN" --bootstrap 999 --report mixed.html
-
-A series is a channel of one file; channels that --regress names explain the others, each by a constant
-of its own and one coefficient a regressor. The noise of the series may be shared, as in imunoise array.)help";
-constexpr const char* kFaultsExamples = R"help(
-Examples:
-  imunoise faults today.h5 --train static?.h5 --model "AR1 + WN + RW[corr]"
-  imunoise faults run?.csv --channel gyro_a,gyro_b,gyro_c --false-alarms-per-hour 0.001 --report f.html
-
-Names the sensor that steps, sticks or grows noisy. The sensors, at least two, measure the same motion,
-as three gyros about one axis do; of two that disagree nobody can say which is wrong.)help";
-
-// What the commands of analysis have in common, as it was typed.
-struct RawAnalysis {
-  RawInput input;
-  std::string model;
-  CLI::Option* model_option = nullptr;
-  std::string weights = "full";
-  double confidence = 0.95;
-  std::string report;
-  bool json = false;
-};
-
-std::optional<std::filesystem::path> path_from(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  return text;
-}
-
-Weighting weighting_from(const std::string& text) {
-  return text == "diag" ? Weighting::kDiagonal : Weighting::kFull;
-}
+What follows the covariate c is marked in the model by ~ and, if it is not the first of these, the way:
+  a power     sigma2~exp     exp(a + b*c)               sigma2~linear   a + b*c, nowhere negative
+  a time      tc~exp         exp(a + b*c)
+  other       phi~logistic   logistic(a + b*c) between the bounds of the parameter
+Everything else is the same everywhere. A model without ~ stands for one whose powers all follow as exp.)help";
 
 study::Estimator estimator_from(const std::string& text) {
   if (text == "agmwm") return study::Estimator::kAGmwm;
   return text == "whittle" ? study::Estimator::kWhittle : study::Estimator::kMuGmwm;
-}
-
-// What was typed, were it nothing: an empty model is no request for the default.
-std::optional<std::string> model_from(const RawAnalysis& raw) {
-  if (raw.model_option->count() == 0) return std::nullopt;
-  return raw.model;
-}
-
-ShowArguments show_from(const RawAnalysis& raw) { return {raw.json, path_from(raw.report)}; }
-
-void add_json(CLI::App& command, RawAnalysis& raw) {
-  command.add_flag("--json", raw.json, "Print the result as JSON");
-}
-
-void add_report(CLI::App& command, RawAnalysis& raw) {
-  command.add_option("--report", raw.report, "Write one self-contained HTML page")
-      ->type_name("OUT.html");
-}
-
-void add_model(CLI::App& command, RawAnalysis& raw,
-               std::string_view unless_given = study::kDefaultModel) {
-  raw.model_option = command.add_option("--model", raw.model,
-                                        fmt::format("The model (default: {})", unless_given));
-}
-
-void add_weights(CLI::App& command, RawAnalysis& raw) {
-  command
-      .add_option("--weights", raw.weights,
-                  "full: exact covariance of the moments; diag: as the R packages")
-      ->check(CLI::IsMember({"full", "diag"}))
-      ->capture_default_str();
-}
-
-void add_confidence(CLI::App& command, RawAnalysis& raw) {
-  command.add_option("--confidence", raw.confidence, "Of the intervals")
-      ->check(CLI::Range(0.5, 0.9999))
-      ->capture_default_str();
 }
 
 ParsedCommand wv_command(CLI::App& program) {
@@ -226,146 +156,67 @@ ParsedCommand select_command(CLI::App& program) {
           }};
 }
 
-WeightRule rule_from(const std::string& text) {
-  if (text == "non-negative") return WeightRule::kNonnegative;
-  return text == "unit-length" ? WeightRule::kUnitLength : WeightRule::kUnitGain;
-}
-
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> out;
-  for (const std::string& name : CLI::detail::split(list, ',')) {
-    if (!name.empty()) out.push_back(name);
+// Where the bins are: "8" is how many, "30,90" or "30," are places.
+void set_bins(const std::string& text, study::CovariateOptions& to) {
+  if (text == "auto") return;
+  for (const std::string& one : CLI::detail::split(text, ',')) {
+    double value = 0.0;
+    if (one.empty()) continue;
+    if (!CLI::detail::lexical_cast(one, value) || !std::isfinite(value)) {
+      refuse("--bins", "expected auto, how many, or places such as 30,90,150");
+    }
+    to.values.push_back(value);
   }
-  return out;
+  if (text.find(',') != std::string::npos && to.values.size() > 1) return;
+  const double count = to.values.empty() ? 0.0 : to.values.front();
+  if (!(count >= 2.0 && count <= 1000.0 && count == std::floor(count))) {
+    refuse("--bins", "at least two, and at most 1000");
+  }
+  to.count = static_cast<std::size_t>(count);
+  to.values.clear();
 }
 
-void add_groups(CLI::App& command, std::vector<std::string>& groups) {
-  command
-      .add_option("--group", groups,
-                  "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
-      ->allow_extra_args(false);
-}
-
-ParsedCommand array_command(CLI::App& program) {
-  CLI::App* const array =
-      program.add_subcommand("array", "Shared noise and the best virtual sensor of an array");
-  array->footer(kArrayExamples);
+ParsedCommand dynamic_command(CLI::App& program) {
+  CLI::App* const dynamic =
+      program.add_subcommand("dynamic", "How noise follows a covariate: rate, temperature, ...");
+  dynamic->footer(kDynamicExamples);
   const auto raw = std::make_shared<RawAnalysis>();
-  const auto groups = std::make_shared<std::vector<std::string>>();
-  const auto options = std::make_shared<study::ArraySeriesOptions>();
-  const auto rule = std::make_shared<std::string>("unit-gain");
-  add_input(*array, raw->input);
-  add_confidence(*array, *raw);
-  add_json(*array, *raw);
-  add_report(*array, *raw);
-  add_model(*array, *raw, study::kDefaultArrayModel);
-  add_weights(*array, *raw);
-  add_groups(*array, *groups);
-  array->add_flag("!--no-cross", options->cross, "Fit each sensor's own variances only");
-  const auto estimator = std::make_shared<std::string>("mgmwm");
-  array
-      ->add_option("--estimator", *estimator,
-                   "mgmwm: from moments; whittle: then the maximum of the likelihood, for short "
-                   "recordings")
-      ->check(CLI::IsMember({"mgmwm", "whittle"}))
-      ->capture_default_str();
-  array
-      ->add_option("--optimise", options->scales,
-                   "Averaging times at which the virtual sensor is to be quiet: short, long, all, "
-                   "or one weight a scale")
-      ->capture_default_str();
-  array->add_option("--rule", *rule, "What its weights must satisfy")
-      ->check(CLI::IsMember({"unit-gain", "non-negative", "unit-length"}))
-      ->capture_default_str();
-  return {array, [raw, groups, options, rule, estimator] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
-            ArrayArguments out{input_from(raw->input), *options, show_from(*raw)};
-            out.array.model = model_from(*raw);
-            for (const std::string& group : *groups) out.array.groups.push_back(names_in(group));
-            out.array.per_octave = raw->input.per_octave;
-            out.array.confidence = raw->confidence;
-            out.array.weighting = weighting_from(raw->weights);
-            out.array.rule = rule_from(*rule);
-            out.array.efficient = *estimator == "whittle";
-            return out;
-          }};
-}
-
-ParsedCommand mixed_command(CLI::App& program) {
-  CLI::App* const mixed = program.add_subcommand("mixed", "Regression of series that share noise");
-  mixed->footer(kMixedExamples);
-  const auto raw = std::make_shared<RawAnalysis>();
-  const auto groups = std::make_shared<std::vector<std::string>>();
-  const auto options = std::make_shared<study::MixedSeriesOptions>();
-  add_input(*mixed, raw->input);
-  add_confidence(*mixed, *raw);
-  add_json(*mixed, *raw);
-  add_report(*mixed, *raw);
-  add_model(*mixed, *raw, study::kDefaultMixedModel);
-  add_weights(*mixed, *raw);
-  mixed
-      ->add_option("--regress", options->regressors,
-                   "What explains the series: a channel, time, or NAME=a,b,c with one channel a "
-                   "series; may be repeated")
-      ->allow_extra_args(false)
+  const auto covariate = std::make_shared<study::CovariateOptions>();
+  const auto bins = std::make_shared<std::string>("auto");
+  add_input(*dynamic, raw->input);
+  add_confidence(*dynamic, *raw);
+  add_json(*dynamic, *raw);
+  add_report(*dynamic, *raw);
+  add_model(*dynamic, *raw, study::kDefaultDynamicModel);
+  dynamic->add_option("--covariate", covariate->channel, "The channel that noise may follow")
       ->required();
-  mixed
-      ->add_option("--group", *groups,
-                   "Series that share the model's [group] processes, e.g. a,b; may be repeated")
-      ->allow_extra_args(false);
-  mixed
-      ->add_option("--bootstrap", options->regression.bootstraps,
-                   "Sets of the parametric bootstrap of the coefficients' test; 0: none")
-      ->check(CLI::Range(0, 1'000'000))
+  dynamic->add_option("--covariate-unit", covariate->unit,
+                      "What its numbers are called (default: as the file says)");
+  dynamic
+      ->add_option("--bins", *bins,
+                   "Where noise is measured: places such as 30,90,150; or how many bins of equal "
+                   "size; auto: where the covariate stays, else 8 bins")
       ->capture_default_str();
-  mixed->add_option("--seed", options->regression.seed, "Seed of the bootstrap")
+  dynamic
+      ->add_option("--settle", covariate->settle_s,
+                   "Seconds left out after the covariate arrives at a bin")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  return {mixed, [raw, groups, options] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for regression");
-            if (raw->input.per_octave != 1) refuse("--per-octave", "not for regression");
-            MixedArguments out{input_from(raw->input), *options, show_from(*raw)};
-            out.mixed.model = model_from(*raw);
-            for (const std::string& group : *groups) out.mixed.groups.push_back(names_in(group));
-            out.mixed.regression.confidence = raw->confidence;
-            out.mixed.regression.weighting = weighting_from(raw->weights);
-            return out;
-          }};
-}
-
-ParsedCommand faults_command(CLI::App& program) {
-  CLI::App* const faults =
-      program.add_subcommand("faults", "Which sensor of an array steps, sticks or grows noisy?");
-  faults->footer(kFaultsExamples);
-  const auto raw = std::make_shared<RawAnalysis>();
-  const auto groups = std::make_shared<std::vector<std::string>>();
-  const auto training = std::make_shared<std::vector<std::string>>();
-  const auto options = std::make_shared<study::FaultSeriesOptions>();
-  add_input(*faults, raw->input);
-  add_json(*faults, *raw);
-  add_report(*faults, *raw);
-  add_model(*faults, *raw, study::kDefaultArrayModel);
-  add_weights(*faults, *raw);
-  add_groups(*faults, *groups);
-  faults
-      ->add_option("--train", *training,
-                   "Static recordings known to be good, to fit the model to (default: FILES)")
-      ->allow_extra_args(true)
-      ->type_name("FILES");
-  faults
-      ->add_option("--false-alarms-per-hour", options->false_alarms_per_hour,
-                   "How often a sound array may be accused, all sensors and faults together")
-      ->check(CLI::Range(1e-9, 1000.0))
-      ->capture_default_str();
-  return {faults, [raw, groups, training, options] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
-            FaultsArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
-            RawInput good = raw->input;
-            good.files = *training;
-            out.training = input_from(good);
-            out.faults.model = model_from(*raw);
-            for (const std::string& group : *groups) out.faults.groups.push_back(names_in(group));
-            out.faults.per_octave = raw->input.per_octave;
-            out.faults.weighting = weighting_from(raw->weights);
+  return {dynamic, [raw, covariate, bins] {
+            DynamicArguments out{input_from(raw->input), {}, show_from(*raw)};
+            out.dynamic.covariate = *covariate;
+            set_bins(*bins, out.dynamic.covariate);
+            // A unit that was typed is that of the channels; the covariate's is then unknown.
+            if (out.input.import.unit && covariate->unit.empty()) out.dynamic.covariate.unit = "1";
+            std::vector<std::string>& read = out.input.import.channels;
+            out.dynamic.channels = read;
+            if (!read.empty() &&
+                std::find(read.begin(), read.end(), covariate->channel) == read.end()) {
+              read.push_back(covariate->channel);
+            }
+            out.dynamic.model = model_from(*raw);
+            out.dynamic.measure = measure_from(raw->input);
+            out.dynamic.confidence = raw->confidence;
             return out;
           }};
 }
@@ -373,9 +224,8 @@ ParsedCommand faults_command(CLI::App& program) {
 }  // namespace
 
 std::vector<ParsedCommand> analysis_commands(CLI::App& program) {
-  return {wv_command(program),     fit_command(program),   test_command(program),
-          select_command(program), array_command(program), mixed_command(program),
-          faults_command(program)};
+  return {wv_command(program), fit_command(program), test_command(program), select_command(program),
+          dynamic_command(program)};
 }
 
 }  // namespace imunoise::cli

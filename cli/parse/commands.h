@@ -15,7 +15,9 @@ struct ParsedCommand {
 };
 
 // Each adds a group of commands to the program.
-std::vector<ParsedCommand> analysis_commands(CLI::App& program);   ///< wv to faults
+std::vector<ParsedCommand> analysis_commands(
+    CLI::App& program);                                        ///< wv, fit, test, select, dynamic
+std::vector<ParsedCommand> array_commands(CLI::App& program);  ///< array, mixed, faults
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/estimate/estimators.h"
-#include "core/estimate/parameter_scale.h"
+#include "core/process/parameter_scale.h"
 
 namespace imunoise {
 namespace {

@@ -10,6 +10,17 @@ namespace {
 
 constexpr int kMostReweightings = 2;
 
+}  // namespace
+
+MomentCovariances moment_covariances(const Model& model,
+                                     std::span<const WaveletVariance> replicates) {
+  const SumCovariance process = sum_covariance(model);
+  return MomentCovariances::of(replicates, [&](std::size_t k) -> Eigen::MatrixXd {
+    const WaveletVariance& wv = replicates[k];
+    return moment_covariance(process, wv.scales, wv.samples) / wv.efficiency;
+  });
+}
+
 std::vector<Eigen::MatrixXd> full_roots(const Model& model,
                                         std::span<const WaveletVariance> replicates) {
   const MomentCovariances covariances = moment_covariances(model, replicates);
@@ -20,23 +31,11 @@ std::vector<Eigen::MatrixXd> full_roots(const Model& model,
   return out;
 }
 
-// A model that explains nothing at some scale gives no weights.
 bool gives_weights(const Model& model, std::span<const WaveletVariance> replicates) {
   const SumCovariance sum = sum_covariance(model);
   const bool random = sum.linear != 0.0 || sum.cubic != 0.0 || !sum.near.empty() ||
                       !sum.exponentials.empty() || sum.flicker > 0.0;
   return random && (variance(model, replicates[0].scales.half_widths()) > 0.0).all();
-}
-
-}  // namespace
-
-MomentCovariances moment_covariances(const Model& model,
-                                     std::span<const WaveletVariance> replicates) {
-  const SumCovariance process = sum_covariance(model);
-  return MomentCovariances::of(replicates, [&](std::size_t k) -> Eigen::MatrixXd {
-    const WaveletVariance& wv = replicates[k];
-    return moment_covariance(process, wv.scales, wv.samples) / wv.efficiency;
-  });
 }
 
 std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates) {

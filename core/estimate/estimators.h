@@ -33,6 +33,12 @@ Problem tied_problem(const Model& model, std::span<const WaveletVariance> replic
 /// intervals.
 std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates);
 
+/// Weights of the exact covariance under a model, one root a replicate: Ω = V⁻¹.
+std::vector<Eigen::MatrixXd> full_roots(const Model& model,
+                                        std::span<const WaveletVariance> replicates);
+/// False for a model that explains nothing at some scale: it gives no weights.
+bool gives_weights(const Model& model, std::span<const WaveletVariance> replicates);
+
 /// An estimate and the weights that it was made with.
 struct Estimate {
   Model model;             ///< all values set, sorted

@@ -51,8 +51,8 @@ Refined refine(const Profile& profile, const std::vector<double>& start, const P
   std::vector<double> lower;
   std::vector<double> upper;
   for (const Profile::Coordinate& c : profile.coordinates()) {
-    lower.push_back(c.to_search(c.info.lower));
-    upper.push_back(c.to_search(c.info.upper));
+    lower.push_back(c.lower());
+    upper.push_back(c.upper());
   }
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
       nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(start.size())), &nlopt_destroy);

@@ -19,10 +19,11 @@ struct Share {
 };
 
 /// The wavelet variances of one signal, or the cross-covariances of two: the model expects
-/// Σ power(share) · shape_term(m).
+/// Σ power(share) · shape_term(m), both where the covariate is what it was.
 struct Segment {
   Scales scales;
   std::vector<Share> shares;
+  double covariate = 0.0;  ///< in [-1, 1]: what the terms' trends follow
 };
 
 /// Measured moments that are weighted together.
@@ -39,7 +40,7 @@ struct Problem {
   Model model;  ///< parameters that are given stay as they are
   std::vector<MomentBlock> blocks;
   /// Terms whose power is a symmetric positive semidefinite matrix rather than a number: its size.
-  /// Such a term's own power is not given; it is 1 in every result.
+  /// Such a term's own power is not given; it is 1 in every result. It has no trends.
   std::map<std::size_t, Eigen::Index> matrix_powers{};
 };
 
@@ -53,7 +54,7 @@ enum class Termination {
 std::string_view describe(Termination termination);
 
 struct Minimum {
-  Model model;  ///< with all values set
+  Model model;  ///< with all values and slopes set
   std::map<std::size_t, Eigen::MatrixXd> matrix_powers{};
   double objective = 0.0;
   Termination termination = Termination::kLinear;
@@ -66,7 +67,8 @@ struct Minimum {
 /// and for any number of threads.
 Minimum minimise(const Problem& problem, const Progress& progress = {});
 
-/// Refines given points only, the shapes of models of the same terms, and returns the best.
+/// Refines given points only, the shapes and slopes of models of the same terms, and returns the
+/// best.
 /// Precondition: at least one.
 Minimum minimise_from(const Problem& problem, std::span<const Model> starts,
                       const Progress& progress = {});

@@ -1,19 +1,33 @@
 #include "core/estimate/profile.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "core/model/trend.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {
 
+namespace {
+
+bool solved_by_ends(const Term& term) { return term.trends[0].link == Link::kLinear; }
+
+}  // namespace
+
 double Profile::Coordinate::to_search(double value) const {
-  return scale().to_scale(std::clamp(value, info.lower, info.upper));
+  return slope ? value : scale().to_scale(std::clamp(value, info.lower, info.upper));
 }
 
 double Profile::Coordinate::to_value(double search) const {
-  return std::clamp(scale().to_value(search), info.lower, info.upper);
+  return slope ? search : std::clamp(scale().to_value(search), info.lower, info.upper);
 }
+
+double Profile::Coordinate::lower() const {
+  return slope ? -kSteepestTrend : to_search(info.lower);
+}
+
+double Profile::Coordinate::upper() const { return slope ? kSteepestTrend : to_search(info.upper); }
 
 Profile::Profile(const Problem& problem) : problem_(problem) {
   for (std::size_t t = 0; t < problem.model.terms.size(); ++t) {
@@ -22,25 +36,30 @@ Profile::Profile(const Problem& problem) : problem_(problem) {
     if (!term.given[0]) {
       const auto matrix = problem.matrix_powers.find(t);
       const Eigen::Index size = matrix == problem.matrix_powers.end() ? 1 : matrix->second;
-      free_powers_.push_back({t, size, free_columns_});
-      free_columns_ += packed_size(size);
+      assert(size == 1 || !varies(term));
+      const Eigen::Index columns = solved_by_ends(term) ? 2 : packed_size(size);
+      free_powers_.push_back({t, size, free_columns_, columns});
+      free_columns_ += columns;
     }
-    for (std::size_t p = 1; p < about.size(); ++p) {
-      if (!term.given[p]) coordinates_.push_back({t, p, about[p]});
+    for (std::size_t p = 0; p < about.size(); ++p) {
+      if (term.given[p]) continue;
+      const Link link = term.trends[p].link;
+      if (p > 0) coordinates_.push_back({t, p, about[p]});
+      if (link == Link::kExponential || link == Link::kLogistic) {
+        coordinates_.push_back({t, p, about[p], true});
+      }
     }
   }
   for (const MomentBlock& block : problem.blocks) {
     rows_ += block.weight_root.rows();
-    std::vector<std::size_t> grid_of;
+    std::vector<std::size_t> site_of;
     for (const Segment& segment : block.segments) {
-      const Eigen::ArrayXd grid = segment.scales.half_widths();
-      const auto found = std::find_if(grids_.begin(), grids_.end(), [&](const Eigen::ArrayXd& g) {
-        return g.size() == grid.size() && (g == grid).all();
-      });
-      grid_of.push_back(static_cast<std::size_t>(found - grids_.begin()));
-      if (found == grids_.end()) grids_.push_back(grid);
+      Site site{segment.scales.half_widths(), segment.covariate};
+      const auto found = std::find(sites_.begin(), sites_.end(), site);
+      site_of.push_back(static_cast<std::size_t>(found - sites_.begin()));
+      if (found == sites_.end()) sites_.push_back(std::move(site));
     }
-    grid_of_.push_back(std::move(grid_of));
+    site_of_.push_back(std::move(site_of));
   }
   measured_.resize(rows_);
   Eigen::Index row = 0;
@@ -50,7 +69,7 @@ Profile::Profile(const Problem& problem) : problem_(problem) {
   }
 }
 
-Eigen::VectorXd Profile::whitened(Share share, const std::vector<Eigen::ArrayXd>& per_grid) const {
+Eigen::VectorXd Profile::whitened(Share share, const std::vector<Eigen::ArrayXd>& per_site) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(rows_);
   Eigen::Index row = 0;
   for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
@@ -59,7 +78,7 @@ Eigen::VectorXd Profile::whitened(Share share, const std::vector<Eigen::ArrayXd>
     Eigen::Index moment = 0;
     for (std::size_t s = 0; s < block.segments.size(); ++s) {
       const Segment& segment = block.segments[s];
-      const Eigen::ArrayXd& values = per_grid[grid_of_[b][s]];
+      const Eigen::ArrayXd& values = per_site[site_of_[b][s]];
       if (std::find(segment.shares.begin(), segment.shares.end(), share) != segment.shares.end()) {
         out.segment(row, rows) +=
             block.weight_root.middleCols(moment, values.size()) * values.matrix();
@@ -73,15 +92,37 @@ Eigen::VectorXd Profile::whitened(Share share, const std::vector<Eigen::ArrayXd>
 
 Eigen::VectorXd Profile::column(Share share, const Process& process) const {
   std::vector<Eigen::ArrayXd> shapes;
-  for (const Eigen::ArrayXd& grid : grids_) shapes.push_back(shape(process, grid));
+  for (const Site& site : sites_) shapes.push_back(shape(process, site.half_widths));
   return whitened(share, shapes);
+}
+
+// What a power contributes when it is 1: a number in the middle of the covariate's range, one of
+// its ends, or an entry of a matrix.
+Eigen::VectorXd Profile::column(const FreePower& power, Eigen::Index index,
+                                const Term& term) const {
+  std::vector<Eigen::ArrayXd> shapes;
+  for (const Site& site : sites_) {
+    const Trend& trend = term.trends[0];
+    double share = 1.0;
+    if (trend.link == Link::kExponential) share = std::exp(trend.slope * site.covariate);
+    if (trend.link == Link::kLinear) {
+      share = 0.5 * (index == 0 ? 1.0 - site.covariate : 1.0 + site.covariate);
+    }
+    shapes.emplace_back(share * shape(process_at(term, site.covariate), site.half_widths));
+  }
+  return whitened({power.term, solved_by_ends(term) ? 0 : index}, shapes);
 }
 
 Eigen::VectorXd Profile::target(const Model& model) const {
   Eigen::VectorXd out = measured_;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     const Term& term = model.terms[t];
-    if (term.given[0]) out -= values(term.process)[0] * column({t, 0}, term.process);
+    if (!term.given[0]) continue;
+    std::vector<Eigen::ArrayXd> explained;
+    for (const Site& site : sites_) {
+      explained.push_back(variance(process_at(term, site.covariate), site.half_widths));
+    }
+    out -= whitened({t, 0}, explained);
   }
   return out;
 }
@@ -89,26 +130,35 @@ Eigen::VectorXd Profile::target(const Model& model) const {
 std::vector<double> Profile::coordinates_of(const Model& model) const {
   std::vector<double> out;
   for (const Coordinate& c : coordinates_) {
-    out.push_back(c.to_search(values(model.terms[c.term].process)[c.parameter]));
+    const Term& term = model.terms[c.term];
+    out.push_back(c.slope ? term.trends[c.parameter].slope
+                          : c.to_search(values(term.process)[c.parameter]));
   }
   return out;
 }
 
-Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gradient) const {
+Model Profile::model_of(const std::vector<double>& x) const {
   Model model = problem_.model;
-  std::vector<double> slopes(coordinates_.size());
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
     const Coordinate& c = coordinates_[i];
-    std::vector<double> v = values(model.terms[c.term].process);
+    Term& term = model.terms[c.term];
+    if (c.slope) {
+      term.trends[c.parameter].slope = x[i];
+      continue;
+    }
+    std::vector<double> v = values(term.process);
     v[c.parameter] = c.to_value(x[i]);
-    slopes[i] = c.slope(v[c.parameter]);
-    set_values(model.terms[c.term].process, v);
+    set_values(term.process, v);
   }
+  return model;
+}
 
+Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gradient) const {
+  Model model = model_of(x);
   Eigen::MatrixXd columns(rows_, free_columns_);
   for (const FreePower& power : free_powers_) {
-    for (Eigen::Index e = 0; e < packed_size(power.size); ++e) {
-      columns.col(power.begin + e) = column({power.term, e}, model.terms[power.term].process);
+    for (Eigen::Index i = 0; i < power.columns; ++i) {
+      columns.col(power.begin + i) = column(power, i, model.terms[power.term]);
     }
   }
   const Eigen::VectorXd wanted = target(model);
@@ -116,35 +166,35 @@ Profile::Point Profile::at(const std::vector<double>& x, std::vector<double>* gr
   const Eigen::VectorXd residual = wanted - columns * powers;
   Point point{std::move(model), {}, residual.squaredNorm()};
   set_powers(powers, point);
-
-  // By the envelope theorem only the direct dependence on the shapes counts:
-  // dQ/dη = -2 rᵀ W Σ power dshape.
-  if (gradient != nullptr) {
-    for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-      const Coordinate& c = coordinates_[i];
-      const Process& process = point.model.terms[c.term].process;
-      std::vector<Eigen::ArrayXd> per_grid;
-      for (const Eigen::ArrayXd& grid : grids_) {
-        per_grid.emplace_back(
-            shape_jacobian(process, grid).col(static_cast<Eigen::Index>(c.parameter - 1)));
-      }
-      double sum = 0.0;
-      const auto add = [&](Eigen::Index entry, double power) {
-        if (power != 0.0) sum += power * residual.dot(whitened({c.term, entry}, per_grid));
-      };
-      const auto found = std::find_if(free_powers_.begin(), free_powers_.end(),
-                                      [&](const FreePower& p) { return p.term == c.term; });
-      if (found == free_powers_.end()) {
-        add(0, values(process)[0]);
-      } else {
-        for (Eigen::Index e = 0; e < packed_size(found->size); ++e) {
-          add(e, powers(found->begin + e));
-        }
-      }
-      (*gradient)[i] = -2.0 * slopes[i] * sum;
-    }
+  for (std::size_t i = 0; gradient != nullptr && i < coordinates_.size(); ++i) {
+    const Coordinate& c = coordinates_[i];
+    (*gradient)[i] = derivative(c, point.model.terms[c.term], powers, residual);
   }
   return point;
+}
+
+// dQ/dη = -2 rᵀ W Σ d(power · shape)/dη: by the envelope theorem the powers that are solved for
+// stay as they are.
+double Profile::derivative(const Coordinate& coordinate, const Term& term,
+                           const Eigen::VectorXd& powers, const Eigen::VectorXd& residual) const {
+  std::vector<Eigen::ArrayXd> changes;
+  for (const Site& site : sites_) {
+    const double along = coordinate.slope ? site.covariate : 1.0;
+    changes.emplace_back(along *
+                         change_with(term, coordinate.parameter, site.covariate, site.half_widths));
+  }
+  const auto matrix = std::find_if(free_powers_.begin(), free_powers_.end(), [&](const auto& p) {
+    return p.term == coordinate.term && p.size > 1;
+  });
+  if (matrix == free_powers_.end()) {
+    return -2.0 * residual.dot(whitened({coordinate.term, 0}, changes));
+  }
+  double sum = 0.0;
+  for (Eigen::Index e = 0; e < matrix->columns; ++e) {
+    const double power = powers(matrix->begin + e);
+    if (power != 0.0) sum += power * residual.dot(whitened({coordinate.term, e}, changes));
+  }
+  return -2.0 * sum;
 }
 
 // The powers that minimise |target - columns·powers|², each number non-negative and each matrix
@@ -158,11 +208,16 @@ Eigen::VectorXd Profile::solve(const Eigen::MatrixXd& columns,
 
 void Profile::set_powers(const Eigen::VectorXd& powers, Point& point) const {
   for (const FreePower& power : free_powers_) {
-    Process& process = point.model.terms[power.term].process;
-    std::vector<double> v = values(process);
+    Term& term = point.model.terms[power.term];
+    std::vector<double> v = values(term.process);
     const bool matrix = problem_.matrix_powers.contains(power.term);
     v[0] = matrix ? 1.0 : powers(power.begin);
-    set_values(process, v);
+    if (solved_by_ends(term)) {
+      const double last = powers(power.begin + 1);
+      term.trends[0].slope = 0.5 * (last - v[0]);
+      v[0] = 0.5 * (last + v[0]);
+    }
+    set_values(term.process, v);
     if (!matrix) continue;
     Eigen::MatrixXd full(power.size, power.size);
     for (Eigen::Index i = 0; i < power.size; ++i) {

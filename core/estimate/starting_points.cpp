@@ -218,7 +218,7 @@ std::vector<std::vector<double>> starting_points(const Profile& profile, std::si
     std::vector<double> x = base;
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Profile::Coordinate& c = profile.coordinates()[i];
-      if (c.term == added) x[i] = c.to_search(shapes[c.parameter - 1]);
+      if (c.term == added) x[i] = c.slope ? 0.0 : c.to_search(shapes[c.parameter - 1]);
     }
     all.push_back({profile.at(x).objective, std::move(x)});
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/estimate/parameter_scale.h"
+#include "core/process/parameter_scale.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
@@ -29,8 +29,8 @@ double find(const std::vector<DerivedQuantity>& all, Coefficient coefficient, do
   return found == all.end() ? otherwise : found->value;
 }
 
-// Interval of a derived quantity: mapped end to end when it depends on one parameter, else by the
-// delta method on the logarithm.
+}  // namespace
+
 DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEstimate>& estimates,
                                  const Eigen::MatrixXd& covariance, const DerivedQuantity& quantity,
                                  Hertz rate, double z) {
@@ -70,8 +70,8 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
     };
     const double a = end(estimates[p].lower);
     const double b = end(estimates[p].upper);
-    out.lower = std::min(a, b);
-    out.upper = std::max(a, b);
+    out.lower = std::min({a, b, quantity.value});  // it may be least between the ends
+    out.upper = std::max({a, b, quantity.value});
     return out;
   }
   const double relative = std::sqrt(std::max(0.0, slope.dot(covariance * slope))) / quantity.value;
@@ -79,8 +79,6 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
   out.upper = quantity.value * std::exp(z * relative);
   return out;
 }
-
-}  // namespace
 
 double upper_bound(double value, double upper, double z,
                    const std::function<double(double)>& error_at) {

@@ -22,6 +22,13 @@ double upper_bound(double value, double upper, double z,
 /// fitted; infinite when it cannot be told apart.
 using PowerError = std::function<double(Eigen::Index column, double value)>;
 
+/// Interval of a derived quantity of a term: mapped end to end when it depends on one parameter,
+/// else by the delta method on the logarithm. `estimates` and `covariance` are of the term's
+/// parameters; z is the normal quantile of the confidence.
+DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEstimate>& estimates,
+                                 const Eigen::MatrixXd& covariance, const DerivedQuantity& quantity,
+                                 Hertz rate, double z);
+
 /// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model,
 /// in the order of `sets`.
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,

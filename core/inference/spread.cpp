@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/estimate/parameter_scale.h"
+#include "core/process/parameter_scale.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {

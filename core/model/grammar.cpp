@@ -7,11 +7,15 @@
 #include <limits>
 
 #include "core/model/model.h"
+#include "core/model/trend.h"
 
 namespace imunoise {
 namespace {
 
 constexpr int kMostTerms = 12;
+
+// What a model may say beyond its processes and their values.
+enum class Dialect { kPlain, kArray, kDynamic };
 
 std::string upper(std::string_view text) {
   std::string out(text);
@@ -31,7 +35,8 @@ std::string known_names() {
 // Recursive descent over the text; every failure names the place.
 class Parser {
  public:
-  Parser(std::string_view text, Hertz rate, bool array) : text_(text), rate_(rate), array_(array) {}
+  Parser(std::string_view text, Hertz rate, Dialect dialect)
+      : text_(text), rate_(rate), dialect_(dialect) {}
 
   Result<Model> model() {
     Model out;
@@ -103,7 +108,8 @@ class Parser {
     if (!accept('[')) return {};
     skip_space();
     const std::size_t begin = at_;
-    if (!array_) return error(begin, "processes are shared only among the sensors of an array");
+    if (dialect_ != Dialect::kArray)
+      return error(begin, "processes are shared only among the sensors of an array");
     const std::string name = upper(word());
     for (const Sharing one : {Sharing::kCorrelated, Sharing::kGroup, Sharing::kAll}) {
       if (name == upper(word_of(one))) term.sharing = one;
@@ -150,7 +156,10 @@ class Parser {
                              parameter_names(term.process)));
     }
     const auto index = static_cast<std::size_t>(found - known.begin());
-    if (term.given[index]) return error(begin, fmt::format("'{}' is given twice", name));
+    if (term.given[index] || term.trends[index].link != Link::kConstant) {
+      return error(begin, fmt::format("'{}' is given twice", name));
+    }
+    if (accept('~')) return trend(term, *found, index);
     if (!accept('=')) return error(at_, "expected '=' and a value");
     skip_space();
     const std::size_t value_at = at_;
@@ -170,6 +179,25 @@ class Parser {
     set_values(term.process, all);
     term.given[index] = true;
     return {};
+  }
+
+  Result<void> trend(Term& term, const ParameterInfo& about, std::size_t index) {
+    if (dialect_ != Dialect::kDynamic) {
+      return error(at_ - 1, "parameters follow a covariate only in imunoise dynamic");
+    }
+    skip_space();
+    const std::size_t begin = at_;
+    const std::string name = upper(word());
+    const std::vector<Link> possible = possible_links(about, index);
+    std::string words;
+    for (const Link link : possible) {
+      if (name.empty() || name == upper(word_of(link))) {
+        term.trends[index].link = link;
+        return {};
+      }
+      words += fmt::format("{}{}", words.empty() ? "" : " or ", word_of(link));
+    }
+    return error(begin, fmt::format("{} follows a covariate as {}", about.name, words));
   }
 
   static std::string parameter_names(const Process& process) {
@@ -215,7 +243,7 @@ class Parser {
 
   std::string_view text_;
   Hertz rate_;
-  bool array_;
+  Dialect dialect_;
   std::size_t at_ = 0;
 };
 
@@ -225,9 +253,12 @@ std::string print_term(const Term& term, bool all) {
   const std::vector<ParameterInfo> about = parameters(term.process);
   const std::vector<double> at = values(term.process);
   for (std::size_t i = 0; i < at.size(); ++i) {
-    if (!all && !term.given[i]) continue;
-    inside += fmt::format("{}{}={}", inside.empty() ? "" : ", ", about[i].name,
-                          at[i]);  // shortest exact form
+    const std::string comma = inside.empty() ? "" : ", ";
+    if (all || term.given[i]) {
+      inside += fmt::format("{}{}={}", comma, about[i].name, at[i]);  // shortest exact form
+    } else if (term.trends[i].link != Link::kConstant) {
+      inside += fmt::format("{}{}~{}", comma, about[i].name, word_of(term.trends[i].link));
+    }
   }
   std::string out(info(term.process).name);
   if (!inside.empty()) out += "(" + inside + ")";
@@ -251,10 +282,14 @@ std::string print(const Model& model, bool all) {
 }  // namespace
 
 Result<Model> parse_model(std::string_view text, Hertz rate) {
-  return Parser(text, rate, false).model();
+  return Parser(text, rate, Dialect::kPlain).model();
 }
 Result<Model> parse_array_model(std::string_view text, Hertz rate) {
-  return Parser(text, rate, true).model();
+  return Parser(text, rate, Dialect::kArray).model();
+}
+
+Result<Model> parse_dynamic_model(std::string_view text, Hertz rate) {
+  return Parser(text, rate, Dialect::kDynamic).model();
 }
 
 std::string print(const Model& model) { return print(model, false); }

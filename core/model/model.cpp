@@ -24,6 +24,20 @@ std::string_view word_of(Sharing sharing) {
   return "";
 }
 
+std::string_view word_of(Link link) {
+  switch (link) {
+    case Link::kConstant:
+      break;
+    case Link::kExponential:
+      return "exp";
+    case Link::kLinear:
+      return "linear";
+    case Link::kLogistic:
+      return "logistic";
+  }
+  return "";
+}
+
 bool complete(const Model& model) {
   return std::all_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
     return std::find(term.given.begin(), term.given.end(), false) == term.given.end();
@@ -56,6 +70,10 @@ SumCovariance sum_covariance(const Model& model) {
 }
 
 Model sorted(Model model) {
+  const auto same_links = [](const Term& a, const Term& b) {
+    return std::equal(a.trends.begin(), a.trends.end(), b.trends.begin(), b.trends.end(),
+                      [](const Trend& x, const Trend& y) { return x.link == y.link; });
+  };
   const auto shape_of = [](const Term& term) {
     std::vector<double> v = values(term.process);
     v.erase(v.begin());
@@ -66,7 +84,7 @@ Model sorted(Model model) {
       Term& a = model.terms[i];
       Term& b = model.terms[k];
       if (a.process.index() == b.process.index() && a.given == b.given && a.sharing == b.sharing &&
-          shape_of(a) < shape_of(b)) {
+          same_links(a, b) && shape_of(a) < shape_of(b)) {
         std::swap(a, b);
       }
     }

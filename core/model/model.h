@@ -20,14 +20,33 @@ enum class Sharing {
 /// "corr", "group", "all"; "" for kOwn.
 std::string_view word_of(Sharing sharing);
 
+/// How a parameter follows a covariate.
+enum class Link {
+  kConstant,     ///< it does not
+  kExponential,  ///< powers and times, exp(a + b·c): sigma2~exp
+  kLinear,       ///< powers, a + b·c, nowhere negative: sigma2~linear
+  kLogistic,     ///< all others, logistic(a + b·c) between their bounds: phi~logistic
+};
+/// "exp", "linear", "logistic"; "" for kConstant.
+std::string_view word_of(Link link);
+
+/// What becomes of a parameter away from the middle of the covariate's range; see trend.h.
+struct Trend {
+  Link link = Link::kConstant;
+  double slope = 0.0;  ///< b, on the scale of the link, per half of the range
+  friend bool operator==(const Trend&, const Trend&) = default;
+};
+
 /// One term of a model: a process, and which of its parameters the user gave (they stay as they
 /// are).
 struct Term {
-  Process process;
-  std::vector<bool> given;  ///< one entry a parameter
+  Process process;            ///< in the middle of the covariate's range where there is one
+  std::vector<bool> given;    ///< one entry a parameter
+  std::vector<Trend> trends;  ///< one entry a parameter
   Sharing sharing = Sharing::kOwn;
 
-  explicit Term(Process p) : process(std::move(p)), given(parameters(process).size(), false) {}
+  explicit Term(Process p)
+      : process(std::move(p)), given(parameters(process).size(), false), trends(given.size()) {}
   friend bool operator==(const Term&, const Term&) = default;
 };
 
@@ -39,17 +58,20 @@ struct Model {
 
 /// Reads a model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`, `MA(2) +
 /// RW`.
-///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value }
-///   ')' ] [ '[' sharing ']' ];  sharing := corr | group | all
+///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value |
+///   name '~' [ link ] } ')' ] [ '[' sharing ']' ];  sharing := corr | group | all;
+///   link := exp | linear | logistic
 /// Parameters are per sample, in SI units; GM's tc is in seconds (hence the rate). Names ignore
 /// case. Error: what is wrong, with the text and a caret under the character.
 Result<Model> parse_model(std::string_view text, Hertz rate);
 /// The same for several sensors: only such a model may say how a process is shared.
 Result<Model> parse_array_model(std::string_view text, Hertz rate);
+/// The same over a covariate: only such a model may say which parameters follow it, and how.
+Result<Model> parse_dynamic_model(std::string_view text, Hertz rate);
 
 /// The model in the grammar, with the values that were given: parse_model(print(m)) == m.
 std::string print(const Model& model);
-/// The same with every value, as after a fit: what `imunoise simulate` takes.
+/// The same with every value and no trends, as after a fit: what `imunoise simulate` takes.
 std::string print_with_values(const Model& model);
 
 /// Number of parameters of all terms.

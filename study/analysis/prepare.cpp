@@ -38,15 +38,20 @@ std::string default_model_note(std::string_view done, std::string_view model) {
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured) {
   Result<Model> model = parse_model(text, measured.front().rate);
   if (!model) return model;
-  std::size_t scales = 0;
-  for (const WaveletVariance& wv : measured) scales = std::max(scales, wv.scales.size());
-  if (free_parameters(*model) > scales) {
-    return fail(fmt::format(
-        "model: {} has {} free parameters, but the recording has only {} scales; take a "
-        "smaller model, record longer, or ask for more scales an octave",
-        print(*model), free_parameters(*model), scales));
+  if (auto enough = enough_scales(*model, measured); !enough) {
+    return tl::unexpected(enough.error());
   }
   return model;
+}
+
+Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured) {
+  std::size_t scales = 0;
+  for (const WaveletVariance& wv : measured) scales = std::max(scales, wv.scales.size());
+  if (free_parameters(model) <= scales) return {};
+  return fail(
+      fmt::format("model: {} has {} free parameters, but the recording has only {} scales; take a "
+                  "smaller model, record longer, or ask for more scales an octave",
+                  print(model), free_parameters(model), scales));
 }
 
 Result<Prepared> prepare(const Series& series, std::string_view text, const MeasureOptions& options,

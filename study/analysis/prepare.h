@@ -25,6 +25,9 @@ struct Prepared {
 /// than there are scales.
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured);
 
+/// Error: more free parameters than the longest replicate has scales.
+Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured);
+
 /// Reads the model and measures the replicates. Error: as read_model(), a replicate that never
 /// changes, two with the same samples, or the caller stopped it.
 Result<Prepared> prepare(const Series& series, std::string_view model,

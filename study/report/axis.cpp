@@ -57,6 +57,31 @@ std::vector<Tick> LogAxis::fine_ticks(double label) const {
   return out;
 }
 
+LinearAxis::LinearAxis(double low, double high, double begin, double end)
+    : low_(low), high_(high), begin_(begin), end_(end) {
+  assert(low < high);
+}
+
+double LinearAxis::operator()(double value) const {
+  return begin_ + (end_ - begin_) * (value - low_) / (high_ - low_);
+}
+
+std::vector<double> LinearAxis::ticks(double label) const {
+  const double least = (high_ - low_) * std::min(1.0, label / std::abs(end_ - begin_));
+  const double decade = power(static_cast<int>(std::floor(std::log10(least))));
+  const double digit = least / decade;
+  const double step = decade * (digit <= 1.0   ? 1.0
+                                : digit <= 2.0 ? 2.0
+                                : digit <= 5.0 ? 5.0
+                                               : 10.0);
+  const double slack = 1e-9 * step;
+  std::vector<double> out;
+  for (double k = std::ceil((low_ - slack) / step); k * step <= high_ + slack; k += 1.0) {
+    out.push_back(k * step + 0.0);  // zero without a sign
+  }
+  return out;
+}
+
 SigmaAxis::SigmaAxis(double reach, double centre, double half)
     : reach_(reach), centre_(centre), half_(half) {
   assert(reach > 0.0);

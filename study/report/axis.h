@@ -53,6 +53,29 @@ class LogAxis {
   double end_;
 };
 
+/// A linear axis: low ↦ begin, high ↦ end (positions may fall).
+class LinearAxis {
+ public:
+  /// Needs low < high.
+  LinearAxis(double low, double high, double begin, double end);
+
+  /// Position of a value; values outside [low, high] lie outside [begin, end].
+  double operator()(double value) const;
+  double low() const { return low_; }
+  double high() const { return high_; }
+  double begin() const { return begin_; }
+  double end() const { return end_; }
+
+  /// Multiples of 1, 2 or 5 times a power of ten, as many as leave `label` px for each.
+  std::vector<double> ticks(double label) const;
+
+ private:
+  double low_;
+  double high_;
+  double begin_;
+  double end_;
+};
+
 /// The axis of residuals, in standard deviations: asinh(r/2), nearly linear within ±2 and
 /// logarithmic beyond, so that 1σ and 50σ are both legible.
 class SigmaAxis {

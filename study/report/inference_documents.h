@@ -1,6 +1,7 @@
 #pragma once
 
 #include "imunoise/v1/array.pb.h"
+#include "imunoise/v1/dynamic.pb.h"
 #include "imunoise/v1/faults.pb.h"
 #include "imunoise/v1/inference.pb.h"
 #include "imunoise/v1/mixed.pb.h"
@@ -15,5 +16,6 @@ Document document(const v1::ChoiceReports& reports, Digits digits);
 Document document(const v1::ArrayReport& report, Digits digits);
 Document document(const v1::MixedReport& report, Digits digits);
 Document document(const v1::FaultReport& report, Digits digits);
+Document document(const v1::DynamicReports& reports, Digits digits);
 
 }  // namespace imunoise::report

@@ -47,13 +47,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     require(!model.error().message.empty());
   }
-  // Models of arrays read more; what is printed reads back.
-  if (const auto array = imunoise::parse_array_model(text, rate)) {
-    const std::string printed = imunoise::print(*array);
-    const auto again = imunoise::parse_array_model(printed, rate);
-    require(again.has_value() && *again == *array);
-  } else {
-    require(!model.has_value());
+  // Models of arrays and over covariates read more; what is printed reads back.
+  for (const auto parse : {&imunoise::parse_array_model, &imunoise::parse_dynamic_model}) {
+    if (const auto more = parse(text, rate)) {
+      const std::string printed = imunoise::print(*more);
+      const auto again = parse(printed, rate);
+      require(again.has_value() && *again == *more);
+    } else {
+      require(!model.has_value());
+    }
   }
   return 0;
 }

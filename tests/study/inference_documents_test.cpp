@@ -1,4 +1,4 @@
-// The documents of `imunoise test` and `imunoise select`, on the page and in the terminal.
+// The documents of `imunoise test`, `select` and `dynamic`, on the page and in the terminal.
 
 #include "study/report/inference_documents.h"
 
@@ -55,6 +55,37 @@ void add_candidate(v1::ChoiceReport& to, const std::string& model, double merit)
   one.set_verdict(to.candidates_size() == 1 ? v1::selected : v1::not_appropriate);
 }
 
+v1::DynamicReports dynamic(const std::string& name) {
+  v1::DynamicReports out;
+  v1::DynamicReport& one = *out.add_channels();
+  one.set_channel(name);
+  one.set_covariate(name);
+  one.set_covariate_unit(name);
+  one.set_summary(name);
+  one.add_notes(name);
+  one.add_trends()->set_term(name);
+  one.add_bins()->set_model(name);
+  v1::DynamicQuantity& walk = *one.add_quantities();
+  walk.set_term(name);
+  walk.set_symbol("N");
+  walk.set_unit(name);
+  walk.set_varies(true);
+  double covariate = 30.0;
+  for (const double value : {0.146, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(), 0.439}) {
+    for (auto* const points :
+         {walk.mutable_curve(), walk.mutable_bins(), walk.mutable_separate()}) {
+      v1::CovariatePoint& point = *points->Add();
+      point.set_covariate(covariate);
+      point.set_value(value);
+      if (value < 0.4) point.set_lower(0.9 * value);
+      point.set_upper(value > 0.4 ? std::numeric_limits<double>::infinity() : 1.1 * value);
+    }
+    covariate += 60.0;
+  }
+  return out;
+}
+
 // Everything that files and people can put in, and numbers that no axis holds.
 std::vector<Document> troubled(Digits digits) {
   v1::StationarityReports tests = stationarity(test_result(72, true), test_result(0, false));
@@ -74,8 +105,14 @@ std::vector<Document> troubled(Digits digits) {
     add_candidate(choice, kHostile, merit);
   }
   choices.add_channels();
-  return {document(tests, digits), document(choices, digits),
-          document(v1::StationarityReports{}, digits), document(v1::ChoiceReports{}, digits)};
+  v1::DynamicReports covariates = dynamic(kHostile);
+  covariates.add_channels();
+  return {document(tests, digits),
+          document(choices, digits),
+          document(covariates, digits),
+          document(v1::StationarityReports{}, digits),
+          document(v1::ChoiceReports{}, digits),
+          document(v1::DynamicReports{}, digits)};
 }
 
 TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
@@ -86,6 +123,24 @@ TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
     EXPECT_EQ(page.find('\x1b'), std::string::npos);
     EXPECT_EQ(page.find("\u202E"), std::string::npos);
   }
+}
+
+TEST(InferenceDocuments, NoiseOverACovariateIsDrawnForDeskPhoneAndTerminal) {
+  const v1::DynamicReports report = dynamic("gyro");
+  const Section shown = document(report, Digits::kPlain).sections.at(0);
+  ASSERT_EQ(shown.figures.size(), 1U);
+  for (const std::string& svg : {shown.figures[0].wide, shown.figures[0].narrow}) {
+    EXPECT_EQ(read_markup(svg).error, "");
+    std::size_t circles = 0;  // a value that is not finite or below zero has no place
+    for (auto at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
+      ++circles;
+    }
+    EXPECT_EQ(circles, 3U);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_NE(svg.find("N of gyro, gyro"), std::string::npos);
+  }
+  const std::string words = text(document(report, Digits::kPlain), {100, false, true});
+  EXPECT_NE(words.find("0.146 (0.131 … 0.161)"), std::string::npos) << words;
 }
 
 TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {

@@ -1,0 +1,51 @@
+#include "cli/parse/raw_analysis.h"
+
+#include <fmt/format.h>
+
+namespace imunoise::cli {
+
+std::optional<std::filesystem::path> path_from(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+Weighting weighting_from(const std::string& text) {
+  return text == "diag" ? Weighting::kDiagonal : Weighting::kFull;
+}
+
+std::optional<std::string> model_from(const RawAnalysis& raw) {
+  if (raw.model_option->count() == 0) return std::nullopt;
+  return raw.model;
+}
+
+ShowArguments show_from(const RawAnalysis& raw) { return {raw.json, path_from(raw.report)}; }
+
+void add_json(CLI::App& command, RawAnalysis& raw) {
+  command.add_flag("--json", raw.json, "Print the result as JSON");
+}
+
+void add_report(CLI::App& command, RawAnalysis& raw) {
+  command.add_option("--report", raw.report, "Write one self-contained HTML page")
+      ->type_name("OUT.html");
+}
+
+void add_model(CLI::App& command, RawAnalysis& raw, std::string_view unless_given) {
+  raw.model_option = command.add_option("--model", raw.model,
+                                        fmt::format("The model (default: {})", unless_given));
+}
+
+void add_weights(CLI::App& command, RawAnalysis& raw) {
+  command
+      .add_option("--weights", raw.weights,
+                  "full: exact covariance of the moments; diag: as the R packages")
+      ->check(CLI::IsMember({"full", "diag"}))
+      ->capture_default_str();
+}
+
+void add_confidence(CLI::App& command, RawAnalysis& raw) {
+  command.add_option("--confidence", raw.confidence, "Of the intervals")
+      ->check(CLI::Range(0.5, 0.9999))
+      ->capture_default_str();
+}
+
+}  // namespace imunoise::cli
