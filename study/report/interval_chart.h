@@ -24,4 +24,9 @@ std::optional<Figure> interval_chart(const std::string& title, const std::string
                                      const std::string& caption, std::vector<IntervalRow> rows,
                                      std::optional<double> reference);
 
+/// The same as a picture for papers, 900 px wide, with title and subtitle; "" when no row is left.
+std::string interval_svg(const std::string& title, const std::string& subtitle,
+                         const std::string& axis_title, std::vector<IntervalRow> rows,
+                         std::optional<double> reference);
+
 }  // namespace imunoise::report
