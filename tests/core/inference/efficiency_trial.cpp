@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <numeric>
@@ -159,6 +160,61 @@ INSTANTIATE_TEST_SUITE_P(
                       "AR1(sigma2=0.01, phi=0.99501) + AR1(sigma2=0.1, phi=0.96079) + WN(sigma2=1)",
                       "RES(sigma2=0.05, r=0.97, omega=0.8) + WN(sigma2=1) + RW(gamma2=1e-4)",
                       "WN(sigma2=1) + RW(gamma2=1e-5) + DR(omega2=4e-9)"));
+
+// φ of AR1 + WN over replicates, by one model for all and by the average of one each.
+struct Memory {
+  double pooled;
+  double averaged;
+};
+Memory memory_of(std::span<const WaveletVariance> replicates) {
+  const Model open = testing::model_of("AR1 + WN");
+  const auto phi = [](const Model& model) { return values(model.terms[0].process)[1]; };
+  return {phi(mugmwm(open, replicates, Weighting::kFull).model),
+          phi(agmwm(open, replicates, Weighting::kFull).average.model)};
+}
+
+// Where replicates differ, pooling is not averaging: theory's moments, which have no noise, predict
+// by how much (Jensen's inequality). Where they do not, pooling is the more precise.
+TEST(PoolingAndAveraging, DifferAsPredicted) {
+  constexpr std::size_t kSets = 200;
+  const Model fast = testing::model_of("AR1(sigma2=0.05, phi=0.98) + WN(sigma2=1)");
+  const Model slow = testing::model_of("AR1(sigma2=0.05, phi=0.995) + WN(sigma2=1)");
+  for (const bool alike : {false, true}) {
+    const std::size_t samples = alike ? std::size_t{1} << 11U : std::size_t{1} << 16U;
+    const std::array truths = {fast, alike ? fast : slow};
+    const std::vector<WaveletVariance> exact = {testing::theory(truths[0], samples),
+                                                testing::theory(truths[1], samples)};
+    const Memory predicted = memory_of(exact);
+    std::vector<Memory> found(kSets);
+    for_each_index(kSets, [&](std::size_t i) {
+      std::vector<WaveletVariance> replicates;
+      for (std::size_t k = 0; k < 4; ++k) {
+        replicates.push_back(
+            testing::simulated_set(truths[k % 2], {samples}, 1, kSeed + 10'000 + 4 * i + k)[0]);
+      }
+      found[i] = memory_of(replicates);
+    });
+    const auto describe = [&](const char* name, double Memory::*what) {
+      double mean = 0.0;
+      double square = 0.0;
+      for (const Memory& one : found) {
+        mean += one.*what / kSets;
+        square += (one.*what - predicted.*what) * (one.*what - predicted.*what) / kSets;
+      }
+      const double error = std::sqrt(
+          std::max(0.0, square - (mean - predicted.*what) * (mean - predicted.*what)) / kSets);
+      std::printf("| %s | %s | %.5f | %.5f ± %.5f | %.5f |\n",
+                  alike ? "alike, T = 2048" : "φ = 0.98 and 0.995, T = 65536", name,
+                  predicted.*what, mean, error, std::sqrt(square));
+      if (!alike) EXPECT_NEAR(mean, predicted.*what, 4.0 * error) << name;
+      return square;
+    };
+    std::printf("| four replicates of AR1 + WN | | φ predicted | φ measured | RMSE |\n");
+    const double pooled = describe("MuGMWM", &Memory::pooled);
+    const double averaged = describe("AGMWM", &Memory::averaged);
+    if (alike) EXPECT_LT(pooled, averaged);
+  }
+}
 
 }  // namespace
 }  // namespace imunoise
