@@ -8,7 +8,7 @@
 #include "core/array/array_inference.h"
 #include "core/array/cross_spectra.h"
 #include "core/estimate/fisher_scoring.h"
-#include "core/estimate/parameter_scale.h"
+#include "core/process/parameter_scale.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/estimate/fisher_scoring.h"
-#include "core/estimate/parameter_scale.h"
+#include "core/process/parameter_scale.h"
 
 namespace imunoise {
 namespace {

@@ -12,8 +12,8 @@
 #include <fstream>
 #include <numeric>
 
-#include "core/estimate/parameter_scale.h"
 #include "core/estimate/whittle.h"
+#include "core/process/parameter_scale.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 #include "study/report/interval_chart.h"
