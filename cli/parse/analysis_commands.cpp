@@ -156,7 +156,7 @@ ParsedCommand select_command(CLI::App& program) {
           }};
 }
 
-// Where the bins are: "8" is how many, "30,90" or "30," are places.
+// Where the bins are: "8" is how many, "30,90" are places.
 void set_bins(const std::string& text, study::CovariateOptions& to) {
   if (text == "auto") return;
   for (const std::string& one : CLI::detail::split(text, ',')) {
@@ -167,8 +167,9 @@ void set_bins(const std::string& text, study::CovariateOptions& to) {
     }
     to.values.push_back(value);
   }
-  if (text.find(',') != std::string::npos && to.values.size() > 1) return;
-  const double count = to.values.empty() ? 0.0 : to.values.front();
+  if (to.values.size() > 1) return;
+  const bool place = text.find(',') != std::string::npos;
+  const double count = place || to.values.empty() ? 0.0 : to.values.front();
   if (!(count >= 2.0 && count <= 1000.0 && count == std::floor(count))) {
     refuse("--bins", "at least two, and at most 1000");
   }

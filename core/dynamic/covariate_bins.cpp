@@ -176,6 +176,8 @@ Bins bin_by_covariate(std::span<const std::vector<double>> recordings, const Bin
   }
   std::erase_if(out.bins, [](const Bin& bin) { return bin.runs.empty(); });
   for (Bin& bin : out.bins) bin.mean /= static_cast<double>(bin.samples);
+  std::sort(out.bins.begin(), out.bins.end(),
+            [](const Bin& a, const Bin& b) { return a.mean < b.mean; });
   return out;
 }
 

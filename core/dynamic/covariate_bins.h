@@ -40,7 +40,7 @@ inline constexpr std::size_t kCustomaryBins = 8;
 inline constexpr std::size_t kLeastRun = 16;
 
 struct Bins {
-  std::vector<Bin> bins;     ///< by covariate, ascending; none is empty
+  std::vector<Bin> bins;     ///< by mean, ascending; none is empty
   std::size_t left_out = 0;  ///< samples between bins, settling, or in runs that are too short
   bool plateaus = false;     ///< the bins are places where the covariate stayed
 };

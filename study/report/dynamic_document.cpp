@@ -44,8 +44,7 @@ std::optional<Figure> figure(const v1::DynamicReport& report, const v1::DynamicQ
   chart.value_title = in_unit(name_of(quantity), quantity.unit());
   chart.caption = fmt::format(
       "Line: the fit of all bins together, in its {:g} % band. Circles: each bin fitted by itself, "
-      "with its interval; grey where only the upper end means something. Where the circles' "
-      "intervals "
+      "with its interval; grey where only the upper end means something. Where those intervals "
       "miss the band, the link is wrong.",
       100.0 * report.confidence());
   for (const v1::CovariatePoint& one : quantity.curve()) chart.curve.push_back(chart_point(one));
@@ -127,8 +126,9 @@ Section section(const v1::DynamicReport& report, Digits digits) {
                         : "no change seen";
   out.mood = misfit ? Mood::kBad : missed ? Mood::kDoubtful : Mood::kGood;
   out.facts =
-      fmt::format("{} · {:g} Hz · {} recordings · {} bins · {}", report.model(), report.rate_hz(),
-                  report.recordings(), report.bins_size(), report.termination());
+      fmt::format("{} · {:g} Hz · {} recording{} · {} bins · {}", report.model(), report.rate_hz(),
+                  report.recordings(), report.recordings() == 1 ? "" : "s", report.bins_size(),
+                  report.termination());
   out.summary = report.summary();
   out.tables.push_back(trends(report, digits));
   for (const v1::DynamicQuantity& one : report.quantities()) {

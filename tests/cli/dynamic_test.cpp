@@ -86,6 +86,7 @@ TEST_F(Dynamic, AnswersPeople) {
       run("dynamic table.csv --rate 100 --unit deg/s --covariate rate --model 'WN(sigma2~linear)'");
   ASSERT_EQ(done.status, 0) << done.errors;
   EXPECT_NE(done.out.find("gyro over rate"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("1 recording · 4 bins"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("N of WN grows from"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("75 of 16075 samples were left out"), std::string::npos) << done.out;
   const Outcome again =
@@ -108,6 +109,7 @@ TEST_F(Dynamic, SaysWhatItCannotDo) {
   expect("table.csv --rate 100 --covariate temperature", "no channel 'temperature'");
   expect("30.csv --rate 100 --covariate rate", "only one is a place where it stays");
   expect("table.csv --rate 100 --covariate rate --bins 1", "at least two");
+  expect("table.csv --rate 100 --covariate rate --bins 30,", "at least two");
   expect("table.csv --rate 100 --covariate rate --bins 30,fast", "places such as");
   expect("table.csv --rate 100 --covariate rate --bins 500,600", "nowhere is a place");
   expect("table.csv --rate 100 --covariate rate --model 'AR1(phi~exp)'", "phi follows a covariate");
