@@ -1,4 +1,5 @@
-// The documents of `imunoise test` and `imunoise select`, on the page and in the terminal.
+// The documents of `imunoise test`, `select`, `array` and `faults`, on the page and in the
+// terminal.
 
 #include "study/report/inference_documents.h"
 
@@ -55,6 +56,49 @@ void add_candidate(v1::ChoiceReport& to, const std::string& model, double merit)
   one.set_verdict(to.candidates_size() == 1 ? v1::selected : v1::not_appropriate);
 }
 
+v1::ArrayReport hostile_array() {
+  v1::ArrayReport out;
+  out.add_sensors(kHostile);
+  for (int i = 0; i < 30; ++i) {  // more than there is room for
+    v1::SensorPair& pair = *out.add_pairs();
+    pair.set_first(kHostile);
+    pair.set_second("b");
+    pair.set_dependent(i % 2 == 0);
+    for (const double covariance : {0.5, -0.5, 1e9, 0.0}) {
+      v1::CrossScale& scale = *pair.add_scales();
+      scale.set_tau_s(0.01 * pair.scales_size());
+      scale.set_covariance(covariance);
+      scale.set_lower(covariance - 0.1);
+      scale.set_upper(covariance + 0.1);
+      scale.set_unit(1.0);
+    }
+  }
+  return out;
+}
+
+v1::FaultReport hostile_faults() {
+  v1::FaultReport out;
+  out.set_unit("rad/s");
+  for (const char* kind : {"step", "noisy", "stuck"}) {
+    v1::SensorFault& fault = *out.add_faults();
+    fault.set_kind(kind);
+    fault.add_sensors(kHostile);
+    fault.add_sensors("b");
+    fault.set_replicate(kHostile);
+    fault.set_onset_s(1e9);
+  }
+  for (const double high : {1.0, 0.0}) {
+    v1::ParityTrace& trace = *out.add_traces();
+    trace.set_replicate(kHostile);
+    trace.set_sensor(kHostile);
+    trace.set_step_s(0.1);
+    trace.add_low(0.0);
+    trace.add_high(high);
+  }
+  out.add_stuck_rules()->set_sensor(kHostile);
+  return out;
+}
+
 // Everything that files and people can put in, and numbers that no axis holds.
 std::vector<Document> troubled(Digits digits) {
   v1::StationarityReports tests = stationarity(test_result(72, true), test_result(0, false));
@@ -74,8 +118,14 @@ std::vector<Document> troubled(Digits digits) {
     add_candidate(choice, kHostile, merit);
   }
   choices.add_channels();
-  return {document(tests, digits), document(choices, digits),
-          document(v1::StationarityReports{}, digits), document(v1::ChoiceReports{}, digits)};
+  return {document(tests, digits),
+          document(choices, digits),
+          document(hostile_array(), digits),
+          document(hostile_faults(), digits),
+          document(v1::ArrayReport{}, digits),
+          document(v1::FaultReport{}, digits),
+          document(v1::StationarityReports{}, digits),
+          document(v1::ChoiceReports{}, digits)};
 }
 
 TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
@@ -86,6 +136,21 @@ TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
     EXPECT_EQ(page.find('\x1b'), std::string::npos);
     EXPECT_EQ(page.find("\u202E"), std::string::npos);
   }
+}
+
+TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
+  const Document shown = document(hostile_faults(), Digits::kTypeset);
+  ASSERT_EQ(shown.sections[0].figures.size(), 1U) << "one a replicate";
+  for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
+    EXPECT_NE(shown.sections[0].figures[0].wide.find(kind), std::string::npos) << kind;
+  }
+  EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
+}
+
+TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {
+  const Document shown = document(hostile_array(), Digits::kTypeset);
+  ASSERT_EQ(shown.sections[0].figures.size(), 1U);
+  EXPECT_NE(shown.sections[0].figures[0].caption.find("15 of 30 pairs"), std::string::npos);
 }
 
 TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
