@@ -106,7 +106,8 @@ std::string draw(const v1::FaultReport& report, const Traces& traces, const std:
 std::optional<Figure> fault_chart(const v1::FaultReport& report, const std::string& replicate) {
   Traces traces;
   for (const v1::ParityTrace& trace : report.traces()) {
-    if (trace.replicate() == replicate && trace.high_size() > 0) traces.push_back(&trace);
+    if (trace.replicate() == replicate && trace.high_size() > 0 && trace.step_s() > 0.0)
+      traces.push_back(&trace);
   }
   if (traces.empty()) return std::nullopt;
   const std::string title = clean_text(replicate) + ": each sensor against the mean of the others";
