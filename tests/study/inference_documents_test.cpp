@@ -82,180 +82,182 @@ v1::DynamicReports dynamic(const std::string& name) {
       point.set_upper(value > 0.4 ? std::numeric_limits<double>::infinity() : 1.1 * value);
     }
     covariate += 60.0;
-    v1::ArrayReport hostile_array() {
-      v1::ArrayReport out;
-      out.add_sensors(kHostile);
-      for (int i = 0; i < 30; ++i) {  // more than there is room for
-        v1::SensorPair& pair = *out.add_pairs();
-        pair.set_first(kHostile);
-        pair.set_second("b");
-        pair.set_dependent(i % 2 == 0);
-        for (const double covariance : {0.5, -0.5, 1e9, 0.0}) {
-          v1::CrossScale& scale = *pair.add_scales();
-          scale.set_tau_s(0.01 * pair.scales_size());
-          scale.set_covariance(covariance);
-          scale.set_lower(covariance - 0.1);
-          scale.set_upper(covariance + 0.1);
-          scale.set_unit(1.0);
-        }
-      }
-      return out;
+  }
+  return out;
+}
+
+v1::ArrayReport hostile_array() {
+  v1::ArrayReport out;
+  out.add_sensors(kHostile);
+  for (int i = 0; i < 30; ++i) {  // more than there is room for
+    v1::SensorPair& pair = *out.add_pairs();
+    pair.set_first(kHostile);
+    pair.set_second("b");
+    pair.set_dependent(i % 2 == 0);
+    for (const double covariance : {0.5, -0.5, 1e9, 0.0}) {
+      v1::CrossScale& scale = *pair.add_scales();
+      scale.set_tau_s(0.01 * pair.scales_size());
+      scale.set_covariance(covariance);
+      scale.set_lower(covariance - 0.1);
+      scale.set_upper(covariance + 0.1);
+      scale.set_unit(1.0);
     }
+  }
+  return out;
+}
 
-    v1::MixedReport hostile_mixed() {
-      v1::MixedReport out;
-      out.set_unit(kHostile);
-      out.set_summary(kHostile);
-      v1::RegressionCoefficient& one = *out.add_coefficients();
-      one.set_regressor(kHostile);
-      one.set_unit(kHostile);
-      one.mutable_gls()->set_value(-1e300);
-      out.add_constants()->set_series(kHostile);
-      out.add_explained()->add_terms()->set_term(kHostile);
-      out.add_explained()->set_sensor(kHostile);
-      return out;
+v1::MixedReport hostile_mixed() {
+  v1::MixedReport out;
+  out.set_unit(kHostile);
+  out.set_summary(kHostile);
+  v1::RegressionCoefficient& one = *out.add_coefficients();
+  one.set_regressor(kHostile);
+  one.set_unit(kHostile);
+  one.mutable_gls()->set_value(-1e300);
+  out.add_constants()->set_series(kHostile);
+  out.add_explained()->add_terms()->set_term(kHostile);
+  out.add_explained()->set_sensor(kHostile);
+  return out;
+}
+
+v1::FaultReport hostile_faults() {
+  v1::FaultReport out;
+  out.set_unit("rad/s");
+  for (const char* kind : {"step", "noisy", "stuck"}) {
+    v1::SensorFault& fault = *out.add_faults();
+    fault.set_kind(kind);
+    fault.add_sensors(kHostile);
+    fault.add_sensors("b");
+    fault.set_replicate(kHostile);
+    fault.set_onset_s(1e9);
+  }
+  for (const double high : {1.0, 0.0}) {
+    v1::ParityTrace& trace = *out.add_traces();
+    trace.set_replicate(kHostile);
+    trace.set_sensor(kHostile);
+    trace.set_step_s(0.1);
+    trace.add_low(0.0);
+    trace.add_high(high);
+  }
+  out.add_stuck_rules()->set_sensor(kHostile);
+  return out;
+}
+
+// Everything that files and people can put in, and numbers that no axis holds.
+std::vector<Document> troubled(Digits digits) {
+  v1::StationarityReports tests = stationarity(test_result(72, true), test_result(0, false));
+  v1::StationarityReport& one = *tests.mutable_channels(0);
+  one.set_channel(kHostile);
+  one.set_summary(kHostile);
+  one.add_notes(kHostile);
+  for (const double relative : {0.3, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::infinity()}) {
+    add_spread(one, kHostile, relative);
+  }
+  tests.add_channels();
+  v1::ChoiceReports choices;
+  v1::ChoiceReport& choice = *choices.add_channels();
+  choice.set_channel(kHostile);
+  for (const double merit : {1.0, 0.0, 75942.0, std::numeric_limits<double>::quiet_NaN()}) {
+    add_candidate(choice, kHostile, merit);
+  }
+  choices.add_channels();
+  v1::DynamicReports covariates = dynamic(kHostile);
+  covariates.add_channels();
+  return {document(tests, digits),
+          document(choices, digits),
+          document(covariates, digits),
+          document(hostile_array(), digits),
+          document(hostile_faults(), digits),
+          document(hostile_mixed(), digits),
+          document(v1::StationarityReports{}, digits),
+          document(v1::ChoiceReports{}, digits),
+          document(v1::DynamicReports{}, digits),
+          document(v1::ArrayReport{}, digits),
+          document(v1::FaultReport{}, digits),
+          document(v1::MixedReport{}, digits)};
+}
+
+TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
+  for (const Document& one : troubled(Digits::kTypeset)) {
+    const std::string page = html_page(one);
+    EXPECT_EQ(read_markup(page).error, "");
+    EXPECT_EQ(page.find("<img"), std::string::npos);
+    EXPECT_EQ(page.find('\x1b'), std::string::npos);
+    EXPECT_EQ(page.find("\u202E"), std::string::npos);
+  }
+}
+
+TEST(InferenceDocuments, NoiseOverACovariateIsDrawnForDeskPhoneAndTerminal) {
+  const v1::DynamicReports report = dynamic("gyro");
+  const Section shown = document(report, Digits::kPlain).sections.at(0);
+  ASSERT_EQ(shown.figures.size(), 1U);
+  for (const std::string& svg : {shown.figures[0].wide, shown.figures[0].narrow}) {
+    EXPECT_EQ(read_markup(svg).error, "");
+    std::size_t circles = 0;  // a value that is not finite or below zero has no place
+    for (auto at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
+      ++circles;
     }
-
-    v1::FaultReport hostile_faults() {
-      v1::FaultReport out;
-      out.set_unit("rad/s");
-      for (const char* kind : {"step", "noisy", "stuck"}) {
-        v1::SensorFault& fault = *out.add_faults();
-        fault.set_kind(kind);
-        fault.add_sensors(kHostile);
-        fault.add_sensors("b");
-        fault.set_replicate(kHostile);
-        fault.set_onset_s(1e9);
-      }
-      for (const double high : {1.0, 0.0}) {
-        v1::ParityTrace& trace = *out.add_traces();
-        trace.set_replicate(kHostile);
-        trace.set_sensor(kHostile);
-        trace.set_step_s(0.1);
-        trace.add_low(0.0);
-        trace.add_high(high);
-      }
-      out.add_stuck_rules()->set_sensor(kHostile);
-      return out;
+    EXPECT_EQ(circles, 3U);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_NE(svg.find("N of gyro, gyro"), std::string::npos);
+  }
+  const std::string words = text(document(report, Digits::kPlain), {100, false, true});
+  EXPECT_NE(words.find("0.146 (0.131 … 0.161)"), std::string::npos) << words;
+  TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
+    const Document shown = document(hostile_faults(), Digits::kTypeset);
+    ASSERT_EQ(shown.sections[0].figures.size(), 1U) << "one a replicate";
+    for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
+      EXPECT_NE(shown.sections[0].figures[0].wide.find(kind), std::string::npos) << kind;
     }
+    EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
+  }
 
-    // Everything that files and people can put in, and numbers that no axis holds.
-    std::vector<Document> troubled(Digits digits) {
-      v1::StationarityReports tests = stationarity(test_result(72, true), test_result(0, false));
-      v1::StationarityReport& one = *tests.mutable_channels(0);
-      one.set_channel(kHostile);
-      one.set_summary(kHostile);
-      one.add_notes(kHostile);
-      for (const double relative : {0.3, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
-                                    std::numeric_limits<double>::infinity()}) {
-        add_spread(one, kHostile, relative);
-      }
-      tests.add_channels();
-      v1::ChoiceReports choices;
-      v1::ChoiceReport& choice = *choices.add_channels();
-      choice.set_channel(kHostile);
-      for (const double merit : {1.0, 0.0, 75942.0, std::numeric_limits<double>::quiet_NaN()}) {
-        add_candidate(choice, kHostile, merit);
-      }
-      choices.add_channels();
-      v1::DynamicReports covariates = dynamic(kHostile);
-      covariates.add_channels();
-      return {document(tests, digits),
-              document(choices, digits),
-              document(covariates, digits),
-              document(hostile_array(), digits),
-              document(hostile_faults(), digits),
-              document(hostile_mixed(), digits),
-              document(v1::StationarityReports{}, digits),
-              document(v1::ChoiceReports{}, digits),
-              document(v1::DynamicReports{}, digits),
-              document(v1::ArrayReport{}, digits),
-              document(v1::FaultReport{}, digits),
-              document(v1::MixedReport{}, digits)};
-    }
+  TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {
+    const Document shown = document(hostile_array(), Digits::kTypeset);
+    ASSERT_EQ(shown.sections[0].figures.size(), 1U);
+    EXPECT_NE(shown.sections[0].figures[0].caption.find("15 of 30 pairs"), std::string::npos);
+  }
 
-    TEST(InferenceDocuments, PagesAreWellFormedAndNamesStayText) {
-      for (const Document& one : troubled(Digits::kTypeset)) {
-        const std::string page = html_page(one);
-        EXPECT_EQ(read_markup(page).error, "");
-        EXPECT_EQ(page.find("<img"), std::string::npos);
-        EXPECT_EQ(page.find('\x1b'), std::string::npos);
-        EXPECT_EQ(page.find("\u202E"), std::string::npos);
+  TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
+    for (const Document& one : troubled(Digits::kPlain)) {
+      for (const int width : {60, 80, 120}) {
+        std::istringstream lines(text(one, {width, false, true}));
+        for (std::string line; std::getline(lines, line);) {
+          EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
+          EXPECT_EQ(line.find('\x1b'), std::string::npos);
+        }
       }
     }
+  }
 
-    TEST(InferenceDocuments, NoiseOverACovariateIsDrawnForDeskPhoneAndTerminal) {
-      const v1::DynamicReports report = dynamic("gyro");
-      const Section shown = document(report, Digits::kPlain).sections.at(0);
-      ASSERT_EQ(shown.figures.size(), 1U);
-      for (const std::string& svg : {shown.figures[0].wide, shown.figures[0].narrow}) {
-        EXPECT_EQ(read_markup(svg).error, "");
-        std::size_t circles = 0;  // a value that is not finite or below zero has no place
-        for (auto at = svg.find("<circle"); at != std::string::npos;
-             at = svg.find("<circle", at + 1)) {
-          ++circles;
-        }
-        EXPECT_EQ(circles, 3U);
-        EXPECT_EQ(svg.find("nan"), std::string::npos);
-        EXPECT_NE(svg.find("N of gyro, gyro"), std::string::npos);
-      }
-      const std::string words = text(document(report, Digits::kPlain), {100, false, true});
-      EXPECT_NE(words.find("0.146 (0.131 … 0.161)"), std::string::npos) << words;
-      TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
-        const Document shown = document(hostile_faults(), Digits::kTypeset);
-        ASSERT_EQ(shown.sections[0].figures.size(), 1U) << "one a replicate";
-        for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
-          EXPECT_NE(shown.sections[0].figures[0].wide.find(kind), std::string::npos) << kind;
-        }
-        EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
-      }
+  TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
+    const auto badge = [](const v1::TestResult& misfit, const v1::TestResult& differ) {
+      return document(stationarity(misfit, differ), Digits::kPlain).sections.at(0).badge;
+    };
+    EXPECT_EQ(badge(test_result(72, false), test_result(20, false)), "near-stationary");
+    EXPECT_EQ(badge(test_result(72, true), test_result(20, false)), "misfit");
+    EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters move");
+    EXPECT_EQ(badge(test_result(72, true), test_result(20, true)), "misfit, and parameters move");
+    EXPECT_EQ(badge(test_result(72, false), test_result(0, false)), "not tested");
+    EXPECT_EQ(badge(test_result(0, false), test_result(20, false)), "not tested");
+    EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters move");
+  }
 
-      TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {
-        const Document shown = document(hostile_array(), Digits::kTypeset);
-        ASSERT_EQ(shown.sections[0].figures.size(), 1U);
-        EXPECT_NE(shown.sections[0].figures[0].caption.find("15 of 30 pairs"), std::string::npos);
-      }
+  // Eleven sub-models of the default model, the worst of them 1e5 times the noise floor, in 80
+  // columns.
+  TEST(InferenceDocuments, NoNumberOfAChoiceIsCut) {
+    v1::ChoiceReports choices;
+    v1::ChoiceReport& choice = *choices.add_channels();
+    for (const double merit : {1.062, 1.38, 18.4, 69.4, 99.4, 100.2, 942.0, 75942.3, 98557.9}) {
+      add_candidate(choice, "2*AR1 + WN + RW", merit);
+    }
+    const std::string shown = text(document(choices, Digits::kPlain), {80, false, true});
+    for (const char* number :
+         {"1.06 (0.96 … 1.17)", "99 (89 … 109)", "98 (88 … 108)", " 942 ", " 75942 ", " 75941 "}) {
+      EXPECT_NE(shown.find(number), std::string::npos) << number << "\n" << shown;
+    }
+  }
 
-      TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
-        for (const Document& one : troubled(Digits::kPlain)) {
-          for (const int width : {60, 80, 120}) {
-            std::istringstream lines(text(one, {width, false, true}));
-            for (std::string line; std::getline(lines, line);) {
-              EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
-              EXPECT_EQ(line.find('\x1b'), std::string::npos);
-            }
-          }
-        }
-      }
-
-      TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
-        const auto badge = [](const v1::TestResult& misfit, const v1::TestResult& differ) {
-          return document(stationarity(misfit, differ), Digits::kPlain).sections.at(0).badge;
-        };
-        EXPECT_EQ(badge(test_result(72, false), test_result(20, false)), "near-stationary");
-        EXPECT_EQ(badge(test_result(72, true), test_result(20, false)), "misfit");
-        EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters move");
-        EXPECT_EQ(badge(test_result(72, true), test_result(20, true)),
-                  "misfit, and parameters move");
-        EXPECT_EQ(badge(test_result(72, false), test_result(0, false)), "not tested");
-        EXPECT_EQ(badge(test_result(0, false), test_result(20, false)), "not tested");
-        EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters move");
-      }
-
-      // Eleven sub-models of the default model, the worst of them 1e5 times the noise floor, in 80
-      // columns.
-      TEST(InferenceDocuments, NoNumberOfAChoiceIsCut) {
-        v1::ChoiceReports choices;
-        v1::ChoiceReport& choice = *choices.add_channels();
-        for (const double merit : {1.062, 1.38, 18.4, 69.4, 99.4, 100.2, 942.0, 75942.3, 98557.9}) {
-          add_candidate(choice, "2*AR1 + WN + RW", merit);
-        }
-        const std::string shown = text(document(choices, Digits::kPlain), {80, false, true});
-        for (const char* number : {"1.06 (0.96 … 1.17)", "99 (89 … 109)", "98 (88 … 108)", " 942 ",
-                                   " 75942 ", " 75941 "}) {
-          EXPECT_NE(shown.find(number), std::string::npos) << number << "\n" << shown;
-        }
-      }
-
-    }  // namespace
-  }    // namespace imunoise::report
+}  // namespace
+}  // namespace imunoise::report
