@@ -15,7 +15,8 @@ namespace imunoise {
 namespace {
 
 constexpr std::size_t kSegmentBlocks = 64;
-constexpr double kOctave = 0.69;  // ln 2, but for rounding
+constexpr std::int64_t kLongFilter = 256;  // half-width from which κ is its limit
+constexpr double kOctave = 0.69;           // ln 2, but for rounding
 
 // 2m·W_t of one signal at one scale, block after block.
 class Coefficients {
@@ -99,12 +100,27 @@ Eigen::MatrixXd segment_products(const std::vector<std::unique_ptr<Source>>& sou
   return sum.selfadjointView<Eigen::Lower>();
 }
 
-// κ for slopes -1, -1/2 .. 1 of the logarithm of the wavelet variance, linear between them.
-double pairs_per_window(double slope) {
+// 2m/Σρ², ρ the autocorrelation of white noise's coefficients at half-width m: 1.33, 2.29 .. 3.
+double white_pairs_per_window(std::int64_t m) {
+  const auto width = static_cast<double>(m);
+  double sum = 1.0;
+  for (std::int64_t h = 1; h < 2 * std::min<std::int64_t>(m, kLongFilter); ++h) {
+    const auto lag = static_cast<double>(h);
+    const double rho = lag < width ? 1.0 - 1.5 * lag / width : 0.5 * lag / width - 1.0;
+    sum += 2.0 * rho * rho;
+  }
+  return m < kLongFilter ? 2.0 * width / sum : 3.0;
+}
+
+// κ for slopes -1, -1/2 .. 1 of the logarithm of the wavelet variance, linear between them. At
+// small half-widths the flatter spectra have fewer: as many times as white noise, a random walk as
+// here.
+double pairs_per_window(double slope, std::int64_t m) {
   constexpr std::array<double, 5> kKnown = {3.000, 2.520, 2.337, 2.191, 1.854};
   const double at = std::clamp(2.0 * (slope + 1.0), 0.0, 4.0);
   const auto left = std::min<std::size_t>(3, static_cast<std::size_t>(at));
-  return std::lerp(kKnown[left], kKnown[left + 1], at - static_cast<double>(left));
+  const double few = std::lerp(white_pairs_per_window(m) / kKnown[0], 1.0, at / 4.0);
+  return few * std::lerp(kKnown[left], kKnown[left + 1], at - static_cast<double>(left));
 }
 
 // n of covariance_interval(), from the logarithm of the wavelet variance.
@@ -120,7 +136,8 @@ Eigen::ArrayXd independent_pairs(const Scales& scales, const Eigen::ArrayXd& log
     while (high + 1 < out.size() && log_m(high) - log_m(j) < kOctave) ++high;
     const double slope =
         high > low ? (log_variance(high) - log_variance(low)) / (log_m(high) - log_m(low)) : 1.0;
-    out(j) *= pairs_per_window(std::isfinite(slope) ? slope : 1.0);
+    out(j) *=
+        pairs_per_window(std::isfinite(slope) ? slope : 1.0, scales[static_cast<std::size_t>(j)]);
   }
   return out;
 }
