@@ -8,9 +8,9 @@
 namespace imunoise {
 namespace {
 
-// Exponents u of the bank: times from 3e-4 to 1e10 samples.
+// Exponents u of the bank: times from 3e-4 to 6e14 samples.
 constexpr int kShortest = -8;
-constexpr int kLongest = 23;
+constexpr int kLongest = 34;
 
 }  // namespace
 

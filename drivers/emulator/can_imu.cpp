@@ -18,17 +18,23 @@ constexpr double kTicksPerSecond = 10'000.0;
 }  // namespace
 
 CanImu::CanImu(drivers::CanChannels channels, double rate_hz, SampleSource& source, CanLine& line,
-               std::vector<Fault> faults)
+               std::vector<Fault> faults, Memory memory)
     : channels_(std::move(channels)),
       rate_hz_(rate_hz),
       source_(source),
       line_(line),
       faults_(std::move(faults)),
+      sent_(memory),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::vector<SentCanFrame> CanImu::sent() const {
   const std::lock_guard lock(mutex_);
-  return sent_;
+  return sent_.items();
+}
+
+std::size_t CanImu::frames() const {
+  const std::lock_guard lock(mutex_);
+  return sent_.size();
 }
 
 void CanImu::run(const std::stop_token& stop) {

@@ -11,6 +11,7 @@
 #include "drivers/can/channels.h"
 #include "drivers/emulator/can_line.h"
 #include "drivers/emulator/fault.h"
+#include "drivers/emulator/history.h"
 #include "drivers/emulator/sample_source.h"
 
 namespace imunoise::emulator {
@@ -31,10 +32,12 @@ class CanImu {
  public:
   /// Borrows source and line, which its thread calls.
   CanImu(drivers::CanChannels channels, double rate_hz, SampleSource& source, CanLine& line,
-         std::vector<Fault> faults = {});
+         std::vector<Fault> faults = {}, Memory memory = Memory::kAll);
 
-  /// Everything so far. Thread-safe.
+  /// Everything so far, where it is kept. Thread-safe.
   std::vector<SentCanFrame> sent() const;
+  /// How many frames that were. Thread-safe.
+  std::size_t frames() const;
 
  private:
   struct Composed {
@@ -58,7 +61,7 @@ class CanImu {
   std::vector<Composed> held_back_;
   std::uint64_t bus_off_until_ = 0;  // sample
   mutable std::mutex mutex_;         // of sent_
-  std::vector<SentCanFrame> sent_;
+  History<SentCanFrame> sent_;
   std::jthread thread_;
 };
 

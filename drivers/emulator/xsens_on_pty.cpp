@@ -14,17 +14,23 @@ constexpr milliseconds kTick{2};  // how often the line is looked at
 }  // namespace
 
 XsensOnPty::XsensOnPty(MtiOptions options, SampleSource& source, std::vector<Fault> faults,
-                       std::filesystem::path link)
+                       std::filesystem::path link, Memory memory)
     : link_(std::move(link)),
       faults_(std::move(faults)),
       device_(std::move(options), source),
+      sent_(memory),
       line_(std::make_unique<Pty>(link_)),
       due_(Clock::now()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::vector<SentMessage> XsensOnPty::sent() const {
   const std::lock_guard lock(mutex_);
-  return sent_;
+  return sent_.items();
+}
+
+std::size_t XsensOnPty::messages() const {
+  const std::lock_guard lock(mutex_);
+  return sent_.size();
 }
 
 std::uint64_t XsensOnPty::writes() const {

@@ -113,7 +113,7 @@ void change_baud(transport::SerialPort& port, std::uint32_t wanted,
 
 FoundDevice find_device(const std::string& path, std::optional<std::uint32_t> wanted,
                         const plugin::CancelSignal& cancel) {
-  auto port = std::make_unique<transport::SerialPort>(path);
+  auto port = transport::SerialPort::open(path);
   std::uint32_t baud = Search(*port, cancel).find(in_order(wanted));
   if (wanted && baud != *wanted) {
     change_baud(*port, *wanted, cancel);
