@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/show.h"
+#include "drivers/emulator/serve.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
 #include "study/analysis/fit_series.h"
@@ -85,6 +86,11 @@ struct RecordArguments {
   bool json = false;
 };
 
+struct EmulateArguments {
+  emulator::ServePlan plan;
+  std::optional<std::chrono::duration<double>> duration;  ///< unset: until it is interrupted
+};
+
 struct DriversArguments {
   std::vector<std::filesystem::path> folders;  ///< searched before all others
   bool json = false;
@@ -112,7 +118,7 @@ struct VerifyArguments {
 struct Arguments {
   using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
                                ArrayArguments, SimulateArguments, RecordArguments, VerifyArguments,
-                               DriversArguments, DecodeArguments>;
+                               EmulateArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

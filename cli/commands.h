@@ -13,6 +13,7 @@ int run(const TestArguments& arguments);
 int run(const SelectArguments& arguments);
 int run(const ArrayArguments& arguments);
 int run(const DecodeArguments& arguments);
+int run(const EmulateArguments& arguments);
 int run(const RecordArguments& arguments);
 int run(const VerifyArguments& arguments);
 

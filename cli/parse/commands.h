@@ -18,5 +18,6 @@ struct ParsedCommand {
 std::vector<ParsedCommand> analysis_commands(CLI::App& program);   ///< wv, fit, test, select, array
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
+std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate
 
 }  // namespace imunoise::cli

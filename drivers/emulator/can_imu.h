@@ -26,8 +26,8 @@ struct SentCanFrame {
 
 /// An IMU that sends the messages of a database, one of each a sample, in real time, from a thread
 /// of its own. Channels show what value_of() knows; "counter" counts samples, "sample_time" is in
-/// ticks of 100 µs, others are 0. Signals that a multiplexor switches are not sent. Precondition:
-/// the signals can hold the source's values.
+/// ticks of 100 µs, others are 0. What a signal cannot hold saturates. Signals that a multiplexor
+/// switches are not sent.
 class CanImu {
  public:
   /// Borrows source and line, which its thread calls.

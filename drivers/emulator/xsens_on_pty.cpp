@@ -86,11 +86,13 @@ void XsensOnPty::send_sample() {
 bool XsensOnPty::pass(const Fault& fault, std::vector<std::uint8_t>& frame) {
   switch (fault.kind) {
     case Fault::Kind::kBitError:
-      frame.at(fault.at / 8) ^= static_cast<std::uint8_t>(1U << fault.at % 8);
+      frame[fault.at / 8 % frame.size()] ^= static_cast<std::uint8_t>(1U << fault.at % 8);
       return false;
     case Fault::Kind::kLoss: {
-      const auto from = frame.begin() + static_cast<std::ptrdiff_t>(fault.at);
-      frame.erase(from, from + static_cast<std::ptrdiff_t>(fault.count));
+      const std::size_t from = std::min(fault.at, frame.size());
+      const std::size_t count = std::min<std::size_t>(fault.count, frame.size() - from);
+      const auto first = frame.begin() + static_cast<std::ptrdiff_t>(from);
+      frame.erase(first, first + static_cast<std::ptrdiff_t>(count));
       return false;
     }
     case Fault::Kind::kUnplug:

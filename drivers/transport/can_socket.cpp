@@ -40,7 +40,8 @@ CanSocket::CanSocket(std::string interface, std::span<const CanFilter> filters)
     : interface_(std::move(interface)) {
   constexpr std::string_view kLocal = "unix:";
   if (interface_.starts_with(kLocal)) {
-    return connect_to_emulator(interface_.substr(kLocal.size()));
+    connect_to_emulator(interface_.substr(kLocal.size()));
+    return;
   }
   descriptor_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
   if (descriptor_ < 0) {
