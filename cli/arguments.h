@@ -83,6 +83,7 @@ struct RecordArguments {
   std::uint32_t replicates = 1;
   std::optional<std::uint32_t> replicate;             ///< number of the first; unset: the next free
   std::vector<std::filesystem::path> driver_folders;  ///< searched before all others
+  bool wire = false;                                  ///< the bytes of each device as well
   bool json = false;
 };
 

@@ -19,5 +19,6 @@ std::vector<ParsedCommand> analysis_commands(CLI::App& program);   ///< wv, fit,
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate
+std::vector<ParsedCommand> replay_commands(CLI::App& program);     ///< replay
 
 }  // namespace imunoise::cli

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -40,11 +41,11 @@ class EmulatedAdis16405 final : public plugin::Device {
   }
 
   void read(plugin::Samples& samples, const plugin::Wait& wait) override {
-    go_wrong();
     if (plugged_in_at_ && Clock::now() >= *plugged_in_at_) {
       bus_->plug(seconds(unplugged_for_));
       plugged_in_at_.reset();
     }
+    go_wrong();
     if (!plugged_in_at_ && speed_ > 0.0 && !wait.until(due())) return;
     device_.read(samples, wait);
   }
@@ -56,8 +57,11 @@ class EmulatedAdis16405 final : public plugin::Device {
   // When the host's clock shows what the emulated one does.
   Clock::time_point due() const {
     const std::int64_t passed = bus_->host_time_ns(bridge_.now()) - begin_ns_;
-    return begin_ + std::chrono::nanoseconds(
-                        static_cast<std::int64_t>(static_cast<double>(passed) / speed_));
+    return begin_ + real_time(Time(passed));
+  }
+  Time real_time(Time emulated) const {
+    if (speed_ == 0.0) return Time(0);
+    return Time(std::llround(static_cast<double>(emulated.count()) / speed_));
   }
   // Every fault happens once, at the first read behind its sample.
   void go_wrong() {
@@ -78,7 +82,7 @@ class EmulatedAdis16405 final : public plugin::Device {
       case Fault::Kind::kUnplug:
         bus_->unplug();
         unplugged_for_ = fault.count;
-        plugged_in_at_ = Clock::now() + (speed_ > 0.0 ? seconds(fault.count) : Time(0));
+        plugged_in_at_ = Clock::now() + real_time(seconds(fault.count));
         break;
       case Fault::Kind::kLoss:
         bus_->lose_byte();

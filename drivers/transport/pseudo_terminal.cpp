@@ -34,6 +34,7 @@ class PseudoTerminal final : public SerialPort {
   bool set_baud(std::uint32_t baud) override;
   std::size_t read(std::span<std::uint8_t> into) override;
   void write(drivers::Bytes bytes) override;
+  int descriptor() const override { return owned_.value(); }
 
  private:
   Descriptor owned_;
@@ -51,7 +52,7 @@ int open_terminal(const std::string& path) {
 
 PseudoTerminal::PseudoTerminal(const std::string& path)
     : SerialPort("pty:" + path), owned_(open_terminal(path)) {
-  take(owned_.value());
+  lock(owned_.value());
   termios2 mode{};
   if (::ioctl(descriptor(), TCGETS2, &mode) != 0) fail(IMUNOISE_BAD_DEVICE, "is no terminal");
   mode.c_iflag = mode.c_oflag = mode.c_lflag = 0;  // bytes pass as they are

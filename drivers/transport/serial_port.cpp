@@ -15,8 +15,7 @@ std::unique_ptr<SerialPort> SerialPort::open(const std::string& path) {
   return open_pseudo_terminal(path.substr(kPseudoTerminal.size()));
 }
 
-void SerialPort::take(int descriptor) {
-  descriptor_ = descriptor;
+void SerialPort::lock(int descriptor) const {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     fail(IMUNOISE_NO_ACCESS, "in use by another program (imunoise itself?); close that first");
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,20 +35,24 @@ class SerialPort {
   virtual void write(drivers::Bytes bytes) = 0;
 
   /// For poll(2): readable where read() has something, or where the port is gone.
-  int descriptor() const { return descriptor_; }
+  virtual int descriptor() const = 0;
   const std::string& path() const { return path_; }
 
  protected:
   explicit SerialPort(std::string path) : path_(std::move(path)) {}
-  // From then on it is ours.
-  void take(int descriptor);
+  // From then on it is ours; another program that does the same is refused.
+  void lock(int descriptor) const;
   [[noreturn]] void fail(std::int32_t code, const std::string& what) const;
   [[noreturn]] void fail_as_gone() const;
 
  private:
   std::string path_;
-  int descriptor_ = -1;
 };
+
+/// The port, with everything that is read of it shown to `tap` as well. Where there is no tap it is
+/// the port itself.
+std::unique_ptr<SerialPort> tapped(std::unique_ptr<SerialPort> port,
+                                   std::function<void(drivers::Bytes)> tap);
 
 /// What SerialPort::open() makes of ports with and without a wire behind them.
 std::unique_ptr<SerialPort> open_wired_port(const std::string& path);

@@ -55,6 +55,7 @@ class WiredPort final : public SerialPort {
   bool set_baud(std::uint32_t baud) override;
   std::size_t read(std::span<std::uint8_t> into) override;
   void write(drivers::Bytes bytes) override;
+  int descriptor() const override { return descriptor_; }
 
  private:
   struct Closer {
@@ -64,6 +65,7 @@ class WiredPort final : public SerialPort {
     }
   };
   std::unique_ptr<sp_port, Closer> port_;
+  int descriptor_ = -1;
 };
 
 WiredPort::WiredPort(const std::string& path) : SerialPort(path) {
@@ -85,14 +87,13 @@ WiredPort::WiredPort(const std::string& path) : SerialPort(path) {
          fmt::format("cannot be opened: {}", std::generic_category().message(reason)));
   }
   port_.reset(port);
-  int descriptor = -1;
-  sp_get_port_handle(port, &descriptor);
-  take(descriptor);
+  sp_get_port_handle(port, &descriptor_);
+  lock(descriptor_);
   if (sp_set_bits(port, 8) != SP_OK || sp_set_parity(port, SP_PARITY_NONE) != SP_OK ||
       sp_set_stopbits(port, 1) != SP_OK || sp_set_flowcontrol(port, SP_FLOWCONTROL_NONE) != SP_OK) {
     fail(IMUNOISE_BAD_DEVICE, "cannot be set to 8 bits without parity and flow control");
   }
-  ask_for_low_latency(descriptor);
+  ask_for_low_latency(descriptor_);
 }
 
 bool WiredPort::set_baud(std::uint32_t baud) {

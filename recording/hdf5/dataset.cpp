@@ -3,7 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
+#include <vector>
+
+#include "recording/hdf5/filters.h"
 
 namespace imunoise::recording {
 namespace {
@@ -20,6 +25,69 @@ bool stored_elsewhere(hid_t dataset) {
   const Hdf5Handle properties(H5Dget_create_plist(dataset), H5Pclose);
   return !properties || H5Pget_layout(properties.get()) == H5D_VIRTUAL ||
          H5Pget_external_count(properties.get()) != 0;
+}
+
+}  // namespace
+
+namespace {
+
+// Writes chunk by chunk, past HDF5's own filters. Precondition: numbers are stored as they lie.
+bool write_chunks(hid_t dataset, hsize_t chunk, std::span<const std::uint8_t> bytes,
+                  std::size_t width) {
+  ChunkFilters filters(chunk, width);
+  const std::size_t step = chunk * width;
+  for (std::size_t begin = 0; begin < bytes.size(); begin += step) {
+    const auto stored = filters.encode(bytes.subspan(begin, std::min(step, bytes.size() - begin)));
+    const hsize_t offset = begin / width;
+    if (!stored ||
+        H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &offset, stored->size(), stored->data()) < 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Numbers in a chunk of a dataset that has our filters, and no others; 0 where it has not.
+hsize_t chunk_of_ours(hid_t dataset, hid_t memory) {
+  const Hdf5Handle properties(H5Dget_create_plist(dataset), H5Pclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  hsize_t chunk = 0;
+  if (!properties || !type || H5Tequal(type.get(), memory) <= 0 ||
+      H5Pget_layout(properties.get()) != H5D_CHUNKED ||
+      H5Pget_chunk(properties.get(), 1, &chunk) != 1 || chunk > kChunk) {
+    return 0;
+  }
+  constexpr std::array kOurs = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32};
+  if (H5Pget_nfilters(properties.get()) != static_cast<int>(kOurs.size())) return 0;
+  for (unsigned i = 0; i < kOurs.size(); ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    if (H5Pget_filter2(properties.get(), i, &flags, &values, nullptr, 0, nullptr, nullptr) !=
+        kOurs[i]) {
+      return 0;
+    }
+  }
+  return chunk;
+}
+
+// False: something is unusual, and HDF5 shall say what.
+bool read_chunks(hid_t dataset, hsize_t chunk, std::span<std::uint8_t> bytes, std::size_t width) {
+  ChunkFilters filters(chunk, width);
+  std::vector<std::uint8_t> stored(filters.largest());
+  const std::size_t step = chunk * width;
+  for (std::size_t begin = 0; begin < bytes.size(); begin += step) {
+    const hsize_t offset = begin / width;
+    hsize_t size = 0;
+    std::uint32_t skipped = 0;
+    if (H5Dget_chunk_storage_size(dataset, &offset, &size) < 0 || size == 0 ||
+        size > stored.size() ||
+        H5Dread_chunk(dataset, H5P_DEFAULT, &offset, &skipped, stored.data()) < 0 || skipped != 0 ||
+        !filters.decode(std::span(stored).first(size),
+                        bytes.subspan(begin, std::min(step, bytes.size() - begin)))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -76,11 +144,27 @@ Hdf5Handle write_dataset(hid_t group, const std::string& name, hid_t stored, hid
   Hdf5Handle dataset(H5Dcreate2(group, name.c_str(), stored, space.get(), H5P_DEFAULT,
                                 properties.get(), H5P_DEFAULT),
                      H5Dclose);
-  if (dataset && size > 0 &&
-      H5Dwrite(dataset.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) < 0) {
-    return {};
-  }
+  if (!dataset || size == 0) return dataset;
+  const std::size_t width = H5Tget_size(memory);
+  const bool as_they_lie = H5Tequal(stored, memory) > 0 && ChunkFilters::supports(width);
+  const bool written =
+      as_they_lie ? write_chunks(dataset.get(), std::min(extent, kChunk),
+                                 {static_cast<const std::uint8_t*>(numbers), size * width}, width)
+                  : H5Dwrite(dataset.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) >= 0;
+  if (!written) return {};
   return dataset;
+}
+
+bool read_dataset(const OpenDataset& dataset, hid_t memory, void* numbers) {
+  if (dataset.size == 0) return true;
+  const std::size_t width = H5Tget_size(memory);
+  const hsize_t chunk = ChunkFilters::supports(width) ? chunk_of_ours(dataset.id.get(), memory) : 0;
+  if (chunk > 0 &&
+      read_chunks(dataset.id.get(), chunk,
+                  {static_cast<std::uint8_t*>(numbers), dataset.size * width}, width)) {
+    return true;
+  }
+  return H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) >= 0;
 }
 
 }  // namespace imunoise::recording
