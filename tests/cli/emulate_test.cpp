@@ -21,10 +21,12 @@ class Emulate : public testing::Program {
   }
   // Records with one program what another serves, for a second.
   json record_served(const std::string& serving, const std::string& device) const {
-    return report(run("emulate " + serving + " > said.txt & server=$!; while ! grep -q Ctrl-C " +
-                      "said.txt; do sleep 0.05; done; " IMUNOISE_BINARY
-                      " record monday --device '" +
-                      device + "' --duration 1 --json; kill $server; wait $server"));
+    // The first command takes the folder; what follows ';' runs there.
+    return report(
+        run("--version > version.txt; " IMUNOISE_BINARY " emulate " + serving +
+            " > said.txt & server=$!; for i in $(seq 400); do grep -q Ctrl-C said.txt && break; "
+            "sleep 0.05; done; " IMUNOISE_BINARY " record monday --device '" +
+            device + "' --duration 1 --json; kill $server; wait $server"));
   }
   static long stored(const json& report, const std::string& stream) {
     for (const json& one : report["streams"]) {

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
              "adis16405",
              {{"rate", "819.2"}, {"speed", "0"}},
              {{"rate", "819.2"}}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(Capture, KeepsTheWiresPace) {
   auto live = RecordingSession::open(IMUNOISE_DRIVER_FOLDER, "emulated",
