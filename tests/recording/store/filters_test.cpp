@@ -24,25 +24,37 @@ std::vector<Number> lively(std::size_t size) {
   return out;
 }
 
+// Both read what both wrote: in the file that is written, and in the file that is opened again.
 template <class Number>
 void expect_both_read(hid_t stored, hid_t memory, std::size_t size) {
   SCOPED_TRACE(size);
   const std::vector<Number> numbers = lively<Number>(size);
+  const auto expect_read = [&](hid_t file, const char* name) {
+    SCOPED_TRACE(name);
+    const auto dataset = open_dataset(file, name);
+    ASSERT_TRUE(dataset) << dataset.error().message;
+    std::vector<Number> by_hdf5(size);
+    ASSERT_GE(H5Dread(dataset->id.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, by_hdf5.data()), 0);
+    EXPECT_TRUE(by_hdf5 == numbers);
+    std::vector<Number> by_us(size);
+    EXPECT_TRUE(read_dataset(*dataset, memory, by_us.data()));
+    EXPECT_TRUE(by_us == numbers);
+  };
   NewMemoryFile file;
+  ASSERT_TRUE(write_dataset(file.id(), "ours", stored, memory, numbers.data(), size));
   {
-    const Hdf5Handle ours = write_dataset(file.id(), "ours", stored, memory, numbers.data(), size);
-    ASSERT_TRUE(ours);
-    std::vector<Number> read(size);
-    ASSERT_GE(H5Dread(ours.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
-    EXPECT_EQ(read, numbers);
-    // The other way round: the same dataset, written anew through HDF5's filters.
-    ASSERT_GE(H5Dwrite(ours.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), 0);
+    const Hdf5Handle theirs =
+        write_dataset(file.id(), "theirs", stored, memory, numbers.data(), size);
+    ASSERT_GE(H5Dwrite(theirs.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), 0);
   }
-  const auto theirs = open_dataset(file.id(), "ours");
-  ASSERT_TRUE(theirs) << theirs.error().message;
-  std::vector<Number> read(size);
-  EXPECT_TRUE(read_dataset(*theirs, memory, read.data()));
-  EXPECT_EQ(read, numbers);
+  expect_read(file.id(), "ours");
+  expect_read(file.id(), "theirs");
+  const auto image = file.finish();
+  ASSERT_TRUE(image);
+  const Hdf5Handle again = open_memory_file(*image);
+  ASSERT_TRUE(again);
+  expect_read(again.get(), "ours");
+  expect_read(again.get(), "theirs");
 }
 
 TEST(ChunkFilters, Hdf5ReadsWhatTheyWriteAndTheyWhatHdf5Writes) {
