@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/support/parallel.h"
 #include "recording/hdf5/filters.h"
 
 namespace imunoise::recording {
@@ -27,24 +30,43 @@ bool stored_elsewhere(hid_t dataset) {
          H5Pget_external_count(properties.get()) != 0;
 }
 
-}  // namespace
+// Chunks are filtered on all threads, group by group, so that memory stays bounded; HDF5 itself has
+// one lock.
+constexpr std::size_t kGroup = 16;
 
-namespace {
+// The numbers of chunk `index`, of `size` bytes a chunk.
+template <class Byte>
+std::span<Byte> chunk_part(std::span<Byte> bytes, std::size_t index, std::size_t size) {
+  return bytes.subspan(index * size, std::min(size, bytes.size() - index * size));
+}
+
+// Calls run(first chunk, chunks) for groups until one fails.
+bool for_groups(std::size_t bytes, std::size_t chunk_bytes,
+                const std::function<bool(std::size_t, std::size_t)>& run) {
+  const std::size_t chunks = (bytes + chunk_bytes - 1) / chunk_bytes;
+  for (std::size_t first = 0; first < chunks; first += kGroup) {
+    if (!run(first, std::min(kGroup, chunks - first))) return false;
+  }
+  return true;
+}
 
 // Writes chunk by chunk, past HDF5's own filters. Precondition: numbers are stored as they lie.
 bool write_chunks(hid_t dataset, hsize_t chunk, std::span<const std::uint8_t> bytes,
                   std::size_t width) {
-  ChunkFilters filters(chunk, width);
-  const std::size_t step = chunk * width;
-  for (std::size_t begin = 0; begin < bytes.size(); begin += step) {
-    const auto stored = filters.encode(bytes.subspan(begin, std::min(step, bytes.size() - begin)));
-    const hsize_t offset = begin / width;
-    if (!stored ||
-        H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &offset, stored->size(), stored->data()) < 0) {
-      return false;
+  return for_groups(bytes.size(), chunk * width, [&](std::size_t first, std::size_t count) {
+    std::vector<std::vector<std::uint8_t>> stored(count);
+    for_each_index(count, [&](std::size_t i) {
+      stored[i] = ChunkFilters(chunk, width).encode(chunk_part(bytes, first + i, chunk * width));
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const hsize_t offset = (first + i) * chunk;
+      if (stored[i].empty() || H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &offset, stored[i].size(),
+                                              stored[i].data()) < 0) {
+        return false;
+      }
     }
-  }
-  return true;
+    return true;
+  });
 }
 
 // Numbers in a chunk of a dataset that has our filters, and no others; 0 where it has not.
@@ -70,24 +92,34 @@ hsize_t chunk_of_ours(hid_t dataset, hid_t memory) {
   return chunk;
 }
 
+// A chunk as it is stored; empty where something is unusual.
+std::vector<std::uint8_t> stored_chunk(hid_t dataset, hsize_t offset, std::size_t largest) {
+  hsize_t size = 0;
+  std::uint32_t skipped = 0;
+  if (H5Dget_chunk_storage_size(dataset, &offset, &size) < 0 || size > largest) return {};
+  std::vector<std::uint8_t> out(size);
+  if (size == 0 || H5Dread_chunk(dataset, H5P_DEFAULT, &offset, &skipped, out.data()) < 0)
+    return {};
+  if (skipped != 0) out.clear();
+  return out;
+}
+
 // False: something is unusual, and HDF5 shall say what.
 bool read_chunks(hid_t dataset, hsize_t chunk, std::span<std::uint8_t> bytes, std::size_t width) {
-  ChunkFilters filters(chunk, width);
-  std::vector<std::uint8_t> stored(filters.largest());
-  const std::size_t step = chunk * width;
-  for (std::size_t begin = 0; begin < bytes.size(); begin += step) {
-    const hsize_t offset = begin / width;
-    hsize_t size = 0;
-    std::uint32_t skipped = 0;
-    if (H5Dget_chunk_storage_size(dataset, &offset, &size) < 0 || size == 0 ||
-        size > stored.size() ||
-        H5Dread_chunk(dataset, H5P_DEFAULT, &offset, &skipped, stored.data()) < 0 || skipped != 0 ||
-        !filters.decode(std::span(stored).first(size),
-                        bytes.subspan(begin, std::min(step, bytes.size() - begin)))) {
-      return false;
+  const std::size_t largest = ChunkFilters(chunk, width).largest();
+  return for_groups(bytes.size(), chunk * width, [&](std::size_t first, std::size_t count) {
+    std::vector<std::vector<std::uint8_t>> stored(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      stored[i] = stored_chunk(dataset, (first + i) * chunk, largest);
+      if (stored[i].empty()) return false;
     }
-  }
-  return true;
+    std::atomic<bool> good = true;
+    for_each_index(count, [&](std::size_t i) {
+      const auto numbers = chunk_part(bytes, first + i, chunk * width);
+      if (!ChunkFilters(chunk, width).decode(stored[i], numbers)) good = false;
+    });
+    return good.load();
+  });
 }
 
 }  // namespace

@@ -100,25 +100,26 @@ std::size_t ChunkFilters::largest() const {
   return libdeflate_zlib_compress_bound(nullptr, shuffled_.size()) + kChecksumBytes;
 }
 
-std::optional<std::span<const std::uint8_t>> ChunkFilters::encode(
-    std::span<const std::uint8_t> numbers) {
+std::vector<std::uint8_t> ChunkFilters::encode(std::span<const std::uint8_t> numbers) {
   assert(numbers.size() <= shuffled_.size());
   if (!compressor_) compressor_.reset(libdeflate_alloc_compressor(kLevel));
-  if (!compressor_) return std::nullopt;
+  if (!compressor_) return {};
+  std::vector<std::uint8_t> whole;
   if (numbers.size() < shuffled_.size()) {
-    whole_.assign(shuffled_.size(), 0);
-    std::copy(numbers.begin(), numbers.end(), whole_.begin());
-    numbers = whole_;
+    whole.resize(shuffled_.size());
+    std::copy(numbers.begin(), numbers.end(), whole.begin());
+    numbers = whole;
   }
   with_word(width_,
             [&]<class Word>(Word) { shuffle<Word>(numbers.data(), count_, shuffled_.data()); });
-  stored_.resize(largest());
-  const std::size_t size = libdeflate_zlib_compress(
-      compressor_.get(), shuffled_.data(), shuffled_.size(), stored_.data(), stored_.size());
+  std::vector<std::uint8_t> out(largest());
+  const std::size_t size = libdeflate_zlib_compress(compressor_.get(), shuffled_.data(),
+                                                    shuffled_.size(), out.data(), out.size());
   assert(size > 0);  // there is room for the worst case
-  const std::uint32_t checksum = fletcher32(std::span(stored_).first(size));
-  std::memcpy(stored_.data() + size, &checksum, kChecksumBytes);
-  return std::span(stored_).first(size + kChecksumBytes);
+  const std::uint32_t checksum = fletcher32(std::span(out).first(size));
+  std::memcpy(out.data() + size, &checksum, kChecksumBytes);
+  out.resize(size + kChecksumBytes);
+  return out;
 }
 
 bool ChunkFilters::decode(std::span<const std::uint8_t> stored, std::span<std::uint8_t> numbers) {

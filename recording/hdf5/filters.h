@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,9 +21,9 @@ class ChunkFilters {
   ChunkFilters(std::size_t count, std::size_t width);
   static bool supports(std::size_t width) { return width == 2 || width == 4 || width == 8; }
 
-  /// The chunk as it is stored, where `numbers` may be fewer than a chunk's: zeros follow. Good
-  /// until the next call; nothing where there is no memory.
-  std::optional<std::span<const std::uint8_t>> encode(std::span<const std::uint8_t> numbers);
+  /// The chunk as it is stored, where `numbers` may be fewer than a chunk's: zeros follow. Nothing
+  /// where there is no memory.
+  std::vector<std::uint8_t> encode(std::span<const std::uint8_t> numbers);
   /// The first bytes of a chunk, as many as `numbers` has room for. False: it is damaged.
   bool decode(std::span<const std::uint8_t> stored, std::span<std::uint8_t> numbers);
 
@@ -41,9 +40,7 @@ class ChunkFilters {
   std::size_t width_;
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
   std::unique_ptr<libdeflate_decompressor, Free> decompressor_;
-  std::vector<std::uint8_t> whole_;  // a chunk that is not full
   std::vector<std::uint8_t> shuffled_;
-  std::vector<std::uint8_t> stored_;
 };
 
 }  // namespace imunoise::recording
