@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/show.h"
+#include "drivers/emulator/serve.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
 #include "study/analysis/dynamic_series.h"
@@ -104,7 +105,13 @@ struct RecordArguments {
   std::uint32_t replicates = 1;
   std::optional<std::uint32_t> replicate;             ///< number of the first; unset: the next free
   std::vector<std::filesystem::path> driver_folders;  ///< searched before all others
+  bool wire = false;                                  ///< the bytes of each device as well
   bool json = false;
+};
+
+struct EmulateArguments {
+  emulator::ServePlan plan;
+  std::optional<std::chrono::duration<double>> duration;  ///< unset: until it is interrupted
 };
 
 struct DriversArguments {
@@ -132,10 +139,10 @@ struct VerifyArguments {
 };
 
 struct Arguments {
-  using Command =
-      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
-                   MixedArguments, FaultsArguments, DynamicArguments, SimulateArguments,
-                   RecordArguments, VerifyArguments, DriversArguments, DecodeArguments>;
+  using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
+                               ArrayArguments, MixedArguments, FaultsArguments, DynamicArguments,
+                               SimulateArguments, RecordArguments, VerifyArguments,
+                               EmulateArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

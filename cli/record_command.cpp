@@ -107,8 +107,9 @@ int run(const RecordArguments& arguments) {
   for (std::uint32_t k = 0; k < arguments.replicates && !interrupt.token().stop_requested(); ++k) {
     ProgressLine line(fmt::format("replicate {}", first + k));
     const auto outcomes = acquire::record_replicate(
-        recording::posix_file_system(), {arguments.folder, first + k, *devices, arguments.duration},
-        note, line.progress(interrupt.token()));
+        recording::posix_file_system(),
+        {arguments.folder, first + k, *devices, arguments.duration, arguments.wire}, note,
+        line.progress(interrupt.token()));
     if (!outcomes) return print_error(outcomes.error());
     for (const acquire::DeviceOutcome& one : *outcomes) {
       add(one, first + k, report);

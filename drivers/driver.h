@@ -187,6 +187,11 @@ typedef struct imunoise_host {
   /* Tells what a person should know of a device (one line, "reset after 3 bad checksums").
    * `context` is what open was given. Not after close. */
   void (*note)(void* context, const char* text);
+  /* Takes bytes as they came over the device's wire, in the form of captures of its kind: Xbus
+   * frames, lines of candump, SPI bursts. Calls of one device may not overlap. Returns 0 where
+   * nobody wants them, as a call without bytes asks; else 1. `context` as above. Appended later:
+   * look at size first. */
+  int32_t (*wire)(void* context, const uint8_t* bytes, uint64_t count);
 } imunoise_host;
 
 typedef struct imunoise_device imunoise_device; /* the driver's own */

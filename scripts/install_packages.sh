@@ -14,7 +14,7 @@ build_packages=(
   libtbb-dev       # threads
   libfmt-dev libexpected-dev
   libprotobuf-dev protobuf-compiler
-  libhdf5-dev      # recordings
+  libhdf5-dev libdeflate-dev  # recordings
   libcli11-dev     # the command line
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens

@@ -20,5 +20,7 @@ std::vector<ParsedCommand> analysis_commands(
 std::vector<ParsedCommand> array_commands(CLI::App& program);  ///< array, mixed, faults
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
+std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate
+std::vector<ParsedCommand> replay_commands(CLI::App& program);     ///< replay
 
 }  // namespace imunoise::cli

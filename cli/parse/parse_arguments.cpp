@@ -17,6 +17,7 @@ Examples:
       --samples 360000 --replicates 6 --seed 1 --out run.h5
   imunoise decode --format xbus capture.bin              what a device's bytes say
   imunoise verify recordings/monday                      is the recording intact?
+  imunoise emulate --device xsens                        a sensor to try imunoise record with
 
 imunoise COMMAND --help says more.)help";
 
@@ -33,8 +34,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   program.add_option("--threads", threads, "Threads to use (results do not depend on it)")
       ->check(CLI::Range(1, 1024));
   std::vector<ParsedCommand> commands;
-  for (const auto& group :
-       {analysis_commands, array_commands, recording_commands, device_commands}) {
+  for (const auto& group : {analysis_commands, array_commands, recording_commands, device_commands,
+                            emulation_commands, replay_commands}) {
     for (ParsedCommand& command : group(program)) commands.push_back(std::move(command));
   }
   try {

@@ -18,6 +18,8 @@ Examples:
   imunoise record recordings/monday --device "xsens port=/dev/ttyUSB0" --device "can interface=can0 preset=mti600" \
       --duration 600
   imunoise record copy --device "replay file=run1.h5 speed=0"
+  imunoise record trial --device "emulated device=adis16405 seed=7" --duration 10
+  imunoise record monday --wire --device "xsens port=/dev/ttyUSB0" --duration 60
 
 A device is a driver and its options (imunoise drivers lists them), in quotes. Ctrl-C ends a recording in good
 order: what was recorded is kept. Without --duration it lasts until then, or until every device has ended.)help";
@@ -113,6 +115,8 @@ ParsedCommand record_command(CLI::App& program) {
       ->add_option("--driver-path", raw->driver_folders,
                    "A folder to search for drivers before the others; repeatable")
       ->check(CLI::ExistingDirectory);
+  record->add_flag("--wire", raw->arguments.wire,
+                   "Keep the bytes of each device too, in replicate-1/DEVICE.wire");
   record->add_flag("--json", raw->arguments.json, "Print the result as JSON");
   return {record, [raw] {
             RecordArguments out = raw->arguments;

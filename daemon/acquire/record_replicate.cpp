@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <utility>
 
 #include "daemon/acquire/recorded_device.h"
+#include "daemon/acquire/wire_file.h"
+#include "recording/store/layout.h"
 
 namespace imunoise::acquire {
 namespace {
@@ -84,14 +87,40 @@ class Reader {
   std::thread thread_;  // last: it uses all of the above
 };
 
+// By device; none where wires are not recorded. They outlive the devices, which write into them.
+using WireFiles = std::vector<std::unique_ptr<WireFile>>;
+
+WireFiles make_wire_files(const ReplicatePlan& plan) {
+  WireFiles out;
+  for (std::size_t i = 0; plan.wire && i < plan.devices.size(); ++i) {
+    out.push_back(std::make_unique<WireFile>());
+  }
+  return out;
+}
+
+void open_wire_files(recording::FileSystem& files, const ReplicatePlan& plan,
+                     const WireFiles& wires) {
+  for (std::size_t i = 0; i < wires.size(); ++i) {
+    wires[i]->open(files, plan.folder / recording::replicate_folder(plan.replicate) /
+                              (plan.devices[i].name + ".wire"));
+  }
+}
+
 Result<std::vector<std::unique_ptr<drivers::Device>>> open_devices(const ReplicatePlan& plan,
-                                                                   const DeviceNote& note) {
+                                                                   const DeviceNote& note,
+                                                                   const WireFiles& wires) {
   std::vector<std::unique_ptr<drivers::Device>> out;
   for (const DevicePlan& one : plan.devices) {
-    auto device = drivers::Device::open(one.driver, one.options,
-                                        [note, name = one.name](std::string_view text) {
-                                          if (note) note(name, text);
-                                        });
+    drivers::WireHandler wire;
+    if (!wires.empty()) {
+      wire = [file = wires[out.size()].get()](auto bytes) { file->take(bytes); };
+    }
+    auto device = drivers::Device::open(
+        one.driver, one.options,
+        [note, name = one.name](std::string_view text) {
+          if (note) note(name, text);
+        },
+        std::move(wire));
     if (!device) return fail(fmt::format("{}: {}", one.name, device.error().message));
     out.push_back(std::move(*device));
   }
@@ -127,7 +156,8 @@ Result<std::vector<DeviceOutcome>> record_replicate(recording::FileSystem& files
                                                     const ReplicatePlan& plan,
                                                     const DeviceNote& note,
                                                     const Progress& progress) {
-  const auto devices = open_devices(plan, note);
+  const WireFiles wires = make_wire_files(plan);
+  const auto devices = open_devices(plan, note, wires);
   if (!devices) return tl::make_unexpected(devices.error());
   recording::RecordingPlan recorded;
   recorded.replicate = plan.replicate;
@@ -138,6 +168,7 @@ Result<std::vector<DeviceOutcome>> record_replicate(recording::FileSystem& files
   }
   const auto recorder = recording::Recorder::start(files, plan.folder, recorded);
   if (!recorder) return tl::make_unexpected(recorder.error());
+  open_wire_files(files, plan, wires);
 
   std::vector<std::unique_ptr<Reader>> readers;
   for (std::size_t i = 0; i < devices->size(); ++i) {
@@ -151,6 +182,9 @@ Result<std::vector<DeviceOutcome>> record_replicate(recording::FileSystem& files
     if (reader->disk_failure()) return tl::make_unexpected(*reader->disk_failure());
   }
   if (!closed) return tl::make_unexpected(closed.error());
+  for (const auto& wire : wires) {
+    if (const auto done = wire->close(); !done) return tl::make_unexpected(done.error());
+  }
   const recording::RecorderState state = (*recorder)->state();
   std::vector<DeviceOutcome> out;
   for (std::size_t i = 0; i < readers.size(); ++i) {

@@ -27,6 +27,8 @@ struct ReplicatePlan {
   std::vector<DevicePlan> devices;
   /// How long to record once all devices are open; unset: until every device has ended.
   std::optional<std::chrono::duration<double>> duration;
+  /// Keeps what comes over each device's wire, where its driver tells, in "replicate-1/imu0.wire".
+  bool wire = false;
 };
 
 /// What became of a device.

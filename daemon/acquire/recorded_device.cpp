@@ -29,6 +29,13 @@ bool counts(const drivers::Stream& stream) {
   return stream.counter_maximum > 0 && stream.counter_maximum < kMost;
 }
 
+// A recording keeps some names for itself.
+std::string name_of(const drivers::Channel& channel) {
+  const auto& taken = recording::kOwnColumns;
+  const bool own = std::find(taken.begin(), taken.end(), channel.name) != taken.end();
+  return own ? channel.name + "_channel" : channel.name;
+}
+
 recording::Refused reason_of(std::size_t reason) {
   switch (reason) {
     case IMUNOISE_REFUSED_CHECKSUM:
@@ -70,7 +77,7 @@ std::vector<recording::Refusal> refusals_of(const drivers::Block& block) {
   for (std::size_t k = 0; k < IMUNOISE_REFUSED_REASONS; ++k) {
     if (k == IMUNOISE_REFUSED_SIBLING) continue;
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      count(k, channels[c].name, block.refused(k, c) - whole[k]);
+      count(k, name_of(channels[c]), block.refused(k, c) - whole[k]);
     }
   }
   count(IMUNOISE_REFUSED_OTHER, "", left);  // of samples that no channel is to blame for
@@ -94,7 +101,7 @@ v1::RecordedDevice recorded_device(const std::string& name, const std::string& d
     if (counts(stream)) to.set_counter_modulus(stream.counter_maximum + 1);
     for (const drivers::Channel& channel : stream.channels) {
       v1::RecordedChannel& column = *to.add_channels();
-      column.set_name(channel.name);
+      column.set_name(name_of(channel));
       column.set_dtype(dtype_of(channel.type));
       if (channel.units != "1") column.set_units(channel.units);
       if (channel.scale_factor != 1.0) column.set_scale_factor(channel.scale_factor);

@@ -9,7 +9,8 @@
 
 namespace imunoise::acquire {
 
-/// The description under which a device is recorded.
+/// The description under which a device is recorded. A channel named like a column that every
+/// stream has ("counter") is recorded as "counter_channel".
 v1::RecordedDevice recorded_device(const std::string& name, const std::string& driver,
                                    const drivers::DeviceInfo& info);
 

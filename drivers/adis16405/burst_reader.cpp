@@ -1,7 +1,6 @@
 #include "drivers/adis16405/burst_reader.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -9,7 +8,6 @@ namespace imunoise::drivers::adis16405 {
 namespace {
 
 using namespace std::chrono_literals;
-using plugin::Reason;
 
 constexpr std::size_t kGroup = 8;  // bursts that travel to the bridge in one transfer
 constexpr std::size_t kMostAhead = 128;
@@ -18,15 +16,6 @@ constexpr double kAheadTime = 0.15;  // s
 constexpr std::chrono::microseconds kPause = 150us;
 constexpr usb::Duration kDiagnosisPeriod = 1s;
 
-struct StreamOfBurst {
-  const char* name;
-  std::uint16_t channels;
-};
-constexpr std::array kStreams = {StreamOfBurst{"imu", kInertialChannels},
-                                 StreamOfBurst{"magnetometer", kMagneticChannels},
-                                 StreamOfBurst{"housekeeping", kSlowChannels}};
-constexpr std::size_t kImu = 0;
-
 double rate(const Settings& settings) { return sample_rate(settings.sample_period).value; }
 
 // The sensor's clock may be fast by 3 %.
@@ -34,46 +23,19 @@ std::int64_t least_period_ns(const Settings& settings) {
   return std::llround(0.97e9 / rate(settings));
 }
 
-template <class Visitor>
-void for_each_channel(unsigned channels, Visitor&& visitor) {
-  for (std::size_t i = 0; i < kBurstChannels; ++i) {
-    if ((channels >> i & 1U) != 0) visitor(i);
-  }
-}
-
-// The outputs of 14 bits with a sign end there; the others cannot reach their ends.
-bool saturated(std::int16_t counts) { return counts == -8192 || counts == 8191; }
-
 }  // namespace
 
-std::vector<Stream> describe_streams(const Settings& settings) {
-  const auto scales = count_scales(settings.sensitivity_averaging);
-  assert(scales);
-  std::vector<Stream> out;
-  for (const StreamOfBurst& from : kStreams) {
-    Stream stream{from.name, {}, rate(settings)};
-    for_each_channel(from.channels, [&](std::size_t i) {
-      const CountScale& scale = (*scales)[i];
-      stream.channels.push_back({std::string(kChannelNames[i]), std::string(scale.unit),
-                                 NumberType::kInt16, scale.scale, scale.offset});
-    });
-    out.push_back(std::move(stream));
-  }
-  return out;
-}
-
-BurstReader::BurstReader(SpiBus& bus, const Settings& settings, bool poll, Note note)
+BurstReader::BurstReader(SpiBus& bus, const Settings& settings, bool poll, Note note,
+                         plugin::WireTap wire)
     : bus_(bus),
       poll_(poll),
       note_(std::move(note)),
+      wire_(std::move(wire)),
       least_period_ns_(poll ? 0 : least_period_ns(settings)),
       ahead_(std::clamp(static_cast<std::size_t>(kAheadTime * rate(settings)), kGroup, kMostAhead)),
+      rows_(poll),
       last_sample_(bus.now()),
-      next_diagnosis_(bus.now()) {
-  for (const StreamOfBurst& stream : kStreams) {
-    streams_.push_back({Gatherer(stream.channels), IMUNOISE_SAMPLE_AFTER_RESTART});
-  }
-}
+      next_diagnosis_(bus.now()) {}
 
 void BurstReader::read(plugin::Samples& samples, usb::Duration timeout) {
   top_up();
@@ -109,9 +71,7 @@ void BurstReader::top_up() {
 // At the beginning, and where the queue ran dry: the sensor may have gone on without us. Outputs
 // that have waited for a reader may be renewed while they are read, and still all be new.
 void BurstReader::start_anew() {
-  if (std::exchange(started_, true)) {
-    for (State& stream : streams_) stream.next_flags |= IMUNOISE_SAMPLE_AFTER_GAP;
-  }
+  if (std::exchange(started_, true)) rows_.mark_gap();
   skips_burst_ = poll_;
 }
 
@@ -140,49 +100,13 @@ void BurstReader::take(const SpiAnswer& answer, plugin::Samples& samples) {
 }
 
 void BurstReader::take_burst(const SpiAnswer& answer, plugin::Samples& samples) {
-  if (std::exchange(skips_burst_, false)) {
-    for (std::size_t s = 0; s < streams_.size(); ++s) refuse(s, Reason::kStale, 1, samples);
-    return;
-  }
-  const auto burst = parse_burst(answer.bytes);
-  for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (!burst) {
-      refuse(s, Reason::kMalformed, 1, samples);
-      continue;
-    }
-    Gatherer& gatherer = streams_[s].gatherer;
-    const Gathered gathered = gatherer.take(*burst);
-    refuse(s, Reason::kMalformed, gatherer.take_lost(), samples);
-    if (gathered == Gathered::kSample) add(s, answer, samples);
-    if (gathered == Gathered::kNothingNew) refuse(s, Reason::kStale, 1, samples);
-  }
-  if (burst && burst->alarm != 0 && bus_.now() >= next_diagnosis_) {
+  if (std::exchange(skips_burst_, false)) return rows_.refuse(plugin::Reason::kStale, samples);
+  if (wire_) wire_(answer.bytes);
+  const BurstRows::Taken taken = rows_.take(answer.bytes, answer.host_time_ns, samples);
+  if (taken.inertial) last_sample_ = bus_.now();
+  if (taken.alarm && bus_.now() >= next_diagnosis_) {
     wants_diagnosis_ = true;
     next_diagnosis_ = bus_.now() + kDiagnosisPeriod;
-  }
-}
-
-void BurstReader::add(std::size_t stream, const SpiAnswer& answer, plugin::Samples& samples) {
-  const Burst& burst = streams_[stream].gatherer.sample();
-  std::uint32_t flags = std::exchange(streams_[stream].next_flags, 0);
-  if (burst.alarm != 0) flags |= IMUNOISE_SAMPLE_SUSPECT;
-  for_each_channel(kStreams[stream].channels, [&](std::size_t i) {
-    if (saturated(burst.counts[i])) flags |= IMUNOISE_SAMPLE_SATURATED;
-  });
-  plugin::Row row = samples.add(stream, {answer.host_time_ns, 0, 0, flags});
-  std::size_t column = 0;
-  for_each_channel(kStreams[stream].channels,
-                   [&](std::size_t i) { row.set(column++, burst.counts[i]); });
-  if (stream == kImu) last_sample_ = bus_.now();
-}
-
-// Polling reads the same sample many times, so there a stale burst is no hole in the series.
-void BurstReader::refuse(std::size_t stream, Reason reason, std::size_t count,
-                         plugin::Samples& samples) {
-  if (count == 0) return;
-  samples.refuse(stream, reason, count);
-  if (!poll_ || reason != Reason::kStale) {
-    streams_[stream].next_flags |= IMUNOISE_SAMPLE_AFTER_GAP;
   }
 }
 

@@ -8,7 +8,7 @@
 #include <deque>
 #include <vector>
 
-#include "drivers/adis16405/gatherer.h"
+#include "drivers/adis16405/burst_rows.h"
 #include "drivers/adis16405/sensor.h"
 #include "drivers/adis16405/settings.h"
 #include "drivers/adis16405/spi_bus.h"
@@ -16,21 +16,15 @@
 
 namespace imunoise::drivers::adis16405 {
 
-/// What the sensor delivers: "imu" (gyroscopes, accelerometers), "magnetometer", "housekeeping"
-/// (supply, temperature, auxiliary input), each by the counts of the device. They come in the same
-/// burst, but nothing says that all are renewed as often. Precondition: settings of settings.h.
-std::vector<Stream> describe_streams(const Settings& settings);
-
-/// Keeps bursts queued in the bridge, about 0.15 s ahead, and adds what comes to streams numbered
-/// as in describe_streams(). Refused, for each stream: bursts in which nothing is new (stale),
-/// samples of which some words never came, and bursts that nothing drove (malformed). What follows
-/// a refusal, or a queue that ran dry, is marked IMUNOISE_SAMPLE_AFTER_GAP; the first sample
-/// IMUNOISE_SAMPLE_AFTER_RESTART. One thread at a time; throws plugin::DeviceError.
+/// Keeps bursts queued in the bridge, about 0.15 s ahead, and adds what comes as BurstRows does.
+/// What follows a queue that ran dry is marked IMUNOISE_SAMPLE_AFTER_GAP. One thread at a time;
+/// throws plugin::DeviceError.
 class BurstReader {
  public:
   /// Borrows the bus, which a Sensor has started. `poll`: bursts back to back, most of them stale;
   /// else one at each data-ready.
-  BurstReader(SpiBus& bus, const Settings& settings, bool poll, Note note);
+  /// `wire`: told each burst as it came, where somebody wants them.
+  BurstReader(SpiBus& bus, const Settings& settings, bool poll, Note note, plugin::WireTap wire);
 
   /// Waits at most `timeout` for an answer and takes all that are there.
   void read(plugin::Samples& samples, usb::Duration timeout);
@@ -39,11 +33,6 @@ class BurstReader {
 
  private:
   enum class Question : std::uint8_t { kBurst, kDiagnosisCommand, kDiagnosis };
-  struct State {  // of a stream
-    Gatherer gatherer;
-    std::uint32_t next_flags;
-  };
-
   void top_up();
   void start_anew();
   void correct_times(std::vector<SpiAnswer>& answers) const;
@@ -51,19 +40,17 @@ class BurstReader {
   void take(const SpiAnswer& answer, plugin::Samples& samples);
   void take_burst(const SpiAnswer& answer, plugin::Samples& samples);
   void take_diagnosis(const SpiAnswer& answer);
-  void add(std::size_t stream, const SpiAnswer& answer, plugin::Samples& samples);
-  void refuse(std::size_t stream, plugin::Reason reason, std::size_t count,
-              plugin::Samples& samples);
   SpiFrame burst_frame() const;
 
   SpiBus& bus_;
   bool poll_;
   Note note_;
+  plugin::WireTap wire_;
   std::int64_t least_period_ns_;  // between two bursts
   std::size_t ahead_;             // bursts to keep queued
   std::size_t bursts_ = 0;        // queued now
   std::deque<Question> questions_;
-  std::vector<State> streams_;
+  BurstRows rows_;
   usb::Duration last_sample_;
   bool started_ = false;
   bool skips_burst_ = false;

@@ -39,16 +39,18 @@ usb::Duration most_silence(const Settings& settings) {
 }  // namespace
 
 Adis16405Device::Connection::Connection(std::unique_ptr<usb::Device> usb, usb::Id id,
-                                        const Choice& choice, const Note& note)
+                                        const Choice& choice, const Note& note,
+                                        const plugin::WireTap& wire)
     : bus(std::move(usb), make_bridge(id)),
       reader(started(bus, choice.settings, note), choice.settings,
-             choice.poll || !bus.bridge().sees_data_ready(), note) {}
+             choice.poll || !bus.bridge().sees_data_ready(), note, wire) {}
 
 Adis16405Device::Adis16405Device(std::shared_ptr<usb::Bus> bus, Choice choice,
                                  const plugin::Host& host)
     : usb_(std::move(bus)),
       choice_(std::move(choice)),
       note_([host](const std::string& text) { host.note(text); }),
+      wire_(host.wire_tap()),
       address_(choose()) {
   connect(address_);
 }
@@ -76,7 +78,8 @@ usb::Address Adis16405Device::choose() {
 
 void Adis16405Device::connect(const usb::Address& address) {
   connection_.reset();
-  connection_ = std::make_unique<Connection>(usb_->open(address), address.id, choice_, note_);
+  connection_ =
+      std::make_unique<Connection>(usb_->open(address), address.id, choice_, note_, wire_);
   address_ = address;
 }
 

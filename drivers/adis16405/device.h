@@ -35,8 +35,8 @@ class Adis16405Device final : public plugin::Device {
  private:
   // All that ends with the cable.
   struct Connection {
-    Connection(std::unique_ptr<usb::Device> usb, usb::Id id, const Choice& choice,
-               const Note& note);
+    Connection(std::unique_ptr<usb::Device> usb, usb::Id id, const Choice& choice, const Note& note,
+               const plugin::WireTap& wire);
     SpiBus bus;
     BurstReader reader;
   };
@@ -51,6 +51,7 @@ class Adis16405Device final : public plugin::Device {
   std::shared_ptr<usb::Bus> usb_;
   Choice choice_;
   Note note_;
+  plugin::WireTap wire_;
   usb::Address address_;
   std::unique_ptr<Connection> connection_;  // none: unplugged
   std::string why_lost_;

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
+
+#include "drivers/can/candump.h"
 
 namespace imunoise::can {
 namespace {
@@ -15,29 +16,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kRetry{200};
 constexpr milliseconds kSilence{2000};
 constexpr int kMostAtOnce = 4096;
-
-// To three digits: what a person would have configured.
-double round_rate(double rate) {
-  const double unit = std::pow(10.0, std::floor(std::log10(rate)) - 2.0);
-  return std::round(rate / unit) * unit;
-}
-
-// When frames of a stream came.
-struct Arrivals {
-  std::uint64_t count = 0;
-  std::int64_t first_ns = 0;
-  std::int64_t last_ns = 0;
-
-  void add(std::int64_t time_ns) {
-    if (count++ == 0) first_ns = time_ns;
-    last_ns = time_ns;
-  }
-  // Frames a second; 0: not known.
-  double rate() const {
-    if (count < 2 || last_ns <= first_ns) return 0.0;
-    return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
-  }
-};
 
 template <class T>
 T or_throw(Result<T> result) {
@@ -50,14 +28,15 @@ T or_throw(Result<T> result) {
 CanDevice::CanDevice(Settings settings, const plugin::Host& host)
     : settings_(std::move(settings)),
       host_(host),
-      streams_(or_throw(CanStream::all_of(settings_.channels))) {
-  for (const CanStream& stream : streams_) {
+      streams_(or_throw(FrameStreams::make(settings_.channels))),
+      wire_(host.wire_tap()) {
+  for (const CanStream& stream : streams_.streams()) {
     filters_.push_back({stream.message().id, stream.message().extended});
   }
   socket_.emplace(settings_.interface, filters_);
   listen();
   double slowest = 1.0;
-  for (const CanStream& stream : streams_) {
+  for (const CanStream& stream : streams_.streams()) {
     const double rate = stream.description().nominal_rate_hz;
     if (rate > 0.0) slowest = std::min(slowest, rate);
   }
@@ -67,20 +46,7 @@ CanDevice::CanDevice(Settings settings, const plugin::Host& host)
   restart();
 }
 
-template <class Visit>
-void CanDevice::for_streams_of(const drivers::CanFrame& frame, Visit visit) {
-  const drivers::CanMessage* const message =
-      settings_.channels.database().find(frame.id, frame.extended);
-  if (message == nullptr) return;
-  drivers::Refusals ignored;  // signals that are missing are counted by their streams
-  drivers::decode_signals(*message, frame.data(), present_, ignored);
-  for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (&streams_[s].message() == message && streams_[s].is_in(present_)) visit(s);
-  }
-}
-
 void CanDevice::listen() {
-  std::vector<Arrivals> arrivals(streams_.size());
   const plugin::CancelSignal never;
   const plugin::Wait wait(never, settings_.listen);
   while (wait.ready(socket_->descriptor())) {
@@ -88,23 +54,14 @@ void CanDevice::listen() {
       if (received->frame.error) {
         trouble_.add_error(received->frame);
       } else {
-        for_streams_of(received->frame, [&](std::size_t s) { arrivals[s].add(received->time_ns); });
+        streams_.hear(received->frame, received->time_ns);
       }
     }
   }
-  std::vector<CanStream> came;
-  for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (arrivals[s].count == 0 && settings_.all_required) refuse_silence(&streams_[s]);
-    if (arrivals[s].count == 0) continue;
-    const double measured = arrivals[s].rate();
-    CanStream& stream = came.emplace_back(std::move(streams_[s]));
-    if (measured == 0.0) continue;
-    stream.set_rate(settings_.rate_hz ? *settings_.rate_hz /
-                                            std::max(1.0, std::round(*settings_.rate_hz / measured))
-                                      : round_rate(measured));
-  }
-  if (came.empty()) refuse_silence(nullptr);
-  streams_ = std::move(came);
+  const CanStream* const missing = streams_.missing();
+  if (missing != nullptr && settings_.all_required) refuse_silence(missing);
+  streams_.settle(settings_.rate_hz);
+  if (streams_.streams().empty()) refuse_silence(nullptr);
 }
 
 void CanDevice::refuse_silence(const CanStream* missing) const {
@@ -131,15 +88,14 @@ void CanDevice::refuse_silence(const CanStream* missing) const {
 
 drivers::DeviceInfo CanDevice::describe() {
   drivers::DeviceInfo out;
-  for (const CanStream& stream : streams_) out.streams.push_back(stream.description());
+  out.streams = streams_.descriptions();
   out.product = settings_.product;
   out.serial = settings_.interface;
   return out;
 }
 
 void CanDevice::restart() {
-  flags_.assign(streams_.size(), IMUNOISE_SAMPLE_AFTER_RESTART);
-  for (CanStream& stream : streams_) stream.forget_counter();
+  streams_.restart();
   last_frame_ = Clock::now();
 }
 
@@ -200,15 +156,24 @@ void CanDevice::take(const transport::ReceivedCanFrame& received, plugin::Sample
   off_ = false;
   if (std::exchange(silent_, false)) host_.note(settings_.interface + ": the IMU sends again");
   const std::int64_t time_ns = received.time_ns != 0 ? received.time_ns : host_.now_ns();
-  for_streams_of(received.frame, [&](std::size_t s) {
-    streams_[s].add(present_, s, time_ns, std::exchange(flags_[s], 0U), samples);
-  });
+  if (wire_) tap(received.frame, time_ns);
+  streams_.take(received.frame, time_ns, samples);
+}
+
+void CanDevice::tap(const drivers::CanFrame& frame, std::int64_t time_ns) const {
+  // A name of one word, whatever the bus is called here.
+  const std::string_view name =
+      std::string_view(settings_.interface).substr(0, settings_.interface.find_first_of(" /"));
+  const std::string line =
+      drivers::format_candump_line({time_ns, name, frame, drivers::CanDirection::kUnknown}) + "\n";
+  wire_(drivers::Bytes(static_cast<const std::uint8_t*>(static_cast<const void*>(line.data())),
+                       line.size()));
 }
 
 void CanDevice::count_lost(std::uint32_t frames, plugin::Samples& samples) {
   trouble_.add_lost(frames);
   samples.refuse(0, plugin::Reason::kOverrun, frames);
-  for (std::uint32_t& flags : flags_) flags |= IMUNOISE_SAMPLE_AFTER_GAP;
+  streams_.mark(IMUNOISE_SAMPLE_AFTER_GAP);
 }
 
 }  // namespace imunoise::can

@@ -8,7 +8,7 @@
 
 #include "drivers/can/bus_trouble.h"
 #include "drivers/can/channels.h"
-#include "drivers/can/streams.h"
+#include "drivers/can/frame_streams.h"
 #include "drivers/plugin/device.h"
 #include "drivers/transport/can_socket.h"
 
@@ -45,18 +45,15 @@ class CanDevice final : public plugin::Device {
   void count_lost(std::uint32_t frames, plugin::Samples& samples);
   void fall_silent();
   void restart();
-  // Fills present_ and calls visit(stream number) for every stream that the frame belongs to.
-  template <class Visit>
-  void for_streams_of(const drivers::CanFrame& frame, Visit visit);
+  void tap(const drivers::CanFrame& frame, std::int64_t time_ns) const;
 
   Settings settings_;
   plugin::Host host_;
-  std::vector<CanStream> streams_;
+  FrameStreams streams_;
+  plugin::WireTap wire_;
   std::vector<transport::CanFilter> filters_;
   std::optional<transport::CanSocket> socket_;  // none while the interface is away
   BusTrouble trouble_;
-  std::vector<std::uint32_t> flags_;  // by stream, of its next sample
-  std::vector<drivers::SignalValue> present_;
   Clock::time_point last_frame_;
   Clock::duration patience_{};
   bool silent_ = false;

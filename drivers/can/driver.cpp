@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "drivers/can/channel_option.h"
-#include "drivers/can/dbc.h"
+#include "drivers/can/channel_options.h"
 #include "drivers/can/device.h"
 #include "drivers/can/presets.h"
 #include "drivers/plugin.h"
@@ -62,42 +58,6 @@ drivers::DriverInfo describe_driver() {
            .maximum = 253},
       },
   };
-}
-
-[[noreturn]] void refuse(const std::string& text) {
-  throw plugin::DeviceError(IMUNOISE_BAD_OPTION, text);
-}
-
-template <class T>
-T or_throw(Result<T> result) {
-  if (!result) refuse(result.error().message);
-  return std::move(*result);
-}
-
-drivers::CanDatabase read_database(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad()) {
-    throw plugin::DeviceError(IMUNOISE_NOT_FOUND, path + ": cannot be read; is it there?");
-  }
-  return or_throw(drivers::parse_dbc(text, path));
-}
-
-drivers::CanChannels channels_of(const plugin::Options& options) {
-  if (options.has("preset") == options.has("dbc")) {
-    refuse("choose one of preset=NAME and dbc=FILE: they say what the IMU's messages mean");
-  }
-  std::vector<drivers::ChannelMapping> mapping;
-  for (const std::string& text : options.texts("channel")) {
-    mapping.push_back(or_throw(parse_channel_option(text)));
-  }
-  if (options.has("dbc")) {
-    return or_throw(drivers::CanChannels::make(read_database(options.text("dbc")), mapping));
-  }
-  drivers::CanChannels preset = or_throw(drivers::make_preset(
-      options.text("preset"), static_cast<std::uint8_t>(options.integer("address"))));
-  if (mapping.empty()) return preset;
-  return or_throw(drivers::CanChannels::make(preset.database(), mapping));
 }
 
 std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,

@@ -44,7 +44,8 @@ std::int16_t quantise(double value, const drivers::SiUnit& scale) {
 
 }  // namespace
 
-Adis16405::Adis16405(SampleSource& source, std::uint64_t seed) : source_(source), random_(seed) {
+Adis16405::Adis16405(SampleSource& source, std::uint64_t seed, Memory memory)
+    : source_(source), random_(seed), taken_(memory), sent_(memory) {
   power_up();
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/support/random.h"
 #include "drivers/adis16405/burst.h"
+#include "drivers/emulator/history.h"
 #include "drivers/emulator/sample_source.h"
 #include "drivers/emulator/spi_slave.h"
 
@@ -43,13 +44,15 @@ struct SentBurst {
 class Adis16405 final : public SpiSlave {
  public:
   /// Borrows the source. `seed`: of bit errors.
-  Adis16405(SampleSource& source, std::uint64_t seed);
+  Adis16405(SampleSource& source, std::uint64_t seed, Memory memory = Memory::kAll);
 
   SensorFaults faults;
 
-  /// All samples and bursts since construction.
-  const std::vector<TakenSample>& taken() const { return taken_; }
-  const std::vector<SentBurst>& sent() const { return sent_; }
+  /// All samples and bursts since construction, where they are kept.
+  const std::vector<TakenSample>& taken() const { return taken_.items(); }
+  const std::vector<SentBurst>& sent() const { return sent_.items(); }
+  /// How many samples there were.
+  std::size_t samples() const { return taken_.size(); }
   /// What the bus did against the datasheet: "clock low when selected", ...; each once.
   const std::vector<std::string>& violations() const { return violations_; }
 
@@ -96,8 +99,8 @@ class Adis16405 final : public SpiSlave {
   std::vector<std::uint8_t> said_;
   std::uint16_t answer_ = 0;  // the word that the next frame begins with
 
-  std::vector<TakenSample> taken_;
-  std::vector<SentBurst> sent_;
+  History<TakenSample> taken_;
+  History<SentBurst> sent_;
   std::vector<std::string> violations_;
 };
 

@@ -15,20 +15,41 @@ using drivers::CanSignal;
 
 constexpr double kTicksPerSecond = 10'000.0;
 
+// An IMU saturates where its signal ends, or below the codes that mean "not valid".
+double saturated(const drivers::ChannelMapping& mapping, const CanSignal& signal, double value) {
+  using drivers::SignalType;
+  if (signal.type == SignalType::kFloat32 || signal.type == SignalType::kFloat64) return value;
+  const bool is_signed = signal.type == SignalType::kSigned;
+  const double above = std::ldexp(1.0, static_cast<int>(signal.field.length) - (is_signed ? 1 : 0));
+  const double last =
+      mapping.invalid_from ? static_cast<double>(*mapping.invalid_from) - 1.0 : above - 1.0;
+  const double number = (value - signal.offset) / signal.factor;
+  if (number < (is_signed ? -above : 0.0)) {
+    return (is_signed ? -above : 0.0) * signal.factor + signal.offset;
+  }
+  return number > last ? last * signal.factor + signal.offset : value;
+}
+
 }  // namespace
 
 CanImu::CanImu(drivers::CanChannels channels, double rate_hz, SampleSource& source, CanLine& line,
-               std::vector<Fault> faults)
+               std::vector<Fault> faults, Memory memory)
     : channels_(std::move(channels)),
       rate_hz_(rate_hz),
       source_(source),
       line_(line),
       faults_(std::move(faults)),
+      sent_(memory),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::vector<SentCanFrame> CanImu::sent() const {
   const std::lock_guard lock(mutex_);
-  return sent_;
+  return sent_.items();
+}
+
+std::size_t CanImu::frames() const {
+  const std::lock_guard lock(mutex_);
+  return sent_.size();
 }
 
 void CanImu::run(const std::stop_token& stop) {
@@ -51,7 +72,7 @@ double CanImu::value(const drivers::ChannelMapping& mapping, const CanSignal& si
   if (mapping.channel == "sample_time") {
     return std::floor(static_cast<double>(sample) / rate_hz_ * kTicksPerSecond);
   }
-  return value_in_unit(measurement, mapping.channel, mapping.unit);
+  return saturated(mapping, signal, value_in_unit(measurement, mapping.channel, mapping.unit));
 }
 
 std::vector<CanImu::Composed> CanImu::compose(std::uint64_t sample) {

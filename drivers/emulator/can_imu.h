@@ -11,6 +11,7 @@
 #include "drivers/can/channels.h"
 #include "drivers/emulator/can_line.h"
 #include "drivers/emulator/fault.h"
+#include "drivers/emulator/history.h"
 #include "drivers/emulator/sample_source.h"
 
 namespace imunoise::emulator {
@@ -25,16 +26,18 @@ struct SentCanFrame {
 
 /// An IMU that sends the messages of a database, one of each a sample, in real time, from a thread
 /// of its own. Channels show what value_of() knows; "counter" counts samples, "sample_time" is in
-/// ticks of 100 µs, others are 0. Signals that a multiplexor switches are not sent. Precondition:
-/// the signals can hold the source's values.
+/// ticks of 100 µs, others are 0. What a signal cannot hold saturates. Signals that a multiplexor
+/// switches are not sent.
 class CanImu {
  public:
   /// Borrows source and line, which its thread calls.
   CanImu(drivers::CanChannels channels, double rate_hz, SampleSource& source, CanLine& line,
-         std::vector<Fault> faults = {});
+         std::vector<Fault> faults = {}, Memory memory = Memory::kAll);
 
-  /// Everything so far. Thread-safe.
+  /// Everything so far, where it is kept. Thread-safe.
   std::vector<SentCanFrame> sent() const;
+  /// How many frames that were. Thread-safe.
+  std::size_t frames() const;
 
  private:
   struct Composed {
@@ -58,7 +61,7 @@ class CanImu {
   std::vector<Composed> held_back_;
   std::uint64_t bus_off_until_ = 0;  // sample
   mutable std::mutex mutex_;         // of sent_
-  std::vector<SentCanFrame> sent_;
+  History<SentCanFrame> sent_;
   std::jthread thread_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "drivers/can/frame.h"
 
@@ -29,6 +31,24 @@ class SocketCanLine final : public CanLine {
 
  private:
   int descriptor_ = -1;
+};
+
+/// A bus without a kernel that has CAN: the driver `can` listens at interface=unix:PATH. Sockets of
+/// type SOCK_SEQPACKET, a frame of Linux a packet. Throws std::system_error.
+class LocalCanLine final : public CanLine {
+ public:
+  /// Makes the socket; `path` must be free, or a socket that nobody serves any more.
+  explicit LocalCanLine(std::filesystem::path path);
+  ~LocalCanLine() override;
+
+  bool send(const drivers::CanFrame& frame) override;
+
+ private:
+  void accept_listeners();
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::vector<int> listeners_;
 };
 
 }  // namespace imunoise::emulator

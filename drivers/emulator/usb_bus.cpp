@@ -105,8 +105,8 @@ std::unique_ptr<drivers::usb::Device> EmulatedBus::open(const Address& address) 
   return std::make_unique<EmulatedDevice>(*this);
 }
 
-void EmulatedBus::plug() {
-  start_ns_ = host_time_ns(peripheral_.now());
+void EmulatedBus::plug(Time unplugged_for) {
+  start_ns_ = host_time_ns(peripheral_.now() + unplugged_for);
   peripheral_.power_up();
   plugged_ = true;
 }

@@ -21,7 +21,8 @@ class EmulatedBus final : public drivers::usb::Bus {
   std::unique_ptr<drivers::usb::Device> open(const drivers::usb::Address& address) override;
 
   void unplug() { plugged_ = false; }
-  void plug();
+  /// Power comes on; the host's clock went on for so long meanwhile.
+  void plug(Time unplugged_for = Time(0));
   /// open() is refused for want of permission.
   void set_forbidden(bool forbidden) { forbidden_ = forbidden; }
   /// The next receive comes late: the kernel went on with at most so many transfers meanwhile, and

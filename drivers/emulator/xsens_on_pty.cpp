@@ -14,17 +14,23 @@ constexpr milliseconds kTick{2};  // how often the line is looked at
 }  // namespace
 
 XsensOnPty::XsensOnPty(MtiOptions options, SampleSource& source, std::vector<Fault> faults,
-                       std::filesystem::path link)
+                       std::filesystem::path link, Memory memory)
     : link_(std::move(link)),
       faults_(std::move(faults)),
       device_(std::move(options), source),
+      sent_(memory),
       line_(std::make_unique<Pty>(link_)),
       due_(Clock::now()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::vector<SentMessage> XsensOnPty::sent() const {
   const std::lock_guard lock(mutex_);
-  return sent_;
+  return sent_.items();
+}
+
+std::size_t XsensOnPty::messages() const {
+  const std::lock_guard lock(mutex_);
+  return sent_.size();
 }
 
 std::uint64_t XsensOnPty::writes() const {
@@ -80,11 +86,13 @@ void XsensOnPty::send_sample() {
 bool XsensOnPty::pass(const Fault& fault, std::vector<std::uint8_t>& frame) {
   switch (fault.kind) {
     case Fault::Kind::kBitError:
-      frame.at(fault.at / 8) ^= static_cast<std::uint8_t>(1U << fault.at % 8);
+      frame[fault.at / 8 % frame.size()] ^= static_cast<std::uint8_t>(1U << fault.at % 8);
       return false;
     case Fault::Kind::kLoss: {
-      const auto from = frame.begin() + static_cast<std::ptrdiff_t>(fault.at);
-      frame.erase(from, from + static_cast<std::ptrdiff_t>(fault.count));
+      const std::size_t from = std::min(fault.at, frame.size());
+      const std::size_t count = std::min<std::size_t>(fault.count, frame.size() - from);
+      const auto first = frame.begin() + static_cast<std::ptrdiff_t>(from);
+      frame.erase(first, first + static_cast<std::ptrdiff_t>(count));
       return false;
     }
     case Fault::Kind::kUnplug:

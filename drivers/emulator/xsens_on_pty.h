@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drivers/emulator/fault.h"
+#include "drivers/emulator/history.h"
 #include "drivers/emulator/pty.h"
 #include "drivers/emulator/xsens_mti.h"
 
@@ -26,11 +27,13 @@ class XsensOnPty {
  public:
   /// Borrows the source, which its thread calls.
   XsensOnPty(MtiOptions options, SampleSource& source, std::vector<Fault> faults,
-             std::filesystem::path link);
+             std::filesystem::path link, Memory memory = Memory::kAll);
   ~XsensOnPty() = default;
 
-  /// Everything measured so far since the host said GoToMeasurement. Thread-safe.
+  /// Everything measured so far since the host said GoToMeasurement, where it is kept. Thread-safe.
   std::vector<SentMessage> sent() const;
+  /// How many messages that were. Thread-safe.
+  std::size_t messages() const;
   /// How often the host wrote the device's configuration. Thread-safe.
   std::uint64_t writes() const;
 
@@ -47,7 +50,7 @@ class XsensOnPty {
   FaultPlan faults_;
   mutable std::mutex mutex_;  // of device_ and sent_
   XsensMti device_;
-  std::vector<SentMessage> sent_;
+  History<SentMessage> sent_;
   std::unique_ptr<Pty> line_;        // none while unplugged
   std::uint64_t unplugged_for_ = 0;  // samples more
   std::vector<std::uint8_t> held_back_;

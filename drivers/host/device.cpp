@@ -72,8 +72,8 @@ bool all_finite(std::span<const Number> numbers) {
 
 }  // namespace
 
-Device::Device(Driver driver, NoteHandler note)
-    : driver_(std::move(driver)), note_(std::move(note)) {}
+Device::Device(Driver driver, DeviceHandlers handlers)
+    : driver_(std::move(driver)), handlers_(std::move(handlers)) {}
 
 Device::~Device() {
   if (handle_ == nullptr) return;
@@ -84,11 +84,11 @@ Device::~Device() {
 }
 
 Result<std::unique_ptr<Device>> Device::open(const Driver& driver,
-                                             std::span<const OptionText> options,
-                                             NoteHandler note) {
+                                             std::span<const OptionText> options, NoteHandler note,
+                                             WireHandler wire) {
   const Result<OptionValues> values = OptionValues::make(driver.info.options, options);
   if (!values) return fail(failure(driver, IMUNOISE_BAD_OPTION, values.error().message));
-  std::unique_ptr<Device> device(new Device(driver, std::move(note)));
+  std::unique_ptr<Device> device(new Device(driver, {std::move(note), std::move(wire)}));
   const Result<void> started = device->start(*values);
   if (!started) return tl::make_unexpected(started.error());
   return device;
@@ -98,7 +98,7 @@ Result<void> Device::start(const OptionValues& values) {
   ErrorText error;
   imunoise_device* handle = nullptr;
   std::int32_t status = guarded([&] {
-    return driver_.table->open(values.data(), values.size(), &note_, &handle, error.table());
+    return driver_.table->open(values.data(), values.size(), &handlers_, &handle, error.table());
   });
   if (status == IMUNOISE_OK && handle == nullptr) {
     return fail(failure(driver_, status, "open succeeded without a device"));

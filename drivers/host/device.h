@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,7 +13,9 @@
 #include "core/support/result.h"
 #include "drivers/host/block.h"
 #include "drivers/host/driver.h"
+#include "drivers/host/handlers.h"
 #include "drivers/host/option_values.h"
+#include "drivers/host/services.h"
 
 namespace imunoise::drivers {
 
@@ -27,10 +28,6 @@ enum class ReadOutcome {
   kDisconnected,  ///< The device is gone; the driver looks for it when read() is called again.
 };
 
-/// What a driver tells of a device, for people. Called from any thread; must be thread-safe, and
-/// must not call the device.
-using NoteHandler = std::function<void(std::string_view text)>;
-
 /// One thread at a time calls it, except for cancel().
 class Device {
  public:
@@ -38,7 +35,7 @@ class Device {
   /// the driver has not or does not allow, what the driver says, a description that makes no sense.
   static Result<std::unique_ptr<Device>> open(const Driver& driver,
                                               std::span<const OptionText> options = {},
-                                              NoteHandler note = {});
+                                              NoteHandler note = {}, WireHandler wire = {});
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   /// Stops the device. No read or cancel may be running.
@@ -60,13 +57,13 @@ class Device {
   void cancel() noexcept;
 
  private:
-  Device(Driver driver, NoteHandler note);
+  Device(Driver driver, DeviceHandlers handlers);
   Result<void> start(const OptionValues& values);
   Result<ReadOutcome> outcome(std::int32_t status, const Block& block, std::string_view text);
   Result<void> check_samples(const Block& block) const;
 
   Driver driver_;
-  NoteHandler note_;
+  DeviceHandlers handlers_;
   imunoise_device* handle_ = nullptr;
   std::shared_ptr<const DeviceInfo> info_;
   std::string disconnection_;

@@ -1,9 +1,6 @@
 #include "drivers/host/services.h"
 
 #include <chrono>
-
-#include "drivers/host/device.h"
-
 namespace imunoise::drivers {
 namespace {
 
@@ -14,15 +11,22 @@ std::int64_t now_ns() {
 }
 
 void note(void* context, const char* text) {
-  const auto& handler = *static_cast<const NoteHandler*>(context);
-  if (handler && text != nullptr) handler(text);
+  const auto& handlers = *static_cast<const DeviceHandlers*>(context);
+  if (handlers.note && text != nullptr) handlers.note(text);
+}
+
+std::int32_t wire(void* context, const std::uint8_t* bytes, std::uint64_t count) {
+  const auto& handlers = *static_cast<const DeviceHandlers*>(context);
+  if (!handlers.wire) return 0;
+  if (count > 0) handlers.wire({bytes, count});
+  return 1;
 }
 
 }  // namespace
 
 const imunoise_host& host_services() {
   static const imunoise_host kServices = {sizeof(imunoise_host), IMUNOISE_DRIVER_ABI, &now_ns,
-                                          &note};
+                                          &note, &wire};
   return kServices;
 }
 

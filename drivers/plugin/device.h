@@ -2,7 +2,10 @@
 
 // What a driver implements.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +28,9 @@ class DeviceError : public std::runtime_error {
   std::int32_t code_;
 };
 
+/// Takes bytes as they came over a wire.
+using WireTap = std::function<void(std::span<const std::uint8_t> bytes)>;
+
 /// What the host does for a device. Copies are cheap. Thread-safe.
 class Host {
  public:
@@ -34,6 +40,15 @@ class Host {
   std::int64_t now_ns() const { return table_->now_ns(); }
   /// Tells what a person should know of the device: "reset after 3 bad checksums".
   void note(const std::string& text) const { table_->note(context_, text.c_str()); }
+  /// Where to put the bytes that come over the device's wire, in the form of its captures; empty
+  /// where nobody wants them. Ask once: at the device's opening.
+  WireTap wire_tap() const {
+    constexpr std::size_t kNeeded = offsetof(imunoise_host, wire) + sizeof(imunoise_host::wire);
+    if (table_->size < kNeeded || table_->wire(context_, nullptr, 0) == 0) return {};
+    return [table = table_, context = context_](std::span<const std::uint8_t> bytes) {
+      table->wire(context, bytes.data(), bytes.size());
+    };
+  }
 
  private:
   const imunoise_host* table_;

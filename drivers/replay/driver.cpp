@@ -1,9 +1,14 @@
 // The driver "replay": recorded files as a device.
 
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 
 #include "drivers/plugin.h"
+#include "drivers/replay/recording_device.h"
 #include "drivers/replay/replay_device.h"
 #include "recording/import/import.h"
 
@@ -14,12 +19,14 @@ drivers::DriverInfo describe_driver() {
   using enum drivers::OptionType;
   return {
       "replay",
-      "Recorded files as a device: HDF5, CSV, NumPy, raw numbers",
+      "Recordings as a device: those of imunoise, and files in HDF5, CSV, NumPy, raw numbers",
       IMUNOISE_VERSION,
       {
           {.name = "file",
            .type = kText,
-           .description = "A file to replay; several are replicates, one after another",
+           .description =
+               "A recording's folder, or a file; several files are replicates, one after "
+               "another",
            .required = true,
            .repeated = true},
           {.name = "speed",
@@ -35,9 +42,17 @@ drivers::DriverInfo describe_driver() {
            .by_default = "0.01",
            .minimum = 0.0,
            .maximum = 10.0},
+          {.name = "device",
+           .type = kText,
+           .description = "Of a recording: which device (default: the only one)"},
+          {.name = "replicate",
+           .type = kInteger,
+           .description = "Of a recording: which replicate (default: the first)",
+           .minimum = 1,
+           .maximum = 1000000},
           {.name = "channel",
            .type = kText,
-           .description = "A channel to replay, by name (default: all)",
+           .description = "Of files: a channel to replay, by name (default: all)",
            .repeated = true},
           {.name = "rate",
            .type = kNumber,
@@ -57,24 +72,60 @@ drivers::DriverInfo describe_driver() {
   };
 }
 
+Pace pace_of(const plugin::Options& options) {
+  return {options.number("speed"), options.number("latency")};
+}
+
 template <class T>
 T or_throw(Result<T> result) {
   if (!result) throw plugin::DeviceError(IMUNOISE_BAD_OPTION, result.error().message);
   return std::move(*result);
 }
 
-std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
-                                            const plugin::Host& host) {
+// Options that say nothing where they were given.
+void refuse_if_given(const plugin::Options& options, std::initializer_list<const char*> names,
+                     const char* why) {
+  for (const char* const name : names) {
+    if (!options.has(name)) continue;
+    throw plugin::DeviceError(IMUNOISE_BAD_OPTION, fmt::format("{}: {}", name, why));
+  }
+}
+
+std::unique_ptr<plugin::Device> open_recording(const std::string& folder,
+                                               const plugin::Options& options,
+                                               const plugin::Host& host) {
+  refuse_if_given(options, {"channel", "rate", "unit"},
+                  "a recording of imunoise is replayed as it is");
+  RecordingChoice choice{folder};
+  if (options.has("device")) choice.device = options.text("device");
+  if (options.has("replicate")) {
+    choice.replicate = static_cast<std::uint32_t>(options.integer("replicate"));
+  }
+  return std::make_unique<RecordingDevice>(or_throw(read_recording(choice)), pace_of(options),
+                                           host);
+}
+
+std::unique_ptr<plugin::Device> open_files(const std::vector<std::string>& names,
+                                           const plugin::Options& options,
+                                           const plugin::Host& host) {
+  refuse_if_given(options, {"device", "replicate"}, "only recordings of imunoise have several");
   recording::ImportOptions import;
   import.channels = options.texts("channel");
   if (options.has("rate")) import.rate = Hertz{options.number("rate")};
   if (options.has("unit")) import.unit = or_throw(parse_unit(options.text("unit")));
   import.split_into = static_cast<std::size_t>(options.integer("split_into"));
-  const std::vector<std::string> names = options.texts("file");
   const std::vector<std::filesystem::path> files(names.begin(), names.end());
   return std::make_unique<ReplayDevice>(or_throw(recording::import_files(files, import)),
-                                        Pace{options.number("speed"), options.number("latency")},
-                                        host);
+                                        pace_of(options), host);
+}
+
+std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
+                                            const plugin::Host& host) {
+  const std::vector<std::string> names = options.texts("file");
+  if (names.size() == 1 && std::filesystem::is_directory(names.front())) {
+    return open_recording(names.front(), options, host);
+  }
+  return open_files(names, options, host);
 }
 
 }  // namespace

@@ -31,10 +31,8 @@ drivers::Channel describe_channel(const recording::Channel& from) {
 ReplayDevice::ReplayDevice(std::vector<recording::Replicate> replicates, Pace pace,
                            const plugin::Host& host)
     : replicates_(std::move(replicates)),
-      pace_(pace),
-      rate_hz_(replicates_.front().rate.value),
-      start_ns_(host.now_ns()),
-      start_(plugin::Wait::Clock::now()) {}
+      timeline_(pace, host),
+      rate_hz_(replicates_.front().rate.value) {}
 
 drivers::DeviceInfo ReplayDevice::describe() {
   drivers::Stream stream;
@@ -54,16 +52,15 @@ std::int64_t ReplayDevice::time_ns(std::size_t index) const {
 
 // When that many samples are due.
 plugin::Wait::Clock::time_point ReplayDevice::moment(std::size_t samples) const {
-  const double seconds = static_cast<double>(samples) / rate_hz_ / pace_.speed;
-  return start_ + std::chrono::nanoseconds(std::llround(seconds * 1e9));
+  return timeline_.due(static_cast<double>(samples) / rate_hz_);
 }
 
 // Samples that may be delivered now; waits for the next group.
 std::size_t ReplayDevice::due(const plugin::Wait& wait) const {
   const std::size_t left = replicates_[replicate_].channels.front().count - next_;
   const std::size_t most = std::min(left, kMostAtOnce);
-  if (pace_.speed == 0.0) return most;
-  const double group = pace_.latency_s * pace_.speed * rate_hz_;
+  if (timeline_.at_once()) return most;
+  const double group = timeline_.pace().latency_s * timeline_.pace().speed * rate_hz_;
   const auto wanted = static_cast<std::size_t>(std::clamp(group, 1.0, static_cast<double>(most)));
   if (!wait.until(moment(sent_ + wanted))) return 0;
   std::size_t count = wanted;
@@ -79,7 +76,7 @@ void ReplayDevice::read(plugin::Samples& samples, const plugin::Wait& wait) {
   plugin::Rows rows = samples.add_many(0, count);
   const std::span<plugin::Stamp> stamps = rows.stamps();
   for (std::size_t i = 0; i < count; ++i) {
-    stamps[i] = {start_ns_ + time_ns(sent_ + i), next_ + i, time_ns(next_ + i),
+    stamps[i] = {timeline_.host_time_ns(time_ns(sent_ + i)), next_ + i, time_ns(next_ + i),
                  next_ + i == 0 ? std::uint32_t{IMUNOISE_SAMPLE_AFTER_RESTART} : 0U};
   }
   for (std::size_t c = 0; c < replicate.channels.size(); ++c) {

@@ -2,21 +2,15 @@
 
 // Recorded samples as a device.
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "drivers/plugin.h"
+#include "drivers/replay/pace.h"
 #include "recording/import/channel.h"
 
 namespace imunoise::replay {
-
-/// How fast samples come.
-struct Pace {
-  double speed = 1.0;      ///< Times real time; 0: as fast as they are read.
-  double latency_s = 0.0;  ///< Samples come in groups, this often in real time; 0: one by one.
-};
 
 /// One stream, "samples": the replicates one after another, numbers as they were stored, scaled to
 /// SI. The counter is the sample's index in its replicate, the device time that index over the
@@ -36,13 +30,11 @@ class ReplayDevice : public plugin::Device {
   plugin::Wait::Clock::time_point moment(std::size_t samples) const;
 
   std::vector<recording::Replicate> replicates_;
-  Pace pace_;
+  Timeline timeline_;
   double rate_hz_;
-  std::int64_t start_ns_;                  // host time of the first sample
-  plugin::Wait::Clock::time_point start_;  // the same moment of the clock that waits
-  std::size_t replicate_ = 0;              // that is being delivered
-  std::size_t next_ = 0;                   // its next sample
-  std::size_t sent_ = 0;                   // samples delivered of all replicates
+  std::size_t replicate_ = 0;  // that is being delivered
+  std::size_t next_ = 0;       // its next sample
+  std::size_t sent_ = 0;       // samples delivered of all replicates
 };
 
 }  // namespace imunoise::replay

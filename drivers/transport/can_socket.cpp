@@ -7,12 +7,14 @@
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -36,6 +38,11 @@ void CanSocket::fail(std::int32_t code, const std::string& what) {
 
 CanSocket::CanSocket(std::string interface, std::span<const CanFilter> filters)
     : interface_(std::move(interface)) {
+  constexpr std::string_view kLocal = "unix:";
+  if (interface_.starts_with(kLocal)) {
+    connect_to_emulator(interface_.substr(kLocal.size()));
+    return;
+  }
   descriptor_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
   if (descriptor_ < 0) {
     if (errno == EPERM || errno == EACCES) {
@@ -75,9 +82,25 @@ void CanSocket::configure(std::span<const CanFilter> filters) {
   }
   set(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
   set(SOL_CAN_RAW, CAN_RAW_FD_FRAMES, 1);
-  set(SOL_SOCKET, SO_TIMESTAMPNS, 1);
+  stamp_times();
   set(SOL_SOCKET, SO_RXQ_OVFL, 1);
   set(SOL_SOCKET, SO_RCVBUF, kReceiveBuffer);
+}
+
+void CanSocket::stamp_times() { set(SOL_SOCKET, SO_TIMESTAMPNS, 1); }
+
+void CanSocket::connect_to_emulator(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) fail(IMUNOISE_NOT_FOUND, "the path is too long");
+  std::memcpy(address.sun_path, path.data(), path.size());
+  descriptor_ = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const auto* const generic = static_cast<const sockaddr*>(static_cast<const void*>(&address));
+  if (descriptor_ < 0 || ::connect(descriptor_, generic, sizeof address) != 0) {
+    fail(IMUNOISE_NOT_FOUND,
+         fmt::format("{}; is imunoise emulate running?", std::generic_category().message(errno)));
+  }
+  stamp_times();
 }
 
 void CanSocket::bind_to_interface() {
@@ -122,6 +145,7 @@ std::optional<ReceivedCanFrame> CanSocket::receive() {
          fmt::format("{}; plug the adapter in, or bring it up: ip link set {} up",
                      std::generic_category().message(errno), interface_));
   }
+  if (count == 0) fail(IMUNOISE_DISCONNECTED, "the emulated bus is gone; start it again");
   ReceivedCanFrame out;
   for (cmsghdr* part_of = CMSG_FIRSTHDR(&message); part_of != nullptr;
        part_of = CMSG_NXTHDR(&message, part_of)) {

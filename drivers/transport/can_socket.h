@@ -28,8 +28,8 @@ struct ReceivedCanFrame {
 /// can only be closed. One thread at a time.
 class CanSocket {
  public:
-  /// Throws IMUNOISE_NOT_FOUND (no such interface, it is down, the kernel has no CAN) and
-  /// IMUNOISE_NO_ACCESS.
+  /// "unix:PATH" is an emulated bus instead, which passes every frame. Throws IMUNOISE_NOT_FOUND
+  /// (no such interface, it is down, the kernel has no CAN) and IMUNOISE_NO_ACCESS.
   CanSocket(std::string interface, std::span<const CanFilter> filters);
   CanSocket(const CanSocket&) = delete;
   CanSocket& operator=(const CanSocket&) = delete;
@@ -42,6 +42,8 @@ class CanSocket {
 
  private:
   [[noreturn]] void fail(std::int32_t code, const std::string& what);
+  void connect_to_emulator(const std::string& path);
+  void stamp_times();
   void bind_to_interface();
   void configure(std::span<const CanFilter> filters);
   template <class Value>

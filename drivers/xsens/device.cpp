@@ -15,7 +15,6 @@
 namespace imunoise::xsens {
 namespace {
 
-using drivers::Refusal;
 using drivers::XbusFrame;
 using drivers::XsensMessage;
 using std::chrono::milliseconds;
@@ -37,8 +36,9 @@ bool may_pass(const plugin::DeviceError& error) {
 }  // namespace
 
 XsensDevice::Started XsensDevice::start(const Settings& settings,
-                                        const plugin::CancelSignal& cancel) {
-  FoundDevice found = find_device(settings.port, settings.baud, cancel);
+                                        const plugin::CancelSignal& cancel,
+                                        const plugin::WireTap& tap) {
+  FoundDevice found = find_device(settings.port, settings.baud, cancel, tap);
   Dialogue dialogue(*found.port, cancel);
   Setup setup = configure(dialogue, settings);
   return {std::move(found.port), found.baud, std::move(setup), dialogue.take_rest()};
@@ -47,7 +47,7 @@ XsensDevice::Started XsensDevice::start(const Settings& settings,
 XsensDevice::Started XsensDevice::start_again() const {
   for (;;) {
     try {
-      Started out = start(settings_, closing_);
+      Started out = start(settings_, closing_, wire_);
       if (out.setup.serial == setup_.serial && out.setup.sends == setup_.sends) return out;
       throw plugin::DeviceError(
           IMUNOISE_FAILED,
@@ -64,8 +64,8 @@ XsensDevice::Started XsensDevice::start_again() const {
 }
 
 XsensDevice::XsensDevice(Settings settings, const plugin::Host& host)
-    : settings_(std::move(settings)), host_(host) {
-  Started started = start(settings_, closing_);
+    : settings_(std::move(settings)), host_(host), wire_(host.wire_tap()) {
+  Started started = start(settings_, closing_, wire_);
   setup_ = started.setup;
   rows_ = RowMaker::make(setup_);
   period_ns_ = std::llround(1e9 / rows_->streams().front().nominal_rate_hz);
@@ -82,7 +82,7 @@ void XsensDevice::measure(Started started) {
   port_ = std::move(started.port);
   settings_.baud = started.baud;  // where to look for it first, should it go
   parser_ = std::move(started.rest);
-  told_ = parser_.refused();
+  refused_.begin(parser_);
   rows_->restart();
   last_host_ns_ = 0;
   last_sample_ = Clock::now();
@@ -130,7 +130,7 @@ void XsensDevice::receive(plugin::Samples& samples) {
   parser_.push(drivers::Bytes(bytes).first(count));
   std::vector<XbusFrame> frames;
   while (const auto frame = parser_.next()) frames.push_back(*frame);
-  count_refused(samples);
+  refused_.count(parser_, samples);
   // Of messages that came together only the last came now; the others waited in a buffer.
   auto waited = std::count_if(frames.begin(), frames.end(), carries_samples);
   for (const XbusFrame& frame : frames) {
@@ -157,14 +157,6 @@ void XsensDevice::take_other(const XbusFrame& frame) {
     default:
       return;
   }
-}
-
-void XsensDevice::count_refused(plugin::Samples& samples) {
-  const drivers::Refusals& now = parser_.refused();
-  const auto news = [&](Refusal reason) { return now.count(reason) - told_.count(reason); };
-  if (const auto n = news(Refusal::kChecksum)) samples.refuse(0, plugin::Reason::kChecksum, n);
-  if (const auto n = news(Refusal::kLength)) samples.refuse(0, plugin::Reason::kMalformed, n);
-  told_ = now;
 }
 
 }  // namespace imunoise::xsens

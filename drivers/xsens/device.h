@@ -10,6 +10,7 @@
 #include "drivers/plugin/device.h"
 #include "drivers/transport/serial_port.h"
 #include "drivers/xsens/frame.h"
+#include "drivers/xsens/refusal_counter.h"
 #include "drivers/xsens/rows.h"
 #include "drivers/xsens/settings.h"
 #include "drivers/xsens/setup.h"
@@ -36,7 +37,8 @@ class XsensDevice final : public plugin::Device {
     drivers::XbusParser rest;
   };
 
-  static Started start(const Settings& settings, const plugin::CancelSignal& cancel);
+  static Started start(const Settings& settings, const plugin::CancelSignal& cancel,
+                       const plugin::WireTap& tap);
   Started start_again() const;
   void measure(Started started);
   // Closes the port and begins to look for the device.
@@ -45,16 +47,16 @@ class XsensDevice final : public plugin::Device {
   bool recover(const plugin::Wait& wait);
   void receive(plugin::Samples& samples);
   void take_other(const drivers::XbusFrame& frame);
-  void count_refused(plugin::Samples& samples);
 
   Settings settings_;
   plugin::Host host_;
+  plugin::WireTap wire_;  // whoever reads the port calls it: a recovery, or the reading thread
   plugin::CancelSignal closing_;
   Setup setup_;
   std::unique_ptr<RowMaker> rows_;
   std::unique_ptr<transport::SerialPort> port_;  // none while the device is looked for
   drivers::XbusParser parser_;
-  drivers::Refusals told_;  // of the parser's refusals, those counted already
+  RefusalCounter refused_;
   Clock::time_point last_sample_;
   std::int64_t last_host_ns_ = 0;  // host times do not run backwards
   std::int64_t period_ns_ = 0;

@@ -112,8 +112,8 @@ void change_baud(transport::SerialPort& port, std::uint32_t wanted,
 }  // namespace
 
 FoundDevice find_device(const std::string& path, std::optional<std::uint32_t> wanted,
-                        const plugin::CancelSignal& cancel) {
-  auto port = std::make_unique<transport::SerialPort>(path);
+                        const plugin::CancelSignal& cancel, const plugin::WireTap& tap) {
+  auto port = transport::tapped(transport::SerialPort::open(path), tap);
   std::uint32_t baud = Search(*port, cancel).find(in_order(wanted));
   if (wanted && baud != *wanted) {
     change_baud(*port, *wanted, cancel);

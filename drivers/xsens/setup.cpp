@@ -30,7 +30,7 @@ T or_fail(const Dialogue& dialogue, Result<T> result) {
 }
 
 // The printable text of a payload, without what pads it.
-std::string text_of(const Payload& payload) {
+std::string text_of(drivers::Bytes payload) {
   const auto end = std::find_if(payload.begin(), payload.end(),
                                 [](std::uint8_t byte) { return byte < 0x20 || byte > 0x7e; });
   std::string out(payload.begin(), end);
@@ -39,15 +39,13 @@ std::string text_of(const Payload& payload) {
 }
 
 void identify(Dialogue& dialogue, Setup& setup) {
-  for (const std::uint8_t byte : dialogue.require(XsensMessage::kRequestDeviceId)) {
-    setup.serial += fmt::format("{:02X}", byte);
-  }
-  if (const auto product = dialogue.ask(XsensMessage::kRequestProductCode).payload) {
-    setup.product = text_of(*product);
-  }
-  const auto firmware = dialogue.ask(XsensMessage::kRequestFirmwareRevision).payload;
-  if (firmware && firmware->size() >= 3) {
-    setup.firmware = fmt::format("{}.{}.{}", (*firmware)[0], (*firmware)[1], (*firmware)[2]);
+  const auto take = [&](XsensMessage request, drivers::Bytes payload) {
+    identify_by({drivers::acknowledged_by(request), payload}, setup);
+  };
+  take(XsensMessage::kRequestDeviceId, dialogue.require(XsensMessage::kRequestDeviceId));
+  for (const XsensMessage request :
+       {XsensMessage::kRequestProductCode, XsensMessage::kRequestFirmwareRevision}) {
+    if (const auto payload = dialogue.ask(request).payload) take(request, *payload);
   }
 }
 
@@ -122,6 +120,25 @@ XsensConfiguration set_legacy(Dialogue& dialogue, const Settings& settings) {
 }
 
 }  // namespace
+
+void identify_by(const drivers::XbusFrame& answer, Setup& setup) {
+  const drivers::Bytes payload = answer.payload;
+  switch (static_cast<XsensMessage>(answer.message_id)) {
+    case XsensMessage::kDeviceId:
+      setup.serial.clear();
+      for (const std::uint8_t byte : payload) setup.serial += fmt::format("{:02X}", byte);
+      break;
+    case XsensMessage::kProductCode:
+      setup.product = text_of(payload);
+      break;
+    case XsensMessage::kFirmwareRevision:
+      if (payload.size() < 3) break;
+      setup.firmware = fmt::format("{}.{}.{}", payload[0], payload[1], payload[2]);
+      break;
+    default:
+      break;
+  }
+}
 
 Setup configure(Dialogue& dialogue, const Settings& settings) {
   Setup out;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/xsens/dialogue.h"
+#include "drivers/xsens/frame.h"
 #include "drivers/xsens/legacy.h"
 #include "drivers/xsens/messages.h"
 #include "drivers/xsens/settings.h"
@@ -20,6 +21,10 @@ struct Setup {
   /// As the device confirms them: outputs of MTData2, or all about legacy MTData.
   std::variant<std::vector<drivers::XsensOutput>, drivers::XsensConfiguration> sends;
 };
+
+/// Takes over what an answer tells of the device: its identifier, product code, or firmware.
+/// Other messages tell nothing.
+void identify_by(const drivers::XbusFrame& answer, Setup& setup);
 
 /// Asks a device in its configuration state who it is, makes it send what the settings say (writing
 /// nothing that it has already: its memory wears), and starts the measurement. Throws

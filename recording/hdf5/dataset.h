@@ -28,4 +28,8 @@ Result<OpenDataset> open_dataset(hid_t group, const std::string& name);
 Hdf5Handle write_dataset(hid_t group, const std::string& name, hid_t stored, hid_t memory,
                          const void* numbers, std::uint64_t size);
 
+/// Reads all numbers of a dataset as `memory` has them, into room for as many. False: they are
+/// damaged.
+bool read_dataset(const OpenDataset& dataset, hid_t memory, void* numbers);
+
 }  // namespace imunoise::recording

@@ -106,8 +106,7 @@ Result<std::vector<Number>> read_numbers(hid_t group, const std::string& name, s
                             kHostTime, rows));
   }
   std::vector<Number> out(rows);
-  if (rows > 0 && H5Dread(dataset->id.get(), hdf5_types<Number>().memory, H5S_ALL, H5S_ALL,
-                          H5P_DEFAULT, out.data()) < 0) {
+  if (!read_dataset(*dataset, hdf5_types<Number>().memory, out.data())) {
     return fail(fmt::format("dataset {}: checksum mismatch", name));
   }
   return out;

@@ -15,4 +15,7 @@ std::uint32_t crc32c(std::string_view bytes, std::string_view more = {});
 /// As the manifest writes it: 8 hexadecimal digits.
 std::string crc32c_text(std::string_view bytes);
 
+/// The same without the processor's own instruction.
+std::uint32_t crc32c_by_table(std::string_view bytes, std::string_view more = {});
+
 }  // namespace imunoise::recording

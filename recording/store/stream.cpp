@@ -148,7 +148,7 @@ Result<void> check_device(const v1::RecordedDevice& device) {
       return in_stream(fmt::format("rate_hz {} is not a sampling rate", stream.rate_hz()));
     }
     if (stream.channels().empty()) return in_stream("it has no channel");
-    std::set<std::string> channels = {"host_time", "counter", "flags"};  // the stream's own columns
+    std::set<std::string> channels(kOwnColumns.begin(), kOwnColumns.end());
     for (const v1::RecordedChannel& channel : stream.channels()) {
       if (auto good = check_name("channel", channel.name(), channels); !good) {
         return in_stream(good.error().message);

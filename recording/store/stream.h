@@ -4,6 +4,7 @@
 // channels that share one clock, one counter and one time column. Descriptions are the messages of
 // proto/imunoise/v1/recording.proto, numbers keep the device's type.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -72,6 +73,9 @@ struct Rows {
 
   std::size_t size() const { return host_time.size(); }
 };
+
+/// What every stream has besides its channels, which may not have these names.
+inline constexpr std::array<std::string_view, 3> kOwnColumns = {"host_time", "counter", "flags"};
 
 /// No rows, with the columns that the stream's description asks for.
 /// Precondition: check_device() accepted the description.

@@ -29,18 +29,25 @@ class RecordingSession {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Opens a device of a driver in `folder`.
+  /// Opens a device of a driver in `folder`; with what comes over its wire where that is wanted.
   static Result<std::unique_ptr<RecordingSession>> open(
       const std::string& folder, const std::string& driver,
-      const std::vector<drivers::OptionText>& options) {
+      const std::vector<drivers::OptionText>& options, bool with_wire = false) {
     static const drivers::Drivers kDrivers = drivers::load_drivers({folder});
     const auto found = kDrivers.find(driver);
     if (!found) return tl::make_unexpected(found.error());
     auto out = std::make_unique<RecordingSession>();
-    auto device = drivers::Device::open(**found, options, [to = out.get()](std::string_view text) {
-      const std::lock_guard lock(to->mutex_);
-      to->notes_.emplace_back(text);
-    });
+    drivers::WireHandler wire;
+    if (with_wire) {
+      wire = [to = out.get()](auto bytes) { to->wire_.append(bytes.begin(), bytes.end()); };
+    }
+    auto device = drivers::Device::open(
+        **found, options,
+        [to = out.get()](std::string_view text) {
+          const std::lock_guard lock(to->mutex_);
+          to->notes_.emplace_back(text);
+        },
+        std::move(wire));
     if (!device) return tl::make_unexpected(device.error());
     out->device_ = std::move(*device);
     out->rows_.resize(out->device_->info().streams.size());
@@ -79,6 +86,8 @@ class RecordingSession {
   std::uint64_t all_refused(std::size_t stream = 0) const {
     return std::accumulate(refused_[stream].begin(), refused_[stream].end(), std::uint64_t{0});
   }
+  /// Bytes that came over the wire since it was opened. While nothing is being read.
+  const std::string& wire() const { return wire_; }
   const std::vector<std::string>& disconnections() const { return disconnections_; }
   const std::string& failure() const { return failure_; }
   drivers::Device& device() { return *device_; }
@@ -114,6 +123,7 @@ class RecordingSession {
 
   mutable std::mutex mutex_;  // of the notes
   std::vector<std::string> notes_;
+  std::string wire_;
   std::unique_ptr<drivers::Device> device_;
   std::vector<std::vector<ReadRow>> rows_;           // by stream
   std::vector<std::vector<std::uint64_t>> refused_;  // by stream and reason, first channel

@@ -204,60 +204,62 @@ TEST(InferenceDocuments, NoiseOverACovariateIsDrawnForDeskPhoneAndTerminal) {
   }
   const std::string words = text(document(report, Digits::kPlain), {100, false, true});
   EXPECT_NE(words.find("0.146 (0.131 … 0.161)"), std::string::npos) << words;
-  TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
-    const Document shown = document(hostile_faults(), Digits::kTypeset);
-    ASSERT_EQ(shown.sections[0].figures.size(), 1U) << "one a replicate";
-    for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
-      EXPECT_NE(shown.sections[0].figures[0].wide.find(kind), std::string::npos) << kind;
-    }
-    EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
-  }
+}
 
-  TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {
-    const Document shown = document(hostile_array(), Digits::kTypeset);
-    ASSERT_EQ(shown.sections[0].figures.size(), 1U);
-    EXPECT_NE(shown.sections[0].figures[0].caption.find("15 of 30 pairs"), std::string::npos);
+TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
+  const Document shown = document(hostile_faults(), Digits::kTypeset);
+  ASSERT_EQ(shown.sections[0].figures.size(), 1U) << "one a replicate";
+  for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
+    EXPECT_NE(shown.sections[0].figures[0].wide.find(kind), std::string::npos) << kind;
   }
+  EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
+}
 
-  TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
-    for (const Document& one : troubled(Digits::kPlain)) {
-      for (const int width : {60, 80, 120}) {
-        std::istringstream lines(text(one, {width, false, true}));
-        for (std::string line; std::getline(lines, line);) {
-          EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
-          EXPECT_EQ(line.find('\x1b'), std::string::npos);
-        }
+TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {
+  const Document shown = document(hostile_array(), Digits::kTypeset);
+  ASSERT_EQ(shown.sections[0].figures.size(), 1U);
+  EXPECT_NE(shown.sections[0].figures[0].caption.find("15 of 30 pairs"), std::string::npos);
+}
+
+TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
+  for (const Document& one : troubled(Digits::kPlain)) {
+    for (const int width : {60, 80, 120}) {
+      std::istringstream lines(text(one, {width, false, true}));
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
+        EXPECT_EQ(line.find('\x1b'), std::string::npos);
       }
     }
   }
+}
 
-  TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
-    const auto badge = [](const v1::TestResult& misfit, const v1::TestResult& differ) {
-      return document(stationarity(misfit, differ), Digits::kPlain).sections.at(0).badge;
-    };
-    EXPECT_EQ(badge(test_result(72, false), test_result(20, false)), "near-stationary");
-    EXPECT_EQ(badge(test_result(72, true), test_result(20, false)), "misfit");
-    EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters move");
-    EXPECT_EQ(badge(test_result(72, true), test_result(20, true)), "misfit, and parameters move");
-    EXPECT_EQ(badge(test_result(72, false), test_result(0, false)), "not tested");
-    EXPECT_EQ(badge(test_result(0, false), test_result(20, false)), "not tested");
-    EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters move");
-  }
+TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
+  const auto badge = [](const v1::TestResult& misfit, const v1::TestResult& differ) {
+    return document(stationarity(misfit, differ), Digits::kPlain).sections.at(0).badge;
+  };
+  EXPECT_EQ(badge(test_result(72, false), test_result(20, false)), "near-stationary");
+  EXPECT_EQ(badge(test_result(72, true), test_result(20, false)), "misfit");
+  EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters move");
+  EXPECT_EQ(badge(test_result(72, true), test_result(20, true)), "misfit, and parameters move");
+  EXPECT_EQ(badge(test_result(72, false), test_result(0, false)), "not tested");
+  EXPECT_EQ(badge(test_result(0, false), test_result(20, false)), "not tested");
+  EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters move");
+}
 
-  // Eleven sub-models of the default model, the worst of them 1e5 times the noise floor, in 80
-  // columns.
-  TEST(InferenceDocuments, NoNumberOfAChoiceIsCut) {
-    v1::ChoiceReports choices;
-    v1::ChoiceReport& choice = *choices.add_channels();
-    for (const double merit : {1.062, 1.38, 18.4, 69.4, 99.4, 100.2, 942.0, 75942.3, 98557.9}) {
-      add_candidate(choice, "2*AR1 + WN + RW", merit);
-    }
-    const std::string shown = text(document(choices, Digits::kPlain), {80, false, true});
-    for (const char* number :
-         {"1.06 (0.96 … 1.17)", "99 (89 … 109)", "98 (88 … 108)", " 942 ", " 75942 ", " 75941 "}) {
-      EXPECT_NE(shown.find(number), std::string::npos) << number << "\n" << shown;
-    }
+// Eleven sub-models of the default model, the worst of them 1e5 times the noise floor, in 80
+// columns.
+TEST(InferenceDocuments, NoNumberOfAChoiceIsCut) {
+  v1::ChoiceReports choices;
+  v1::ChoiceReport& choice = *choices.add_channels();
+  for (const double merit : {1.062, 1.38, 18.4, 69.4, 99.4, 100.2, 942.0, 75942.3, 98557.9}) {
+    add_candidate(choice, "2*AR1 + WN + RW", merit);
   }
+  const std::string shown = text(document(choices, Digits::kPlain), {80, false, true});
+  for (const char* number :
+       {"1.06 (0.96 … 1.17)", "99 (89 … 109)", "98 (88 … 108)", " 942 ", " 75942 ", " 75941 "}) {
+    EXPECT_NE(shown.find(number), std::string::npos) << number << "\n" << shown;
+  }
+}
 
 }  // namespace
 }  // namespace imunoise::report

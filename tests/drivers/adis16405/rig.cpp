@@ -52,13 +52,13 @@ Rig::Rig(drivers::usb::Id bridge_id, const Measurement& mean, const Measurement&
       sensor(source, kSeed),
       bridge(make_peripheral(bridge_id, sensor)),
       bus(*bridge, kStartNs),
-      note_handler([this](std::string_view text) { notes.emplace_back(text); }) {}
+      handlers{[this](std::string_view text) { notes.emplace_back(text); }, {}} {}
 
 void Rig::open(const drivers::adis16405::Choice& choice) {
   device.reset();
   const std::shared_ptr<drivers::usb::Bus> borrowed(std::shared_ptr<void>(), &bus);
   driver = std::make_unique<drivers::adis16405::Adis16405Device>(
-      borrowed, choice, plugin::Host(&drivers::host_services(), &note_handler));
+      borrowed, choice, plugin::Host(&drivers::host_services(), &handlers));
   auto opened =
       testing::open({driver->describe(), [&](plugin::Samples& samples, const plugin::Wait& wait) {
                        driver->read(samples, wait);

@@ -54,7 +54,7 @@ struct Rig {
   std::unique_ptr<emulator::UsbPeripheral> bridge;
   emulator::EmulatedBus bus;
   std::vector<std::string> notes;
-  drivers::NoteHandler note_handler;
+  drivers::DeviceHandlers handlers;
   std::unique_ptr<drivers::adis16405::Adis16405Device> driver;
   std::unique_ptr<drivers::Device> device;
   std::array<Received, 3> received;

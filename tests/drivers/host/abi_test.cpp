@@ -23,6 +23,7 @@ TEST(DriverAbi, StaysAsPublished) {
   EXPECT_EQ(offsetof(imunoise_driver, close), 88U);
   EXPECT_EQ(offsetof(imunoise_host, now_ns), 8U);
   EXPECT_EQ(offsetof(imunoise_host, note), 16U);
+  EXPECT_EQ(offsetof(imunoise_host, wire), 24U);
   EXPECT_EQ(offsetof(imunoise_error, capacity), 4U);
   EXPECT_EQ(offsetof(imunoise_error, text), 8U);
   EXPECT_EQ(offsetof(imunoise_option, type), 4U);

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <condition_variable>
+#include <cstddef>
 #include <limits>
 #include <mutex>
 #include <thread>
 
+#include "drivers/host/services.h"
 #include "tests/drivers/host/pretend_driver.h"
 
 namespace imunoise {
@@ -183,6 +185,25 @@ TEST(DriverBase, HostTellsTimeAndTakesNotes) {
   EXPECT_EQ(note, "reset after 3 bad checksums");
   EXPECT_GE(now, std::chrono::nanoseconds(before).count());
   EXPECT_LE(now, std::chrono::nanoseconds(after).count());
+}
+
+TEST(DriverBase, AWireIsTappedOnlyWhereTheHostWantsIt) {
+  std::string wire;
+  drivers::DeviceHandlers keeps = {{},
+                                   [&](auto bytes) { wire.append(bytes.begin(), bytes.end()); }};
+  const plugin::WireTap tap = plugin::Host(&drivers::host_services(), &keeps).wire_tap();
+  ASSERT_TRUE(tap);
+  tap(std::vector<std::uint8_t>{'F', 'A'});
+  tap(std::vector<std::uint8_t>{'F', 'F'});
+  EXPECT_EQ(wire, "FAFF");
+
+  drivers::DeviceHandlers wants_none;
+  EXPECT_FALSE(plugin::Host(&drivers::host_services(), &wants_none).wire_tap());
+
+  imunoise_host older = drivers::host_services();  // from before there were wires
+  older.size = offsetof(imunoise_host, wire);
+  older.wire = nullptr;
+  EXPECT_FALSE(plugin::Host(&older, &keeps).wire_tap());
 }
 
 TEST(DriverBase, AsksOnceWhereTheHostDoesNotWait) {

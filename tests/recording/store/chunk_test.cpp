@@ -85,6 +85,10 @@ TEST(Crc32c, ExamplesOfRfc3720) {
   EXPECT_EQ(crc32c(std::string(32, '\xff')), 0x62a8ab43U);
   EXPECT_EQ(crc32c(counting), 0x46dd794eU);
   EXPECT_EQ(crc32c(counting.substr(0, 13), counting.substr(13)), 0x46dd794eU);
+  for (std::size_t length = 0; length <= counting.size(); ++length) {
+    EXPECT_EQ(crc32c(counting.substr(length), counting.substr(0, length)),
+              crc32c_by_table(counting.substr(length), counting.substr(0, length)));
+  }
   EXPECT_EQ(crc32c("123456789"), 0xe3069283U);
   EXPECT_EQ(crc32c("12345", "6789"), 0xe3069283U);
   EXPECT_EQ(crc32c_text("123456789"), "e3069283");

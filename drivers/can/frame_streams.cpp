@@ -1,0 +1,96 @@
+#include "drivers/can/frame_streams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace imunoise::can {
+namespace {
+
+// To three digits: what a person would have configured.
+double round_rate(double rate) {
+  const double unit = std::pow(10.0, std::floor(std::log10(rate)) - 2.0);
+  return std::round(rate / unit) * unit;
+}
+
+}  // namespace
+
+// Frames a second; 0: not known.
+double FrameStreams::Arrivals::rate() const {
+  if (count < 2 || last_ns <= first_ns) return 0.0;
+  return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
+}
+
+Result<FrameStreams> FrameStreams::make(const drivers::CanChannels& channels) {
+  auto streams = CanStream::all_of(channels);
+  if (!streams) return tl::make_unexpected(streams.error());
+  FrameStreams out(channels);
+  out.streams_ = std::move(*streams);
+  out.arrivals_.resize(out.streams_.size());
+  out.restart();
+  return out;
+}
+
+std::vector<drivers::Stream> FrameStreams::descriptions() const {
+  std::vector<drivers::Stream> out;
+  for (const CanStream& stream : streams_) out.push_back(stream.description());
+  return out;
+}
+
+template <class Visit>
+void FrameStreams::for_streams_of(const drivers::CanFrame& frame, Visit visit) {
+  const drivers::CanMessage* const message = channels_->database().find(frame.id, frame.extended);
+  if (message == nullptr) return;
+  drivers::Refusals ignored;  // signals that are missing are counted by their streams
+  drivers::decode_signals(*message, frame.data(), present_, ignored);
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (&streams_[s].message() == message && streams_[s].is_in(present_)) visit(s);
+  }
+}
+
+void FrameStreams::hear(const drivers::CanFrame& frame, std::int64_t time_ns) {
+  for_streams_of(frame, [&](std::size_t s) {
+    Arrivals& arrivals = arrivals_[s];
+    if (arrivals.count++ == 0) arrivals.first_ns = time_ns;
+    arrivals.last_ns = time_ns;
+  });
+}
+
+const CanStream* FrameStreams::missing() const {
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (arrivals_[s].count == 0) return &streams_[s];
+  }
+  return nullptr;
+}
+
+void FrameStreams::settle(std::optional<double> rate_hz) {
+  std::vector<CanStream> came;
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (arrivals_[s].count == 0) continue;
+    const double measured = arrivals_[s].rate();
+    CanStream& stream = came.emplace_back(std::move(streams_[s]));
+    if (measured == 0.0) continue;
+    stream.set_rate(rate_hz ? *rate_hz / std::max(1.0, std::round(*rate_hz / measured))
+                            : round_rate(measured));
+  }
+  streams_ = std::move(came);
+  restart();
+}
+
+void FrameStreams::take(const drivers::CanFrame& frame, std::int64_t time_ns,
+                        plugin::Samples& samples) {
+  for_streams_of(frame, [&](std::size_t s) {
+    streams_[s].add(present_, s, time_ns, std::exchange(flags_[s], 0U), samples);
+  });
+}
+
+void FrameStreams::mark(std::uint32_t flags) {
+  for (std::uint32_t& next : flags_) next |= flags;
+}
+
+void FrameStreams::restart() {
+  flags_.assign(streams_.size(), IMUNOISE_SAMPLE_AFTER_RESTART);
+  for (CanStream& stream : streams_) stream.forget_counter();
+}
+
+}  // namespace imunoise::can

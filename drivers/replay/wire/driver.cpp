@@ -1,0 +1,115 @@
+// The driver "wire": captured bytes of a device, through the codec of its driver.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "drivers/can/channel_options.h"
+#include "drivers/can/presets.h"
+#include "drivers/plugin.h"
+#include "drivers/replay/wire/wire_device.h"
+
+namespace imunoise::replay {
+namespace {
+
+drivers::DriverInfo describe_driver() {
+  using enum drivers::OptionType;
+  const auto presets = drivers::preset_names();
+  return {
+      "wire",
+      "Captured bytes as a device: Xbus dumps, logs of candump, bursts of an ADIS16405",
+      IMUNOISE_VERSION,
+      {
+          {.name = "file",
+           .type = kText,
+           .description = "The capture, e.g. of imunoise record --wire",
+           .required = true},
+          {.name = "format",
+           .type = kText,
+           .description = "How its bytes are to be read",
+           .required = true,
+           .choices = {"xbus", "candump", "adis16405"}},
+          {.name = "speed",
+           .type = kNumber,
+           .description = "Times real time; 0: as fast as it is read",
+           .by_default = "1",
+           .minimum = 0.0,
+           .maximum = 1e9},
+          {.name = "preset",
+           .type = kText,
+           .description = "candump: an IMU whose messages are known",
+           .choices = {presets.begin(), presets.end()}},
+          {.name = "dbc", .type = kText, .description = "candump: DBC file with its messages"},
+          {.name = "channel",
+           .type = kText,
+           .description = "candump: as for the driver can",
+           .repeated = true},
+          {.name = "rate",
+           .type = kNumber,
+           .description = "candump: of the fastest message (default: as it is heard); xbus: of "
+                          "messages, where the capture does not say; adis16405: sampling rate "
+                          "(default: 819.2)",
+           .unit = "Hz",
+           .minimum = 0.001,
+           .maximum = 100000.0},
+          {.name = "address",
+           .type = kInteger,
+           .description = "candump: J1939 source address of an ACEINNA unit",
+           .minimum = 0,
+           .maximum = 253},
+          {.name = "gyro_range",
+           .type = kText,
+           .description = "adis16405: full scale of the gyroscopes",
+           .unit = "deg/s",
+           .by_default = "300",
+           .choices = {"300", "150", "75"}},
+      },
+  };
+}
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw plugin::DeviceError(IMUNOISE_BAD_OPTION, text);
+}
+
+template <class T>
+T or_throw(Result<T> result) {
+  if (!result) refuse(result.error().message);
+  return std::move(*result);
+}
+
+std::optional<double> rate_of(const plugin::Options& options) {
+  if (!options.has("rate")) return std::nullopt;
+  return options.number("rate");
+}
+
+std::unique_ptr<WireCodec> open_can(const std::string& file, const plugin::Options& options) {
+  auto channels = imunoise::can::channels_of(options);
+  const std::string product = options.text(options.has("preset") ? "preset" : "dbc");
+  return open_candump(file, std::move(channels), product, rate_of(options));
+}
+
+std::unique_ptr<WireCodec> open_codec(const plugin::Options& options) {
+  const std::string file = options.text("file");
+  const std::string format = options.text("format");
+  if (format == "xbus") return open_xbus(file, rate_of(options));
+  if (format == "candump") return open_can(file, options);
+  drivers::adis16405::Settings settings;
+  const auto range = static_cast<unsigned>(std::stoul(options.text("gyro_range")));
+  settings.sensitivity_averaging = or_throw(drivers::adis16405::sensitivity_averaging(range, 4));
+  if (const auto rate = rate_of(options)) {
+    settings.sample_period = or_throw(drivers::adis16405::sample_period(Hertz{*rate}));
+  }
+  return open_bursts(file, settings);
+}
+
+std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
+                                            const plugin::Host& host) {
+  return std::make_unique<WireDevice>(open_codec(options), Pace{options.number("speed"), 0.0},
+                                      host);
+}
+
+}  // namespace
+}  // namespace imunoise::replay
+
+IMUNOISE_DRIVER(imunoise::replay::describe_driver, imunoise::replay::open_device)
