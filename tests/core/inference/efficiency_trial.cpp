@@ -23,7 +23,7 @@ namespace imunoise {
 namespace {
 
 constexpr std::uint64_t kSeed = 77'000;
-constexpr std::size_t kRuns = 300;
+constexpr std::size_t kRuns = 200;
 constexpr std::size_t kSamples = std::size_t{1} << 15U;
 constexpr double kMedianOfSquare = 0.4549;  // of a standard normal number
 
