@@ -91,9 +91,9 @@ class MtData2Rows final : public RowMaker {
     }
     const std::int64_t device_time = clock_(*data_.sample_time_fine);
     for (std::size_t s = 0; s < streams_.size(); ++s) {
-      const std::size_t found = find_numbers(frame.payload, items_[s]);
-      if (found == 0 && s > 0) continue;  // a slower stream is not in every message
-      if (found != streams_[s].channels.size()) {
+      const bool complete = find_numbers(frame.payload, items_[s]);
+      if (numbers_.empty() && s > 0) continue;  // a slower stream is not in every message
+      if (!complete) {
         samples.refuse(s, plugin::Reason::kMalformed);
         continue;
       }
@@ -111,10 +111,14 @@ class MtData2Rows final : public RowMaker {
   }
 
  private:
-  // Collects the numbers of these items, in their order; says how many there are.
-  std::size_t find_numbers(drivers::Bytes payload, const std::vector<std::uint16_t>& ids) {
+  // Collects the numbers of these items, in their order. True where each item has as many as it
+  // should.
+  bool find_numbers(drivers::Bytes payload, const std::vector<std::uint16_t>& ids) {
     numbers_.clear();
+    std::size_t expected = 0;
+    bool complete = true;
     for (const std::uint16_t id : ids) {
+      expected += drivers::find_number_item(id)->channels.size();
       const XsensFormat format = drivers::format_of(id);
       for (drivers::Bytes rest = payload; const auto item = drivers::take_item(rest);) {
         if (item->id != id) continue;
@@ -123,8 +127,9 @@ class MtData2Rows final : public RowMaker {
           numbers_.emplace_back(format, drivers::take_number(in, format));
         }
       }
+      complete = complete && numbers_.size() == expected;
     }
-    return numbers_.size();
+    return complete;
   }
 
   std::vector<std::vector<std::uint16_t>> items_;  // by stream, in the order of its channels

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "drivers/host/services.h"
 #include "tests/drivers/adis16405/rig.h"
 
 namespace imunoise::testing {
@@ -222,10 +223,11 @@ class TwoBridges final : public drivers::usb::Bus {
 };
 
 TEST(Adis16405Start, ASerialNumberChoosesAmongSeveral) {
-  const auto open = [](const std::string& serial) -> Refusal {
+  drivers::DeviceHandlers none;
+  const auto open = [&](const std::string& serial) -> Refusal {
     try {
       drivers::adis16405::Adis16405Device(std::make_shared<TwoBridges>(), {"any", serial},
-                                          plugin::Host(nullptr, nullptr));
+                                          plugin::Host(&drivers::host_services(), &none));
     } catch (const plugin::DeviceError& error) {
       return {error.code(), error.what()};
     }

@@ -4,6 +4,7 @@
 
 #include "drivers/xsens/items.h"
 #include "drivers/xsens/messages.h"
+#include "drivers/xsens/number.h"
 #include "tests/drivers/wire/capture.h"
 
 namespace imunoise::testing {
@@ -57,6 +58,33 @@ TEST_F(Capture, AnXbusDumpWithoutItsBeginningTellsItsOutputs) {
   EXPECT_EQ(session->rows()[3].numbers, (std::vector<double>{1.0, 1.0, 1.0}));
   EXPECT_EQ(session->rows(1)[3].numbers, (std::vector<double>{2.0, 2.0, 2.0}));
   EXPECT_EQ(session->rows()[50].host_time_ns - session->rows()[0].host_time_ns, 1'000'000'000);
+}
+
+// Six numbers in all, but not where they belong: acceleration in float32, rate in fixed point.
+TEST_F(Capture, AnMtiMessageWithNumbersInTheWrongItemIsRefused) {
+  const auto mixed = [](std::uint16_t index, std::size_t accelerations, std::size_t rates) {
+    std::vector<std::uint8_t> payload;
+    const auto item = [&](std::uint16_t id, std::size_t bytes) {
+      drivers::append_big_endian(payload, id);
+      payload.push_back(static_cast<std::uint8_t>(bytes));
+      payload.resize(payload.size() + bytes);
+    };
+    item(static_cast<std::uint16_t>(XsensItem::kPacketCounter), 2);
+    payload.back() = static_cast<std::uint8_t>(index);
+    item(static_cast<std::uint16_t>(XsensItem::kSampleTimeFine), 4);
+    payload.back() = static_cast<std::uint8_t>(index);
+    item(drivers::id_of(XsensItem::kAcceleration, drivers::XsensFormat::kFloat32),
+         4 * accelerations);
+    item(drivers::id_of(XsensItem::kRateOfTurn, drivers::XsensFormat::kFixed12_20), 4 * rates);
+    const auto bytes = drivers::encode_message(XsensMessage::kMtData2, payload);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  write(mixed(0, 3, 3) + mixed(1, 4, 2) + mixed(2, 2, 4) + mixed(3, 3, 3));
+  const auto session = replay({{"rate", "100"}}, "xbus");
+  ASSERT_NE(session, nullptr);
+  ASSERT_TRUE(session->read_rows(2)) << session->failure();
+  EXPECT_EQ(session->rows()[1].counter, 3U);
+  EXPECT_EQ(session->refused(IMUNOISE_REFUSED_MALFORMED), 2U);
 }
 
 TEST_F(Capture, CandumpLinesOfOthersArePassedOver) {
