@@ -55,7 +55,7 @@ std::size_t StuckWatch::repeated(Eigen::Index index) const {
 
 double StuckWatch::gain(Eigen::Index index) const {
   const auto i = static_cast<std::size_t>(index);
-  if (most_[i] == 0 || repeated_[i] < kFewest) return 0.0;
+  if (most_[i] == 0 || repeated_[i] < most_[i]) return 0.0;
   return gain_[i] * static_cast<double>(repeated_[i]);
 }
 

@@ -31,7 +31,7 @@ class StuckWatch {
   /// long.
   bool feed(const Eigen::Ref<const Eigen::VectorXd>& readings);
   /// How often the last reading of `used[index]` has been repeated, and the log-likelihood that a
-  /// stuck sensor gains by it; 0 below kFewest.
+  /// stuck sensor gains by it; 0 while it is not too often.
   std::size_t repeated(Eigen::Index index) const;
   double gain(Eigen::Index index) const;
 

@@ -63,7 +63,7 @@ TEST(FaultDetector, NamesTheSensorThatGrowsNoisy) {
   const ArrayModel model = coloured_model();
   const FaultDetector designed = detector_of(model);
   int right = 0;
-  constexpr int kRuns = 24;
+  constexpr int kRuns = 12;
   std::vector<double> sizes;
   for (std::uint32_t run = 0; run < kRuns; ++run) {
     Readings data = healthy(model, run);
