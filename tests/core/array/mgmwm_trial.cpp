@@ -43,10 +43,8 @@ ArrayModel truth_of(double walk_unit) {
 
 Errors run(const ArrayModel& truth, std::uint32_t set) {
   Errors out;
-  const Eigen::MatrixXd samples = simulate(truth, kSamples, kSeed, set);
-  const WaveletCovariance measured = testing::moments_of(samples);
-  std::vector<std::vector<double>> data;
-  for (const auto column : samples.colwise()) data.emplace_back(column.begin(), column.end());
+  const WaveletCovariance measured = testing::simulated_moments(truth, kSamples, kSeed, set);
+  const auto data = testing::simulated_array(truth, kSamples, kSeed, set);
   const ArrayFit fit = fit_array(parse_array_model("RW[corr] + WN", Hertz{1.0}).value(), {3, {}},
                                  std::span(&measured, 1));
   const testing::VaccaroZaki other = testing::VaccaroZakiEstimator(2)(data);

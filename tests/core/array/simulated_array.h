@@ -11,6 +11,16 @@
 
 namespace imunoise::testing {
 
+/// One realisation: one vector a sensor.
+inline std::vector<std::vector<double>> simulated_array(const ArrayModel& model,
+                                                        std::size_t samples, std::uint64_t seed,
+                                                        std::uint32_t set) {
+  const Eigen::MatrixXd columns = simulate(model, samples, seed, set);
+  std::vector<std::vector<double>> out;
+  for (const auto column : columns.colwise()) out.emplace_back(column.begin(), column.end());
+  return out;
+}
+
 /// The columns of a matrix as signals, which borrow it.
 inline std::vector<Signal> signals_of(const Eigen::MatrixXd& samples, Hertz rate = Hertz{1.0}) {
   std::vector<Signal> out;

@@ -206,13 +206,17 @@ TEST(PoolingAndAveraging, DifferAsPredicted) {
       std::printf("| %s | %s | %.5f | %.5f ± %.5f | %.5f |\n",
                   alike ? "alike, T = 2048" : "φ = 0.98 and 0.995, T = 65536", name,
                   predicted.*what, mean, error, std::sqrt(square));
-      if (!alike) EXPECT_NEAR(mean, predicted.*what, 4.0 * error) << name;
+      if (!alike) {
+        EXPECT_NEAR(mean, predicted.*what, 4.0 * error) << name;
+      }
       return square;
     };
     std::printf("| four replicates of AR1 + WN | | φ predicted | φ measured | RMSE |\n");
     const double pooled = describe("MuGMWM", &Memory::pooled);
     const double averaged = describe("AGMWM", &Memory::averaged);
-    if (alike) EXPECT_LT(pooled, averaged);
+    if (alike) {
+      EXPECT_LT(pooled, averaged);
+    }
   }
 }
 
