@@ -82,7 +82,7 @@ TEST_F(Cli, TheLikelihoodGoesOnFromTheMoments) {
   const auto likelihood = nlohmann::json::parse(done.out);
   EXPECT_EQ(likelihood["estimator"], "MuGMWM + Whittle");
   EXPECT_EQ(likelihood["p_value"], moments["p_value"]);  // of the model, not of the estimate
-  for (int term = 0; term < 2; ++term) {
+  for (std::size_t term = 0; term < 2; ++term) {
     const auto& a = moments["terms"][term]["parameters"][0];
     const auto& b = likelihood["terms"][term]["parameters"][0];
     EXPECT_NE(a["value"], b["value"]);
