@@ -27,7 +27,7 @@ std::size_t quick_length(std::size_t n) {
 
 Eigen::VectorXd cosine_transform(const VectorRef& x) {
   const Eigen::Index n = x.size();
-  assert(quick_length(static_cast<std::size_t>(n)) == static_cast<std::size_t>(n));
+  assert(n >= 2 && quick_length(static_cast<std::size_t>(n)) == static_cast<std::size_t>(n));
   const double mean = x.mean();
   // Even samples forwards, then odd samples backwards: half the length of a mirrored series.
   std::vector<std::complex<double>> folded(static_cast<std::size_t>(n));

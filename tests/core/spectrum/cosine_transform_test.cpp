@@ -37,7 +37,7 @@ Eigen::VectorXd some_series(Eigen::Index n) {
 }
 
 TEST(CosineTransform, IsWhatItsFormulaSays) {
-  for (const Eigen::Index n : {1, 2, 7, 12, 65, 1001}) {
+  for (const Eigen::Index n : {2, 7, 12, 65, 1001}) {
     const Eigen::VectorXd x = some_series(n);
     const Eigen::VectorXd direct = dense_transform(n) * x;
     EXPECT_LT((cosine_transform(x) - direct).norm(), 1e-12 * x.norm()) << n;
