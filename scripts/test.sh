@@ -13,9 +13,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 labels=(--label-regex '^fast$')
 quick=false
+slow=false
 for argument in "$@"; do
   case $argument in
-    --all) labels=(--label-regex '^(fast|slow)$') ;;
+    --all)
+      labels=(--label-regex '^(fast|slow)$')
+      slow=true
+      ;;
     --quick) quick=true ;;
     *)
       echo "usage: $0 [--all] [--quick]" >&2
@@ -69,6 +73,9 @@ heading "packages"
 bash scripts/install_packages.sh test
 
 check "dev: build" build dev
+if [[ $slow == true ]]; then
+  check "dev: build of the slow trials" build dev slow_tests
+fi
 if [[ $quick == false ]]; then
   check "asan: AddressSanitizer and UndefinedBehaviorSanitizer" sanitizer asan
   check "tsan: ThreadSanitizer" sanitizer tsan
