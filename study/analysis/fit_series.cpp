@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/inference/efficient_fit.h"
 #include "study/analysis/prepare.h"
 
@@ -42,6 +44,14 @@ std::string name_of(Estimator estimator, std::size_t replicates) {
   return estimator == Estimator::kWhittle ? moments + " + Whittle" : moments;
 }
 
+// Terms of which moments at dyadic scales see little (docs/efficiency.md).
+bool seen_badly_by_moments(const Model& model) {
+  return std::any_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
+    return std::holds_alternative<Resonance>(term.process) ||
+           std::holds_alternative<Drift>(term.process);
+  });
+}
+
 }  // namespace
 
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
@@ -61,6 +71,12 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
   out.set_default_model(!options.model);
   out.set_estimator(name_of(options.estimator, series.replicates.size()));
   if (!options.model) out.add_notes(default_model_note("was fitted"));
+  if (options.estimator != Estimator::kWhittle && seen_badly_by_moments(model)) {
+    out.add_notes(
+        "A resonance or a drift is estimated much more precisely with --estimator whittle, once "
+        "the "
+        "model fits.");
+  }
   progress.report(1.0);
   return out;
 }
