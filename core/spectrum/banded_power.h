@@ -19,10 +19,10 @@ struct BandedPower {
   Hertz rate;
 };
 
-/// Bands of n samples without a signal: power and ramp_cross are zero. Precondition: n ≥ 16.
+/// Bands of n samples without a signal: power and ramp_cross are zero.
 BandedPower bands_of(std::size_t n, Hertz rate);
 
-/// Power of the first quick_length() samples of a signal of at least 16.
+/// Power of the first quick_length() samples of a signal of at least kFewestSamples.
 BandedPower banded_power(const Signal& signal);
 
 }  // namespace imunoise

@@ -8,7 +8,7 @@
 namespace imunoise {
 
 Eigen::MatrixXd samples_of(std::span<const Signal> signals) {
-  assert(!signals.empty() && signals.front().size() >= 16);
+  assert(!signals.empty() && signals.front().size() >= kFewestSamples);
   const auto n = static_cast<Eigen::Index>(quick_length(signals.front().size()));
   Eigen::MatrixXd out(n, static_cast<Eigen::Index>(signals.size()));
   Eigen::Index column = 0;

@@ -20,8 +20,11 @@ struct CrossPower {
   Hertz rate;
 };
 
-/// The first quick_length() samples of signals of equal length, of at least 16, each less its first
-/// one: samples × signals, in SI units.
+/// Series shorter than this are not worth a spectrum.
+inline constexpr std::size_t kFewestSamples = 16;
+
+/// The first quick_length() samples of signals of equal length ≥ kFewestSamples, each less its
+/// first one: samples × signals, in SI units.
 Eigen::MatrixXd samples_of(std::span<const Signal> signals);
 
 /// Of series given as columns. Precondition: the number of rows is a quick_length().

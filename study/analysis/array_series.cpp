@@ -77,7 +77,6 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
 
 Result<void> check_likelihood(const Model& written, const ArrayLayout& layout,
                               const std::vector<Series>& sensors) {
-  constexpr std::size_t kFewestSamples = 16;  // of a cosine transform
   if (!has_likelihood(expand(written, layout))) {
     return fail(
         "model: the likelihood of an array takes no ramp: leave DR out, or fit moments only");

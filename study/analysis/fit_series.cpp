@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "core/inference/efficient_fit.h"
+#include "core/spectrum/cross_power.h"
 #include "study/analysis/prepare.h"
 
 namespace imunoise::study {
 namespace {
-
-constexpr std::size_t kFewestSamples = 16;  // of a cosine transform
 
 Result<void> check_likelihood(const Series& series, const MeasureOptions& measure) {
   if (measure.robust) {

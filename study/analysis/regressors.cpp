@@ -12,7 +12,6 @@
 namespace imunoise::study {
 namespace {
 
-constexpr std::size_t kFewestSamples = 16;  // of a cosine transform
 constexpr std::string_view kTime = "time";
 
 // A regressor as it was written.
