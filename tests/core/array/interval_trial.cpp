@@ -167,15 +167,13 @@ TEST(CrossCovarianceIntervals, HoldTheTruthAsOftenAsTheySay) {
                     mean.width(j, way) / kSets);
       }
       std::printf("\n");
-      // 95 % within four binomial standard errors and what the slope leaves open. The last five
-      // scales have fewer than 60 windows: there Student's law is safe where sensors are
-      // independent, and not quite enough where they are not.
+      // 95 % within four binomial standard errors and what the slope leaves open. Fails at some of
+      // the last five scales, which have fewer than 60 windows: there Student's law is not quite
+      // enough where sensors correlate (docs/arrays.md).
       const double coverage = mean.covered(j, 0) / kSets;
-      const bool few = j + 5 >= mean.covered.rows();
-      EXPECT_GT(coverage, few ? 0.87 : 0.92) << one.name << ", scale " << j + 1;
-      if (!few) {
-        EXPECT_LT(coverage, 0.98) << one.name << ", scale " << j + 1;
-      }
+      EXPECT_GT(coverage, 0.92) << one.name << ", scale " << j + 1;
+      EXPECT_LT(coverage, j + 2 < mean.covered.rows() ? 0.98 : 0.999)
+          << one.name << ", scale " << j + 1;
     }
   }
 }

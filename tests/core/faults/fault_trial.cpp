@@ -178,7 +178,7 @@ TEST(FaultTrial, DelaysOfStepsAgainstTheBestCusum) {
     EXPECT_LT(in_white.mean, 2.0 * best + 1.0);
     EXPECT_GT(in_white.named, 0.9);
     EXPECT_EQ(in_white.missed, 0.0);
-    EXPECT_LT(in_white.early + in_coloured.early, 0.03);
+    EXPECT_LT(in_white.early, 0.02);
   }
 }
 
@@ -204,8 +204,9 @@ TEST(FaultTrial, DelaysOfSticking) {
     const Delays found = delays(coloured, kAnHour, FaultKind::kStuck, stuck, resolution);
     std::printf("stuck, resolution %3.1f: %5.1f readings, %3.0f %% named\n", resolution, found.mean,
                 100.0 * found.named);
-    // Where readings repeat by themselves, a sensor that sticks far off looks like a step for long.
-    EXPECT_GT(found.named, resolution > 1.0 ? 0.75 : 0.9);
+    // Fails at the coarsest resolution (79 %): where readings repeat by themselves, a sensor that
+    // sticks far off looks like a step for long.
+    EXPECT_GT(found.named, 0.9) << "resolution " << resolution;
   }
 }
 
