@@ -16,14 +16,6 @@ namespace {
 
 constexpr int kRounds = 2;
 
-WaveletCovariance moments_of(const Eigen::MatrixXd& samples, Hertz rate) {
-  std::vector<Signal> signals;
-  const auto n = static_cast<std::size_t>(samples.rows());
-  for (Eigen::Index i = 0; i < samples.cols(); ++i)
-    signals.emplace_back(std::span<const double>(samples.col(i).data(), n), rate);
-  return wavelet_covariance(signals, Scales::for_samples(n));
-}
-
 CoefficientEstimate estimate(double value, double error, double confidence) {
   const double reach = normal_quantile(0.5 + 0.5 * confidence) * error;
   const double p = error > 0.0 ? std::erfc(std::abs(value) / error / std::numbers::sqrt2) : 1.0;
@@ -113,7 +105,10 @@ MixedRegression mixed_regression(const Model& written, const ArrayLayout& layout
   CrossPower left;
   for (int round = 0; round < kRounds; ++round) {
     const Progress part = progress.part(0.15 * round, 0.15 * (round + 1));
-    const WaveletCovariance moments = moments_of(data.residual(found.value), data.rate);
+    const Eigen::MatrixXd residual = data.residual(found.value);
+    const WaveletCovariance moments =
+        wavelet_covariance(signals_of(residual, data.rate),
+                           Scales::for_samples(static_cast<std::size_t>(residual.rows())));
     left = regression.residual(found.value);
     out.noise = make_efficient(fit_array(written, layout, std::span(&moments, 1),
                                          {options.weighting, true, options.confidence}, part),

@@ -28,6 +28,14 @@ Eigen::MatrixXd samples_of(std::span<const Signal> signals) {
   return out;
 }
 
+std::vector<Signal> signals_of(const Eigen::MatrixXd& samples, Hertz rate) {
+  std::vector<Signal> out;
+  const auto n = static_cast<std::size_t>(samples.rows());
+  for (Eigen::Index i = 0; i < samples.cols(); ++i)
+    out.emplace_back(std::span<const double>(samples.col(i).data(), n), rate);
+  return out;
+}
+
 CrossPower cross_power(const MatrixRef& series, Hertz rate) {
   Eigen::MatrixXd transform(series.rows() - 1, series.cols());
   for (Eigen::Index i = 0; i < series.cols(); ++i)

@@ -27,6 +27,9 @@ inline constexpr std::size_t kFewestSamples = 16;
 /// first one: samples × signals, in SI units.
 Eigen::MatrixXd samples_of(std::span<const Signal> signals);
 
+/// The columns of a matrix as signals, which borrow it.
+std::vector<Signal> signals_of(const Eigen::MatrixXd& samples, Hertz rate);
+
 /// Of series given as columns. Precondition: the number of rows is a quick_length().
 CrossPower cross_power(const MatrixRef& series, Hertz rate);
 

@@ -107,7 +107,7 @@ TEST(ArrayWhittle, OfOneSensorIsThatOfASignal) {
   const ArrayModel array = model_of("AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1)", {1, {}});
   const Eigen::MatrixXd samples = simulate(array, kSamples, 5, 0);
   const CrossPower cross = testing::powers_of(samples);
-  const BandedPower own = banded_power(testing::signals_of(samples).front());
+  const BandedPower own = banded_power(signals_of(samples, kRate).front());
   const Model model = parse_model("AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1)", kRate).value();
   EXPECT_NEAR(whittle_objective(array, std::span(&cross, 1)),
               whittle_objective(model, std::span(&own, 1)), 1e-6);

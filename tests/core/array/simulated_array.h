@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/array/simulate_array.h"
-#include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/cross_power.h"
 #include "core/wavelet/wavelet_covariance.h"
 
@@ -21,25 +20,14 @@ inline std::vector<std::vector<double>> simulated_array(const ArrayModel& model,
   return out;
 }
 
-/// The columns of a matrix as signals, which borrow it.
-inline std::vector<Signal> signals_of(const Eigen::MatrixXd& samples, Hertz rate = Hertz{1.0}) {
-  std::vector<Signal> out;
-  for (Eigen::Index i = 0; i < samples.cols(); ++i) {
-    out.emplace_back(
-        std::span<const double>(samples.col(i).data(), static_cast<std::size_t>(samples.rows())),
-        rate);
-  }
-  return out;
-}
-
 inline WaveletCovariance moments_of(const Eigen::MatrixXd& samples, int per_octave = 1) {
   return wavelet_covariance(
-      signals_of(samples),
+      signals_of(samples, Hertz{1.0}),
       Scales::for_samples(static_cast<std::size_t>(samples.rows()), per_octave));
 }
 
 inline CrossPower powers_of(const Eigen::MatrixXd& samples) {
-  return cross_power(samples_of(signals_of(samples)), Hertz{1.0});
+  return cross_power(samples_of(signals_of(samples, Hertz{1.0})), Hertz{1.0});
 }
 
 inline WaveletCovariance simulated_moments(const ArrayModel& model, std::size_t samples,
