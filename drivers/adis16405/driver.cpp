@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/adis16405/device.h"
+#include "drivers/plugin/or_throw.h"
 #include "drivers/transport/libusb_bus.h"
 
 namespace imunoise::drivers::adis16405 {
@@ -58,12 +59,6 @@ DriverInfo describe_driver() {
   };
 }
 
-template <class T>
-T or_throw(Result<T> result) {
-  if (!result) throw plugin::DeviceError(IMUNOISE_BAD_OPTION, result.error().message);
-  return std::move(*result);
-}
-
 std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
                                             const plugin::Host& host) {
   Choice choice;
@@ -71,10 +66,10 @@ std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
   if (options.has("serial")) choice.serial = options.text("serial");
   choice.poll = options.flag("poll");
   choice.settings.self_test = options.flag("self_test");
-  choice.settings.sample_period = or_throw(sample_period({options.number("rate")}));
-  choice.settings.sensitivity_averaging =
-      or_throw(sensitivity_averaging(static_cast<unsigned>(std::stoul(options.text("gyro_range"))),
-                                     static_cast<unsigned>(options.integer("filter"))));
+  choice.settings.sample_period = plugin::or_throw(sample_period({options.number("rate")}));
+  choice.settings.sensitivity_averaging = plugin::or_throw(
+      sensitivity_averaging(static_cast<unsigned>(std::stoul(options.text("gyro_range"))),
+                            static_cast<unsigned>(options.integer("filter"))));
   auto bus = std::make_unique<usb::LibusbBus>([host] { return host.now_ns(); });
   return std::make_unique<Adis16405Device>(std::move(bus), std::move(choice), host);
 }

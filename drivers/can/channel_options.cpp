@@ -9,6 +9,7 @@
 #include "drivers/can/channel_option.h"
 #include "drivers/can/dbc.h"
 #include "drivers/can/presets.h"
+#include "drivers/plugin/or_throw.h"
 
 namespace imunoise::can {
 namespace {
@@ -17,19 +18,13 @@ namespace {
   throw plugin::DeviceError(IMUNOISE_BAD_OPTION, text);
 }
 
-template <class T>
-T or_throw(Result<T> result) {
-  if (!result) refuse(result.error().message);
-  return std::move(*result);
-}
-
 drivers::CanDatabase read_database(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
   if (!file.is_open() || file.bad()) {
     throw plugin::DeviceError(IMUNOISE_NOT_FOUND, path + ": cannot be read; is it there?");
   }
-  return or_throw(drivers::parse_dbc(text, path));
+  return plugin::or_throw(drivers::parse_dbc(text, path));
 }
 
 }  // namespace
@@ -40,17 +35,19 @@ drivers::CanChannels channels_of(const plugin::Options& options) {
   }
   std::vector<drivers::ChannelMapping> mapping;
   for (const std::string& text : options.texts("channel")) {
-    mapping.push_back(or_throw(parse_channel_option(text)));
+    mapping.push_back(plugin::or_throw(parse_channel_option(text)));
   }
   if (options.has("dbc")) {
-    return or_throw(drivers::CanChannels::make(read_database(options.text("dbc")), mapping));
+    return plugin::or_throw(
+        drivers::CanChannels::make(read_database(options.text("dbc")), mapping));
   }
   const auto address = options.has("address")
                            ? static_cast<std::uint8_t>(options.integer("address"))
                            : drivers::kAceinnaAddress;
-  drivers::CanChannels preset = or_throw(drivers::make_preset(options.text("preset"), address));
+  drivers::CanChannels preset =
+      plugin::or_throw(drivers::make_preset(options.text("preset"), address));
   if (mapping.empty()) return preset;
-  return or_throw(drivers::CanChannels::make(preset.database(), mapping));
+  return plugin::or_throw(drivers::CanChannels::make(preset.database(), mapping));
 }
 
 }  // namespace imunoise::can

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "drivers/can/candump.h"
+#include "drivers/plugin/or_throw.h"
 
 namespace imunoise::can {
 namespace {
@@ -17,18 +18,12 @@ constexpr milliseconds kRetry{200};
 constexpr milliseconds kSilence{2000};
 constexpr int kMostAtOnce = 4096;
 
-template <class T>
-T or_throw(Result<T> result) {
-  if (!result) throw plugin::DeviceError(IMUNOISE_BAD_OPTION, result.error().message);
-  return std::move(*result);
-}
-
 }  // namespace
 
 CanDevice::CanDevice(Settings settings, const plugin::Host& host)
     : settings_(std::move(settings)),
       host_(host),
-      streams_(or_throw(FrameStreams::make(settings_.channels))),
+      streams_(plugin::or_throw(FrameStreams::make(settings_.channels))),
       wire_(host.wire_tap()) {
   for (const CanStream& stream : streams_.streams()) {
     filters_.push_back({stream.message().id, stream.message().extended});

@@ -8,8 +8,8 @@
 #include "drivers/emulator/fault_text.h"
 #include "drivers/emulator/ft232h.h"
 #include "drivers/emulator/in_process.h"
-#include "drivers/emulator/or_throw.h"
 #include "drivers/emulator/usb_bus.h"
+#include "drivers/plugin/or_throw.h"
 
 namespace imunoise::emulator {
 namespace {
@@ -23,7 +23,7 @@ class EmulatedAdis16405 final : public plugin::Device {
  public:
   EmulatedAdis16405(const InProcessPlan& plan, Choice choice, std::vector<Fault> faults,
                     const plugin::Host& host)
-      : source_(or_throw(ModelledSource::make(plan.source))),
+      : source_(plugin::or_throw(ModelledSource::make(plan.source))),
         sensor_(*source_, plan.source.seed, Memory::kNone),
         bridge_(sensor_, "EMULATED"),
         begin_ns_(host.now_ns()),
@@ -110,7 +110,7 @@ class EmulatedAdis16405 final : public plugin::Device {
 
 std::unique_ptr<plugin::Device> open_adis16405(const InProcessPlan& plan,
                                                const plugin::Host& host) {
-  auto faults = or_throw(parse_faults(plan.faults));
+  auto faults = plugin::or_throw(parse_faults(plan.faults));
   for (const Fault& fault : faults) {
     if (fault.kind != Fault::Kind::kBitError) continue;
     throw plugin::DeviceError(
@@ -119,7 +119,8 @@ std::unique_ptr<plugin::Device> open_adis16405(const InProcessPlan& plan,
         "bit is a wrong sample; use outliers() instead");
   }
   Choice choice;
-  choice.settings.sample_period = or_throw(drivers::adis16405::sample_period(plan.source.rate));
+  choice.settings.sample_period =
+      plugin::or_throw(drivers::adis16405::sample_period(plan.source.rate));
   return std::make_unique<EmulatedAdis16405>(plan, std::move(choice), std::move(faults), host);
 }
 

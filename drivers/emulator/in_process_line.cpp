@@ -8,8 +8,8 @@
 #include "drivers/can/device.h"
 #include "drivers/can/presets.h"
 #include "drivers/emulator/in_process.h"
-#include "drivers/emulator/or_throw.h"
 #include "drivers/emulator/serve.h"
+#include "drivers/plugin/or_throw.h"
 #include "drivers/xsens/device.h"
 
 namespace imunoise::emulator {
@@ -42,15 +42,15 @@ class EmulatedOnLine final : public plugin::Device {
   EmulatedOnLine(const InProcessPlan& plan, const plugin::Host& host) {
     const bool can = plan.driver == "can";
     const std::string place = (can ? "unix:" : "") + folder_.file(plan.driver);
-    served_ = or_throw(serve({.driver = plan.driver,
-                              .place = place,
-                              .source = plan.source,
-                              .faults = plan.faults,
-                              .preset = plan.preset}));
+    served_ = plugin::or_throw(serve({.driver = plan.driver,
+                                      .place = place,
+                                      .source = plan.source,
+                                      .faults = plan.faults,
+                                      .preset = plan.preset}));
     if (can) {
       device_ = std::make_unique<imunoise::can::CanDevice>(
           imunoise::can::Settings{.interface = place,
-                                  .channels = or_throw(drivers::make_preset(plan.preset)),
+                                  .channels = plugin::or_throw(drivers::make_preset(plan.preset)),
                                   .product = plan.preset,
                                   .rate_hz = plan.source.rate.value},
           host);

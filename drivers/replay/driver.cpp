@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/plugin.h"
+#include "drivers/plugin/or_throw.h"
 #include "drivers/replay/recording_device.h"
 #include "drivers/replay/replay_device.h"
 #include "recording/import/import.h"
@@ -76,12 +77,6 @@ Pace pace_of(const plugin::Options& options) {
   return {options.number("speed"), options.number("latency")};
 }
 
-template <class T>
-T or_throw(Result<T> result) {
-  if (!result) throw plugin::DeviceError(IMUNOISE_BAD_OPTION, result.error().message);
-  return std::move(*result);
-}
-
 // Options that say nothing where they were given.
 void refuse_if_given(const plugin::Options& options, std::initializer_list<const char*> names,
                      const char* why) {
@@ -101,8 +96,8 @@ std::unique_ptr<plugin::Device> open_recording(const std::string& folder,
   if (options.has("replicate")) {
     choice.replicate = static_cast<std::uint32_t>(options.integer("replicate"));
   }
-  return std::make_unique<RecordingDevice>(or_throw(read_recording(choice)), pace_of(options),
-                                           host);
+  return std::make_unique<RecordingDevice>(plugin::or_throw(read_recording(choice)),
+                                           pace_of(options), host);
 }
 
 std::unique_ptr<plugin::Device> open_files(const std::vector<std::string>& names,
@@ -112,10 +107,10 @@ std::unique_ptr<plugin::Device> open_files(const std::vector<std::string>& names
   recording::ImportOptions import;
   import.channels = options.texts("channel");
   if (options.has("rate")) import.rate = Hertz{options.number("rate")};
-  if (options.has("unit")) import.unit = or_throw(parse_unit(options.text("unit")));
+  if (options.has("unit")) import.unit = plugin::or_throw(parse_unit(options.text("unit")));
   import.split_into = static_cast<std::size_t>(options.integer("split_into"));
   const std::vector<std::filesystem::path> files(names.begin(), names.end());
-  return std::make_unique<ReplayDevice>(or_throw(recording::import_files(files, import)),
+  return std::make_unique<ReplayDevice>(plugin::or_throw(recording::import_files(files, import)),
                                         pace_of(options), host);
 }
 

@@ -8,6 +8,7 @@
 #include "drivers/can/channel_options.h"
 #include "drivers/can/presets.h"
 #include "drivers/plugin.h"
+#include "drivers/plugin/or_throw.h"
 #include "drivers/replay/wire/wire_device.h"
 
 namespace imunoise::replay {
@@ -68,16 +69,6 @@ drivers::DriverInfo describe_driver() {
   };
 }
 
-[[noreturn]] void refuse(const std::string& text) {
-  throw plugin::DeviceError(IMUNOISE_BAD_OPTION, text);
-}
-
-template <class T>
-T or_throw(Result<T> result) {
-  if (!result) refuse(result.error().message);
-  return std::move(*result);
-}
-
 std::optional<double> rate_of(const plugin::Options& options) {
   if (!options.has("rate")) return std::nullopt;
   return options.number("rate");
@@ -96,9 +87,10 @@ std::unique_ptr<WireCodec> open_codec(const plugin::Options& options) {
   if (format == "candump") return open_can(file, options);
   drivers::adis16405::Settings settings;
   const auto range = static_cast<unsigned>(std::stoul(options.text("gyro_range")));
-  settings.sensitivity_averaging = or_throw(drivers::adis16405::sensitivity_averaging(range, 4));
+  settings.sensitivity_averaging =
+      plugin::or_throw(drivers::adis16405::sensitivity_averaging(range, 4));
   if (const auto rate = rate_of(options)) {
-    settings.sample_period = or_throw(drivers::adis16405::sample_period(Hertz{*rate}));
+    settings.sample_period = plugin::or_throw(drivers::adis16405::sample_period(Hertz{*rate}));
   }
   return open_bursts(file, settings);
 }
