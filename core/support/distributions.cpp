@@ -36,8 +36,8 @@ double log_chi_square_tail(double value, double dof) {
 
 double log_f_tail(double value, double first, double second) {
   if (value <= 0.0) return 0.0;
-  const double tail = boost::math::cdf(
-      boost::math::complement(boost::math::fisher_f(first, second), value));
+  const double tail =
+      boost::math::cdf(boost::math::complement(boost::math::fisher_f(first, second), value));
   if (tail > kSmallestTail) return std::log(tail);
   // The tail is the incomplete beta function of x = n/(n + dF) ≪ 1: A & S 26.5.4, first term.
   const double a = 0.5 * second;

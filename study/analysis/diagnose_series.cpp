@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/integrity.h"
 #include "core/spectrum/cross_power.h"
 #include "study/analysis/diagnosis_report.h"
 #include "study/analysis/prepare.h"
@@ -85,6 +86,33 @@ Result<Chosen> current_model(const Series& series, const DiagnoseOptions& option
   return out;
 }
 
+std::string defect_words(const Defect& defect, double rate) {
+  if (defect.effect == "duplicated_samples")
+    return fmt::format("{} samples repeat the one before; noise like this repeats {:.0f}",
+                       defect.count, defect.expected);
+  if (defect.effect == "stuck")
+    return fmt::format("the output stands still for {} samples from {:.2f} s on", defect.count,
+                       static_cast<double>(defect.first) / rate);
+  if (defect.effect == "saturation")
+    return fmt::format("{} samples lie at an end of the range, {:.0f} next to it", defect.count,
+                       defect.expected);
+  return fmt::format("the noise is smaller than the step of the converter: {} codes occur",
+                     defect.count);
+}
+
+void add_integrity(const Series& series, v1::DiagnosisReport& to) {
+  for (std::size_t k = 0; k < series.replicates.size(); ++k) {
+    for (const Defect& defect : integrity(series.replicates[k])) {
+      v1::IntegrityFinding& finding = *to.add_integrity();
+      finding.set_effect(defect.effect);
+      finding.set_replicate(series.names[k]);
+      finding.set_count(defect.count);
+      finding.set_sentence(fmt::format("{}: {}.", series.names[k],
+                                       defect_words(defect, series.replicates[k].rate().value)));
+    }
+  }
+}
+
 }  // namespace
 
 Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recordings,
@@ -118,6 +146,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
         "One replicate: nothing can be held out, so that no effect is proven on data it "
         "was not fitted to.");
 
+  add_integrity(series, out);
   Trial model = fit_full_model(subject, start->model, progress.part(0.3, 0.35));
   out.set_model(print(model.fit.model));
   out.set_fitted_model(print_with_values(model.fit.model));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/diagnosis/catalogue.h"
+#include "core/diagnosis/run_off.h"
 #include "core/inference/normal_scores.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/distributions.h"
@@ -117,6 +118,20 @@ std::string summary_of(const Diagnosis& diagnosis) {
 std::string percent_more(double ratio) {
   return ratio >= 1.0 ? fmt::format("{:.0f} % more", 100.0 * (ratio - 1.0))
                       : fmt::format("{:.0f} % less", 100.0 * (1.0 - ratio));
+}
+
+// "rad" for a rate.
+std::string integral_unit(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kAngularRate:
+      return "rad";
+    case Quantity::kAcceleration:
+      return "m/s";
+    default:
+      break;
+  }
+  const std::string_view unit = si_symbol(quantity);
+  return unit.empty() ? "s" : fmt::format("{}·s", unit);
 }
 
 // Neighbouring half octaves that deviate to the same side are one place.
@@ -233,6 +248,14 @@ v1::Rung rung_of(const Trial& trial, const std::string& added, double first, dou
   out.set_log_likelihood(trial.fit.log_likelihood - first);
   out.set_misfit_p(misfit_p);
   out.set_why(why);
+  const std::string unit = integral_unit(trial.regression.subject().quantity);
+  for (const RunOff& from : run_off_of(trial)) {
+    v1::Drift& drift = *out.add_drift();
+    drift.set_seconds(from.seconds);
+    drift.set_predicted(from.predicted);
+    drift.set_measured(from.measured);
+    drift.set_unit(unit);
+  }
   return out;
 }
 

@@ -94,6 +94,29 @@ Table misfit_table(const v1::DiagnosisReport& report) {
   return out;
 }
 
+Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
+  Table out{
+      "Drift after the bias was averaged as long before: predicted / measured", {"model"}, {}};
+  for (const v1::Drift& one : report.ladder(0).drift())
+    out.head.push_back(fmt::format("{} s", number(one.seconds(), 4, digits)));
+  for (const v1::Rung& rung : report.ladder()) {
+    std::vector<std::string> row{rung.added().empty() ? rung.model() : "+ " + rung.added()};
+    for (const v1::Drift& one : rung.drift()) {
+      row.push_back(fmt::format("{} / {} {}", number(one.predicted(), 3, digits),
+                                number(one.measured(), 3, digits), one.unit()));
+    }
+    out.rows.push_back(std::move(row));
+  }
+  return out;
+}
+
+Table integrity_table(const v1::DiagnosisReport& report) {
+  Table out{"The samples themselves", {"defect", ""}, {}};
+  for (const v1::IntegrityFinding& one : report.integrity())
+    out.rows.push_back({one.effect(), one.sentence()});
+  return out;
+}
+
 Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
   Table out{"What would have been seen nine times in ten", {"effect", "from", "of"}, {}};
   for (const v1::DetectionLimit& one : report.limits()) {
@@ -157,13 +180,17 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   out.mood = words(report).mood;
   out.summary = report.summary();
   add_figures(report, out);
+  if (report.integrity_size() > 0) out.tables.push_back(integrity_table(report));
   if (report.misfits_size() > 0) out.tables.push_back(misfit_table(report));
   if (report.candidates_size() > 0) {
     out.tables.push_back(candidate_table(report, digits));
     if (report.verdict() == v1::found || report.verdict() == v1::one_of)
       out.tables.push_back(parameter_table(report.candidates(0), digits));
   }
-  if (report.ladder_size() > 0) out.tables.push_back(ladder_table(report, digits));
+  if (report.ladder_size() > 0) {
+    out.tables.push_back(ladder_table(report, digits));
+    if (report.ladder(0).drift_size() > 0) out.tables.push_back(drift_table(report, digits));
+  }
   if (report.verdict() == v1::none) out.tables.push_back(limit_table(report, digits));
   out.notes.assign(report.notes().begin(), report.notes().end());
   return out;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/signal/signal.h"
+
+namespace imunoise {
+
+/// A defect of the samples themselves, which every model would be blamed for.
+struct Defect {
+  std::string effect;     ///< its id in the catalogue
+  std::size_t count = 0;  ///< samples concerned
+  double expected = 0.0;  ///< of them without the defect
+  std::size_t first = 0;  ///< place of the first
+};
+
+/// What the values alone can tell: samples that repeat more often than noise of this step and size
+/// does, an output that stands still, a pile of samples at an end of the range, and a step so
+/// coarse that few codes are used. Empty where nothing is wrong.
+std::vector<Defect> integrity(const Signal& signal);
+
+}  // namespace imunoise

@@ -1,0 +1,52 @@
+// The grammar of models with effects.
+
+#include "core/diagnosis/effect_term.h"
+
+#include <gtest/gtest.h>
+
+namespace imunoise {
+namespace {
+
+constexpr Hertz kRate{100.0};
+
+TEST(EffectTerm, EveryKindIsReadAsItIsPrinted) {
+  for (const char* text :
+       {"WN + RW", "WN + RW + ramp", "WN + ramp(own)", "WN + warm_up(tau=600)",
+        "WN + warm_up(tau=0.25, own)", "WN + RW + line(f=23.4)", "WN + line(f=0.5, harmonics=3)",
+        "WN + step(replicate=2, t=1234.5)", "WN + RW + witness(temperature)",
+        "WN + witness(acc x, lag=300)", "WN + witness(gyro_y, from=0.1, to=10)",
+        "WN + witness(temperature, quadratic)", "WN + witness(temperature, lag=2, own)",
+        "WN + modulated(temperature)", "WN + outliers(above=6)", "AR1 + WN + own_powers"}) {
+    const Result<FullModel> read = parse_full_model(text, kRate);
+    ASSERT_TRUE(read) << text << ": " << read.error().message;
+    EXPECT_EQ(print(*read), text);
+    EXPECT_EQ(*parse_full_model(print(*read), kRate), *read) << text;
+  }
+}
+
+TEST(EffectTerm, EffectsMayStandAnywhereAndADriftIsARampOfEachReplicate) {
+  const Result<FullModel> read = parse_full_model("line(f=2e+0)+WN( sigma2=1e+0 ) + DR", kRate);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(print(*read), "WN(sigma2=1) + line(f=2) + ramp(own)");
+}
+
+TEST(EffectTerm, WhatIsWrongIsSaid) {
+  const auto message = [](const char* text) {
+    const Result<FullModel> read = parse_full_model(text, kRate);
+    return read ? "accepted" : read.error().message;
+  };
+  EXPECT_EQ(message("WN + line"), "line: needs f=…, a number > 0");
+  EXPECT_EQ(message("WN + line(f=abc)"), "line(f=abc): 'abc' is not a number ≥ 0");
+  EXPECT_EQ(message("WN + line(f=-1)"), "line(f=-1): '-1' is not a number ≥ 0");
+  EXPECT_EQ(message("WN + line(f=1, harmonics=2.5)"),
+            "line(f=1, harmonics=2.5): harmonics is a whole number from 1 to 50");
+  EXPECT_EQ(message("WN + ramp(tau=3)"), "ramp(tau=3): 'tau=3' is not known here; it takes own");
+  EXPECT_EQ(message("WN + witness()"), "witness(): needs the name of a channel");
+  EXPECT_EQ(message("WN + step(replicate=1.5, t=3)"),
+            "step(replicate=1.5, t=3): replicate is a whole number, counted from 1");
+  EXPECT_EQ(message("ramp"), message(""));
+  EXPECT_NE(message("WN + QQ").find("unknown process"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace imunoise

@@ -1,0 +1,63 @@
+#pragma once
+
+// Subjects made in memory for the tests of the diagnosis.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/diagnose.h"
+
+namespace imunoise {
+
+/// Something that a test adds to a replicate: a sample's value from its time in s.
+using Addition = std::function<double(std::size_t replicate, double seconds)>;
+
+struct MadeSubject {
+  std::string model = "WN(sigma2=1) + RW(gamma2=1e-5)";
+  std::size_t samples = 8192;
+  std::size_t replicates = 4;
+  std::uint64_t seed = 1;
+  Addition added = [](std::size_t, double) { return 0.0; };
+  Addition temperature{};  ///< a witness "temperature", K, where there is one
+};
+
+inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
+  constexpr Hertz kRate{50.0};
+  const Model noise = *parse_model(made.model, kRate);
+  std::vector<std::vector<double>> series;
+  std::vector<std::vector<double>> witness;
+  for (std::size_t k = 0; k < made.replicates; ++k) {
+    series.push_back(simulate(noise, made.samples, made.seed, static_cast<std::uint32_t>(k)));
+    witness.emplace_back(made.samples);
+    for (std::size_t t = 0; t < made.samples; ++t) {
+      const double seconds = static_cast<double>(t) / kRate.value;
+      series.back()[t] += made.added(k, seconds);
+      if (made.temperature) witness.back()[t] = made.temperature(k, seconds);
+    }
+  }
+  std::vector<Signal> replicates;
+  NamedChannel temperature{"temperature", {}};
+  for (std::size_t k = 0; k < made.replicates; ++k) {
+    replicates.emplace_back(std::span<const double>(series[k]), kRate, Quantity::kAngularRate);
+    temperature.replicates.emplace_back(std::span<const double>(witness[k]), kRate,
+                                        Quantity::kTemperature);
+  }
+  std::vector<NamedChannel> witnesses;
+  if (made.temperature) witnesses.push_back(temperature);
+  return std::make_shared<const Subject>(make_subject(replicates, witnesses));
+}
+
+/// The fit of a model, from the values that noise of the tests has.
+inline Trial fitted(std::shared_ptr<const Subject> subject, const std::string& text = "WN + RW") {
+  FullModel model = *parse_full_model(text, subject->rate);
+  for (Term& term : model.noise.terms) {
+    std::vector<double> v = values(term.process);
+    v[0] = std::holds_alternative<RandomWalk>(term.process) ? 2e-5 : 0.8;
+    set_values(term.process, v);
+  }
+  return fit_full_model(std::move(subject), model);
+}
+
+}  // namespace imunoise
