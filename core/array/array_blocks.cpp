@@ -57,9 +57,14 @@ Eigen::MatrixXd diagonal_root(const ArrayBlock& block) {
   return out.asDiagonal();
 }
 
-Eigen::MatrixXd covariance_of(const ArrayModel& model, const ArrayBlock& block) {
-  return array_moment_covariance(model, block.pairs, block.group->scales, block.group->samples) /
-         block.group->count;
+BlockCovariance::BlockCovariance(const ArrayModel& shapes, const std::vector<ArrayBlock>& blocks) {
+  for (const ArrayBlock& block : blocks)
+    groups_.try_emplace(block.group, shapes, block.group->scales, block.group->samples);
+}
+
+Eigen::MatrixXd BlockCovariance::operator()(const ArrayModel& model,
+                                            const ArrayBlock& block) const {
+  return groups_.at(block.group)(model, block.pairs) / block.group->count;
 }
 
 }  // namespace imunoise

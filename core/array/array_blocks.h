@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,16 @@ std::vector<ArrayBlock> blocks_of(const std::vector<ReplicateGroup>& groups, con
 /// variance of the peers' χ² intervals. Ω = rootᵀ·root.
 Eigen::MatrixXd diagonal_root(const ArrayBlock& block);
 
-/// Exact covariance of a block's averaged moments under the model.
-Eigen::MatrixXd covariance_of(const ArrayModel& model, const ArrayBlock& block);
+/// Exact covariances of the blocks' averaged moments under models that differ in their powers
+/// alone. Borrows the blocks' groups.
+class BlockCovariance {
+ public:
+  BlockCovariance(const ArrayModel& shapes, const std::vector<ArrayBlock>& blocks);
+
+  Eigen::MatrixXd operator()(const ArrayModel& model, const ArrayBlock& block) const;
+
+ private:
+  std::map<const ReplicateGroup*, ArrayMomentCovariance> groups_;
+};
 
 }  // namespace imunoise

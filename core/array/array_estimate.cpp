@@ -97,8 +97,9 @@ ArrayFit fit_array(const Model& written, const ArrayLayout& layout,
   for (int round = 0; round < kReweightings && options.weighting == Weighting::kFull; ++round) {
     const ArrayModel model = model_of(open, found);
     if (progress.stopped() || !gives_weights(model, groups.front().scales)) break;
+    const BlockCovariance covariance(model, blocks);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-      roots[b] = whiten(covariance_of(model, blocks[b])).matrix;
+      roots[b] = whiten(covariance(model, blocks[b])).matrix;
     }
     // All starts compete once more under the first full weights; later rounds follow the best.
     if (round == 0) {

@@ -22,15 +22,15 @@ double factor(const Latent& latent, const ArrayParameter& parameter, const Pair&
 // The sandwich of a fit's parameters, were the moments to scatter as under `scatter`.
 ArrayCovariance sandwich(const ArrayFit& fit, const ArrayModel& scatter,
                          const std::vector<ArrayBlock>& blocks,
-                         const std::vector<Eigen::MatrixXd>& roots) {
+                         const std::vector<Eigen::MatrixXd>& roots,
+                         const BlockCovariance& covariance) {
   const auto p = static_cast<Eigen::Index>(fit.parameters.size());
   Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(p, p);
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(p, p);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Eigen::MatrixXd slope =
         roots[b] * parameter_slopes(fit, blocks[b].pairs, blocks[b].group->scales);
-    const Eigen::MatrixXd spread =
-        roots[b] * covariance_of(scatter, blocks[b]) * roots[b].transpose();
+    const Eigen::MatrixXd spread = roots[b] * covariance(scatter, blocks[b]) * roots[b].transpose();
     bread += slope.transpose() * slope;
     meat += slope.transpose() * spread * slope;
   }
@@ -121,8 +121,10 @@ void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& cov
 void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
            const std::vector<Eigen::MatrixXd>& roots, double confidence) {
   fit.parameters = parameters_of(fit.model);
-  fill_estimates(fit, confidence,
-                 [&](const ArrayModel& scatter) { return sandwich(fit, scatter, blocks, roots); });
+  const BlockCovariance covariance(fit.model, blocks);
+  fill_estimates(fit, confidence, [&](const ArrayModel& scatter) {
+    return sandwich(fit, scatter, blocks, roots, covariance);
+  });
 }
 
 }  // namespace imunoise

@@ -18,7 +18,8 @@ struct ArrayCovariance {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd null_share;  ///< near 1 where a parameter cannot be told from the others
 };
-/// What it would be, were the noise that of the model given.
+/// What it would be, were the noise that of the model given, which differs from the fit's in its
+/// powers alone.
 using CovarianceUnder = std::function<ArrayCovariance(const ArrayModel& scatter)>;
 
 /// Fills the estimates of fit.parameters, which are there, and their covariance: intervals on the

@@ -1,39 +1,9 @@
 #include "core/array/array_moments.h"
 
 #include <algorithm>
-
-#include "core/wavelet/lag_sums.h"
+#include <cassert>
 
 namespace imunoise {
-namespace {
-
-// The distinct shapes behind a model, each with all the power that has it.
-struct Shapes {
-  explicit Shapes(const ArrayModel& model)
-      : ramps(Eigen::MatrixXd::Zero(model.sensors, model.sensors)) {
-    std::vector<Process> known;
-    for (const Latent& latent : model.latents) {
-      if (latent.power.isZero(0.0)) continue;
-      const SumCovariance sum = sum_covariance(latent.term.process);
-      ramps += sum.slope_squared * latent.power;
-      if (sum.slope_squared != 0.0) continue;  // a ramp is not random
-      const auto found = std::find(known.begin(), known.end(), latent.term.process);
-      if (found == known.end()) {
-        known.push_back(latent.term.process);
-        sums.push_back(sum);
-        powers.push_back(latent.power);
-      } else {
-        powers[static_cast<std::size_t>(found - known.begin())] += latent.power;
-      }
-    }
-  }
-
-  std::vector<SumCovariance> sums;
-  std::vector<Eigen::MatrixXd> powers;
-  Eigen::MatrixXd ramps;  // ω_a ω_b
-};
-
-}  // namespace
 
 Pairs all_pairs(Eigen::Index sensors) {
   Pairs out;
@@ -58,12 +28,34 @@ Eigen::VectorXd moments_of(const std::vector<Eigen::MatrixXd>& covariance, const
   return out;
 }
 
-Eigen::MatrixXd array_moment_covariance(const ArrayModel& model, const Pairs& pairs,
-                                        const Scales& scales, std::size_t samples) {
-  const Shapes shapes(model);
-  const LagSums sums(shapes.sums, scales, samples);
-  const auto n = static_cast<Eigen::Index>(scales.size());
-  const std::size_t count = shapes.sums.size();
+ArrayMomentCovariance::Shapes::Shapes(const ArrayModel& model) {
+  std::vector<Process> known;
+  for (const Latent& latent : model.latents) {
+    const Process& process = latent.term.process;
+    const auto found = std::find(known.begin(), known.end(), process);
+    of_latent.push_back(static_cast<std::size_t>(found - known.begin()));
+    if (found != known.end()) continue;
+    known.push_back(process);
+    sums.push_back(sum_covariance(process));
+  }
+}
+
+ArrayMomentCovariance::ArrayMomentCovariance(const ArrayModel& shapes, const Scales& scales,
+                                             std::size_t samples)
+    : shapes_(shapes), scales_(scales), sums_(shapes_.sums, scales, samples) {}
+
+Eigen::MatrixXd ArrayMomentCovariance::operator()(const ArrayModel& model,
+                                                  const Pairs& pairs) const {
+  assert(model.latents.size() == shapes_.of_latent.size());
+  const std::size_t count = shapes_.sums.size();
+  Eigen::MatrixXd ramps = Eigen::MatrixXd::Zero(model.sensors, model.sensors);  // ω_a ω_b
+  std::vector<Eigen::MatrixXd> powers(count, ramps);
+  for (std::size_t t = 0; t < model.latents.size(); ++t) {
+    const std::size_t shape = shapes_.of_latent[t];
+    ramps += shapes_.sums[shape].slope_squared * model.latents[t].power;
+    powers[shape] += model.latents[t].power;
+  }
+  const auto n = static_cast<Eigen::Index>(scales_.size());
   Eigen::MatrixXd out(n * static_cast<Eigen::Index>(pairs.size()),
                       n * static_cast<Eigen::Index>(pairs.size()));
   const auto fill = [&](std::size_t p, std::size_t q) {
@@ -72,21 +64,22 @@ Eigen::MatrixXd array_moment_covariance(const ArrayModel& model, const Pairs& pa
     Eigen::MatrixXd weight(count, count);
     Eigen::VectorXd ramp(count);
     for (std::size_t t = 0; t < count; ++t) {
-      const Eigen::MatrixXd& x = shapes.powers[t];
+      const Eigen::MatrixXd& x = powers[t];
       for (std::size_t u = 0; u < count; ++u) {
-        const Eigen::MatrixXd& y = shapes.powers[u];
+        const Eigen::MatrixXd& y = powers[u];
         weight(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(u)) =
             x(a, c) * y(b, d) + x(a, d) * y(b, c);
       }
-      const Eigen::MatrixXd& w = shapes.ramps;
+      const Eigen::MatrixXd& w = ramps;
       ramp(static_cast<Eigen::Index>(t)) =
           w(a, c) * x(b, d) + w(a, d) * x(b, c) + w(b, c) * x(a, d) + w(b, d) * x(a, c);
     }
-    for (std::size_t j = 0; j < scales.size(); ++j) {
-      for (std::size_t k = 0; k < scales.size(); ++k) {
-        const double means = 0.25 * static_cast<double>(scales[j]) * static_cast<double>(scales[k]);
+    for (std::size_t j = 0; j < scales_.size(); ++j) {
+      for (std::size_t k = 0; k < scales_.size(); ++k) {
+        const double means =
+            0.25 * static_cast<double>(scales_[j]) * static_cast<double>(scales_[k]);
         const double value =
-            weight.cwiseProduct(sums.products(j, k)).sum() + means * ramp.dot(sums.plain(j, k));
+            weight.cwiseProduct(sums_.products(j, k)).sum() + means * ramp.dot(sums_.plain(j, k));
         const Eigen::Index row = static_cast<Eigen::Index>(p) * n + static_cast<Eigen::Index>(j);
         const Eigen::Index column = static_cast<Eigen::Index>(q) * n + static_cast<Eigen::Index>(k);
         out(row, column) = value;
@@ -98,6 +91,11 @@ Eigen::MatrixXd array_moment_covariance(const ArrayModel& model, const Pairs& pa
     for (std::size_t q = 0; q <= p; ++q) fill(p, q);
   }
   return out;
+}
+
+Eigen::MatrixXd array_moment_covariance(const ArrayModel& model, const Pairs& pairs,
+                                        const Scales& scales, std::size_t samples) {
+  return ArrayMomentCovariance(model, scales, samples)(model, pairs);
 }
 
 }  // namespace imunoise

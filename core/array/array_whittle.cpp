@@ -194,7 +194,7 @@ ArrayFit make_efficient(ArrayFit fit, std::span<const CrossPower> replicates, do
                         const Progress& progress) {
   assert(has_likelihood(fit.model));
   const ArrayLikelihood likelihood(fit.model, replicates);
-  const Scored found = fisher_scoring(likelihood.likelihood(), likelihood.start(), progress);
+  const Scored found = maximise(likelihood.likelihood(), likelihood.start(), progress);
   fit.model = sorted(likelihood.model_at(found.at));
   fit.termination = found.termination;
   fill_estimates(fit, confidence,

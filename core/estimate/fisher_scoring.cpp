@@ -11,6 +11,9 @@ namespace {
 constexpr double kLongestStep = 1.0;     // of a free coordinate
 constexpr double kSmallestShare = 1e-6;  // of a step
 constexpr double kSmallestGain = 1e-7;   // nats: a few 1e-4 of a standard error
+constexpr double kFelt = 1.0;            // information of a free coordinate that is not lost
+constexpr double kWalk = 2.0;            // step in search of it
+constexpr double kFarthest = 32.0;       // a logit is at its end from anywhere
 
 // Which coordinates lie in cones, and the cones' sizes; the others are free.
 struct Places {
@@ -53,6 +56,23 @@ Eigen::VectorXd greatest(const Places& places, const Curvature& curvature,
   return out;
 }
 
+// The start with one lost coordinate where it is felt, if there is such a place. That may take
+// powers which suit it: a process whose power is zero is not felt anywhere.
+Eigen::VectorXd found(const Likelihood& likelihood, const Places& places,
+                      const Eigen::VectorXd& start, Eigen::Index coordinate) {
+  for (double distance = kWalk; distance <= kFarthest; distance += kWalk) {
+    for (const double side : {-distance, distance}) {
+      Eigen::VectorXd out = start;
+      out(coordinate) += side;
+      const Curvature there = likelihood.curvature(out);
+      if (there.information(coordinate, coordinate) >= kFelt) return out;
+      out(places.inside) = greatest(places, there, out)(places.inside);
+      if (likelihood.curvature(out).information(coordinate, coordinate) >= kFelt) return out;
+    }
+  }
+  return start;
+}
+
 }  // namespace
 
 Scored fisher_scoring(const Likelihood& likelihood, const Eigen::VectorXd& start,
@@ -77,6 +97,21 @@ Scored fisher_scoring(const Likelihood& likelihood, const Eigen::VectorXd& start
     if (progress.stopped()) out.termination = Termination::kStopped;
   }
   return out;
+}
+
+Scored maximise(const Likelihood& likelihood, const Eigen::VectorXd& start,
+                const Progress& progress) {
+  Scored out = fisher_scoring(likelihood, start, progress);
+  if (!std::isfinite(out.objective) || out.termination == Termination::kStopped) return out;
+  const Eigen::VectorXd felt = likelihood.curvature(start).information.diagonal();
+  Eigen::VectorXd moved = start;
+  const Places places(likelihood.cones);
+  for (const Eigen::Index i : places.free) {
+    if (felt(i) < kFelt) moved = found(likelihood, places, moved, i);
+  }
+  if (moved == start) return out;
+  Scored other = fisher_scoring(likelihood, moved, progress);
+  return other.objective < out.objective ? other : out;
 }
 
 }  // namespace imunoise

@@ -39,4 +39,11 @@ struct Scored {
 Scored fisher_scoring(const Likelihood& likelihood, const Eigen::VectorXd& start,
                       const Progress& progress = {}, int most_steps = 100);
 
+/// Fisher scoring from a start that may be lost: where a shape is at the end of its scale, say a
+/// time far beyond the recording's, the likelihood is flat in it and scoring cannot leave. Free
+/// coordinates whose information is below 1 (a unit of their scale is within a standard error) are
+/// walked to the nearest place where it is not, and the better of both ends is returned.
+Scored maximise(const Likelihood& likelihood, const Eigen::VectorXd& start,
+                const Progress& progress = {});
+
 }  // namespace imunoise

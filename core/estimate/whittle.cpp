@@ -205,7 +205,7 @@ WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replica
   likelihood.curvature = [&](const Eigen::VectorXd& x) {
     return curvature_at(model_at(x), coordinates, replicates);
   };
-  const Scored scored = fisher_scoring(likelihood, at, progress);
+  const Scored scored = maximise(likelihood, at, progress);
   return {sorted(model_at(scored.at)), scored.objective, scored.termination};
 }
 

@@ -89,6 +89,41 @@ Eigen::VectorXd numbers(const MatrixRef& gram, const VectorRef& moment) {
       shrink.asDiagonal() * gram * shrink.asDiagonal(), shrink.cwiseProduct(moment)));
 }
 
+// Where the numbers lie among the coordinates, and the entries of matrices.
+struct Split {
+  explicit Split(const std::vector<Eigen::Index>& sizes) {
+    Eigen::Index at = 0;
+    for (const Eigen::Index size : sizes) {
+      for (Eigen::Index i = 0; i < packed_size(size); ++i)
+        (size == 1 ? numbers : entries).push_back(at++);
+    }
+  }
+  std::vector<Eigen::Index> numbers;
+  std::vector<Eigen::Index> entries;
+};
+
+// As if matrices could be anything: their entries are eliminated, the numbers solved for.
+Eigen::VectorXd with_free_matrices(const MatrixRef& gram, const VectorRef& moment,
+                                   const Split& split) {
+  const auto& [inside, free] = split;
+  const Eigen::MatrixXd inverse = positive_inverse(gram(free, free)).matrix;
+  const Eigen::MatrixXd across = gram(free, inside);
+  Eigen::VectorXd out(gram.rows());
+  out(inside) = numbers(gram(inside, inside) - across.transpose() * inverse * across,
+                        moment(inside) - across.transpose() * inverse * moment(free));
+  out(free) = inverse * (moment(free) - across * out(inside));
+  return out;
+}
+
+// Whether the slope that is left at a point vanishes, or leads out of numbers that are zero.
+bool least(const MatrixRef& gram, const VectorRef& moment, const Split& split,
+           const Eigen::VectorXd& at) {
+  Eigen::VectorXd left = moment - gram * at;
+  for (const Eigen::Index i : split.numbers)
+    if (at(i) == 0.0) left(i) = std::max(left(i), 0.0);
+  return left.norm() <= 1e-9 * moment.norm();
+}
+
 }  // namespace
 
 Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& moment,
@@ -107,6 +142,12 @@ Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& mome
   const bool solved = x.allFinite() && (g * x - c).norm() <= 1e-9 * c.norm();
   if (solved && inside) return shrink.asDiagonal() * x;
   if (!x.allFinite()) z.setZero();
+  const Split split(sizes);
+  if (!split.numbers.empty() && split.numbers.size() <= std::size_t{kMostColumns}) {
+    const Eigen::VectorXd trial = with_free_matrices(g, c, split);
+    cones.project(trial, inside);
+    if (inside && least(g, c, split, trial)) return shrink.asDiagonal() * trial;
+  }
 
   // The penalty of least iterations for a quadratic lies between the extreme eigenvalues of G.
   const SymmetricEigen eigen = symmetric_eigen(g);

@@ -69,8 +69,8 @@ Eigen::VectorXd nonnegative_least_squares(const MatrixRef& gram, const VectorRef
 /// The same over a product of cones: β holds the upper triangles of symmetric matrices of the given
 /// sizes, row by row (packed_index), each of which must be positive semidefinite; size 1 is a
 /// number ≥ 0. Up to kMostColumns numbers without a matrix are solved as above, scaled inside. Else
-/// exact where no matrix is singular and no number zero, and otherwise by alternating directions
-/// (Boyd et al. 2011, §5.2) to about 1e-9 of the largest entry. Deterministic.
+/// exact where no matrix is singular, and otherwise by alternating directions (Boyd et al. 2011,
+/// §5.2) to about 1e-9 of the largest entry. Deterministic.
 Eigen::VectorXd conic_least_squares(const MatrixRef& gram, const VectorRef& moment,
                                     const std::vector<Eigen::Index>& sizes);
 

@@ -127,6 +127,18 @@ TEST(Whittle, PutsAPowerThatIsNotThereAtZero) {
   EXPECT_LT(std::get<RandomWalk>(found.terms[2].process).gamma2, 1e-12);
 }
 
+// A start whose shape is at the end of its scale, with and without power.
+TEST(Whittle, FindsAShapeThatTheStartDoesNotFeel) {
+  const Model truth = freed(model_of("AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)"));
+  const BandedPower bands = theory(truth);
+  for (const double power : {0.0, 0.01}) {
+    const Model start = with_values(truth, {power, 1.0 - 1e-12, 1.2});
+    const std::vector<double> found = all_values(whittle(start, std::span(&bands, 1)).model);
+    EXPECT_NEAR(found[0], 0.05, 1e-5) << power;
+    EXPECT_NEAR(found[1], 0.97, 1e-5) << power;
+  }
+}
+
 TEST(Whittle, FindsRampsThatRunEitherWay) {
   const Model truth = model_of("WN(sigma2=1)");
   std::vector<BandedPower> replicates(2, theory(truth));

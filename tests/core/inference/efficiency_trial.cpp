@@ -84,10 +84,21 @@ std::vector<report::IntervalRow>& figure_rows() {
   return rows;
 }
 
-class Efficiency : public ::testing::TestWithParam<const char*> {};
+// The goal is the bound within 10 % for every parameter, at the default or, where that is not
+// enough, after the Whittle step that the program then offers.
+constexpr double kGoal = 1.1;
+
+struct Case {
+  const char* model;
+  bool needs_step = false;
+};
+void PrintTo(const Case& one, std::ostream* out) { *out << one.model; }
+
+class Efficiency : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Efficiency, AgainstTheCramerRaoBound) {
-  const Model truth = testing::model_of(GetParam());
+  const auto& [name, needs_step] = GetParam();
+  const Model truth = testing::model_of(name);
   const Model open = testing::freed(truth);
   const std::vector<double> bounds = bounds_of(truth);
   // errors[way][parameter][run]
@@ -113,7 +124,7 @@ TEST_P(Efficiency, AgainstTheCramerRaoBound) {
       keep(kStep, i, whittle(found, std::span(&bands, 1)).model);
     }
   });
-  std::printf("| %s, T = %zu, %zu runs | error at the bound | |", GetParam(), kSamples, kRuns);
+  std::printf("| %s, T = %zu, %zu runs | error at the bound | |", name, kSamples, kRuns);
   for (const Way& way : kWays) std::printf(" %s |", way.name);
   std::printf(" Whittle step |\n");
   std::size_t at = 0;
@@ -140,11 +151,13 @@ TEST_P(Efficiency, AgainstTheCramerRaoBound) {
       // The median of n squares of normal numbers scatters by 1.36 / 0.4549 / √n, relatively: the
       // density of a squared normal at its median is 0.471.
       const double scatter = 0.5 / (0.471 * kMedianOfSquare * std::sqrt(kRuns));
-      EXPECT_LT(medians[kStep], 1.1 + 3.3 * scatter) << GetParam() << " " << about.name;
-      const double best = *std::min_element(medians.begin(), medians.begin() + kStep);
-      // Fails for resonances: dyadic scales are an octave wide, a resonance a few per cent. The
-      // step is what the program offers there (docs/efficiency.md).
-      EXPECT_LT(medians[kDefault] / best, 1.6) << GetParam() << " " << about.name;
+      const double most = kGoal + 3.3 * scatter;
+      EXPECT_LT(medians[kStep], most) << name << " " << about.name << ", Whittle step";
+      if (!needs_step) {
+        EXPECT_LT(medians[kDefault], most) << name << " " << about.name << ", default";
+        const double best = *std::min_element(medians.begin(), medians.begin() + kStep);
+        EXPECT_LT(medians[kDefault] / best, 1.6) << name << " " << about.name << ", default";
+      }
       ++at;
     }
   }
@@ -156,12 +169,13 @@ TEST_P(Efficiency, AgainstTheCramerRaoBound) {
 
 INSTANTIATE_TEST_SUITE_P(
     Models, Efficiency,
-    ::testing::Values("WN(sigma2=1) + RW(gamma2=1e-4)", "QN(q2=4) + WN(sigma2=1) + RW(gamma2=1e-4)",
-                      "WN(sigma2=1) + FN(b2=0.05)", "AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)",
-                      "AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)",
-                      "AR1(sigma2=0.01, phi=0.99501) + AR1(sigma2=0.1, phi=0.96079) + WN(sigma2=1)",
-                      "RES(sigma2=0.05, r=0.97, omega=0.8) + WN(sigma2=1) + RW(gamma2=1e-4)",
-                      "WN(sigma2=1) + RW(gamma2=1e-5) + DR(omega2=4e-9)"));
+    ::testing::Values(  // a dyadic scale is an octave wide, a resonance a few per cent
+        Case{"WN(sigma2=1) + RW(gamma2=1e-4)"}, Case{"QN(q2=4) + WN(sigma2=1) + RW(gamma2=1e-4)"},
+        Case{"WN(sigma2=1) + FN(b2=0.05)"}, Case{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)"},
+        Case{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)"},
+        Case{"AR1(sigma2=0.01, phi=0.99501) + AR1(sigma2=0.1, phi=0.96079) + WN(sigma2=1)"},
+        Case{"RES(sigma2=0.05, r=0.97, omega=0.8) + WN(sigma2=1) + RW(gamma2=1e-4)", true},
+        Case{"WN(sigma2=1) + RW(gamma2=1e-5) + DR(omega2=4e-9)"}));
 
 // φ of AR1 + WN over replicates, by one model for all and by the average of one each.
 struct Memory {

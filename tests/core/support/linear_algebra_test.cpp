@@ -66,6 +66,24 @@ TEST(PseudoInverse, TellsWhatCannotBeToldApart) {
   EXPECT_NEAR(inverse.null_share(2), 0.5, 1e-9);
 }
 
+// Where no matrix is singular a number is zero exactly, and the slopes of all else vanish.
+TEST(ConicLeastSquares, IsExactWhereOnlyNumbersAreZero) {
+  std::mt19937_64 random(20261122);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 100; ++trial) {
+    Eigen::MatrixXd a(12, 5);
+    for (double& x : a.reshaped()) x = normal(random);
+    // At (2, 0.3, 1), (1.5), 0, with a slope that leads out of the last.
+    const Eigen::VectorXd wanted{{2.0, 0.3, 1.0, 1.5, 0.0}};
+    const Eigen::MatrixXd gram = a.transpose() * a;
+    Eigen::VectorXd moment = gram * wanted;
+    moment(4) -= 1.0;
+    const Eigen::VectorXd found = conic_least_squares(gram, moment, {2, 1, 1});
+    EXPECT_EQ(found(4), 0.0);
+    EXPECT_LT((found - wanted).norm(), 1e-9);
+  }
+}
+
 // A random problem over one 3 × 3 matrix and two numbers, at the optimum: the slope in every cone
 // is itself in the cone (dual) and orthogonal to the solution.
 TEST(ConicLeastSquares, MeetsTheOptimalityConditions) {
