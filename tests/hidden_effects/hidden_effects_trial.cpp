@@ -59,7 +59,7 @@ const char* family_name(Family family) {
 struct Row {
   std::vector<std::pair<double, Share>> detected;  // δ, increasing
   Share strong;                                    // named first at δ ≥ 12
-  double identifiable = 0.0;                       // mean identifiable δ at δ = 12
+  double informed = 0.0;                           // mean δ with known base levels at δ = 12
 };
 
 struct Totals {
@@ -84,14 +84,14 @@ void score(const std::vector<Outcome>& outcomes, Row& row, Totals& totals) {
     }
     if (delta == 8.0) totals.first_faint.add(outcome.named(1));
     if (delta == 12.0) {
-      row.identifiable += outcome.injections.front().identifiable;
+      row.informed += outcome.injections.front().informed;
       cases += 1.0;
     }
     totals.confidently_wrong.add(outcome.confidently_wrong());
     for (const Covered& one : outcome.intervals()) totals.covered.add(one.holds());
     if (const auto reduction = outcome.error_reduction()) totals.reductions.push_back(*reduction);
   }
-  if (cases > 0.0) row.identifiable /= cases;
+  if (cases > 0.0) row.informed /= cases;
   row.detected.assign(detected.begin(), detected.end());
 }
 
@@ -106,7 +106,7 @@ void print(const HiddenEffect& effect, const Row& row, std::size_t samples,
   const auto at90 = strength_at_90(row.detected);
   std::printf("%-24s %-12s |%s | %-13s | %5.1f | ", effect.name().c_str(),
               family_name(effect.family), shares.c_str(), to_string(row.strong).c_str(),
-              row.identifiable);
+              row.informed);
   if (effect.kind == Kind::kIntegrity) {
     std::printf("\n");
   } else if (at90) {
@@ -124,7 +124,7 @@ TEST(HiddenEffectsTrial, EveryEffectOfTheCatalogue) {
   std::map<Family, std::pair<double, double>> oracle;  // sum, count
   std::vector<Outcome> all;
   std::printf(
-      "%-24s %-12s | detected at δ = 6 8 10 12 16, %% | named at δ ≥ 12 | identifiable of "
+      "%-24s %-12s | detected at δ = 6 8 10 12 16, %% | named at δ ≥ 12 | base levels known: δ of "
       "12 | δ at 90 %%: tool, oracle that searches\n",
       "effect", "family");
   for (const HiddenEffect& effect : hidden_effects()) {

@@ -42,7 +42,7 @@ nlohmann::json truth(const HiddenCase& made) {
     }
     effects.push_back({{"effect", made.spec.effects[i]},
                        {"delta", made.injections[i].delta},
-                       {"identifiable_delta", made.injections[i].identifiable},
+                       {"delta_if_levels_were_known", made.injections[i].informed},
                        {"parameters", parameters}});
   }
   return {{"effects", effects},       {"seed", made.spec.seed}, {"withheld", made.spec.withhold},

@@ -1,5 +1,6 @@
 #include "tests/hidden_effects/generator/apply.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/hidden_effects/generator/oracle.h"
@@ -19,14 +20,33 @@ Injection of_mean(double delta, std::vector<TrueParameter> parameters) {
   return {delta, delta, std::move(parameters)};
 }
 
-double spectral_strength(const Scene& scene, const Series& after) {
-  return strength(divergence(scene.spectrum, after), static_cast<double>(scene.replicates()));
+Injection of_spectrum(const Scene& scene, const Series& after) {
+  const double count = static_cast<double>(scene.replicates());
+  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
+  return {strength(divergence(nearest, after), count),
+          strength(divergence(scene.spectrum, after), count),
+          {}};
 }
 
-Injection of_spectrum(const Scene& scene, const Series& after) {
-  const double left = identifiable_divergence(after, scene.base.parts(scene.samples()));
-  return {
-      spectral_strength(scene, after), strength(left, static_cast<double>(scene.replicates())), {}};
+// The informed δ is cheap and near: from there, secants of ln δ over ln size.
+double solve_size(const Scene& scene, double delta, double low, double high,
+                  const std::function<Series(double size)>& after) {
+  const double count = static_cast<double>(scene.replicates());
+  double size = solve_strength(delta, low, high, [&](double x) {
+    return strength(divergence(scene.spectrum, after(x)), count);
+  });
+  double slope = 1.0;
+  double last_size = 0.0;
+  double last_excess = 0.0;
+  for (int step = 0; step < 20; ++step) {
+    const double excess = std::log(of_spectrum(scene, after(size)).delta / delta);
+    if (std::abs(excess) < 1e-4 || size == last_size) break;  // there, or at the end of the range
+    if (step > 0) slope = (excess - last_excess) / std::log(size / last_size);
+    last_size = size;
+    last_excess = excess;
+    size = std::min(size * std::exp(-excess / std::max(slope, 0.2)), high);
+  }
+  return size;
 }
 
 Injection add_noise(Scene& scene, double delta,
@@ -37,8 +57,7 @@ Injection add_noise(Scene& scene, double delta,
     for (std::size_t k = 0; k < out.size(); ++k) out[k] += size * size * unit[k];
     return out;
   };
-  deviation = solve_strength(delta, 1e-9 * scene.floor(), 1e3 * scene.floor(),
-                             [&](double size) { return spectral_strength(scene, after(size)); });
+  deviation = solve_size(scene, delta, 1e-9 * scene.floor(), 1e3 * scene.floor(), after);
   for (Recording& recording : scene.recordings) {
     const Series noise = shape(deviation).simulate(scene.random, scene.samples());
     Series& gyro = recording[kSubject];

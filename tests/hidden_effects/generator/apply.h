@@ -17,11 +17,13 @@ double add_shapes(Scene& scene, const std::vector<Series>& shapes, double delta)
 /// the information about means and variances is orthogonal.
 Injection of_mean(double delta, std::vector<TrueParameter> parameters);
 
-/// δ over all replicates of gyro_x's spectrum becoming `after`.
-double spectral_strength(const Scene& scene, const Series& after);
-
-/// The same as what was put in, with its identifiable part.
+/// What was put in, of gyro_x's spectrum becoming `after` in every replicate.
 Injection of_spectrum(const Scene& scene, const Series& after);
+
+/// The size in [low, high] at which the spectrum `after(size)`, which moves away from the scene's
+/// as the size grows, has the δ asked.
+double solve_size(const Scene& scene, double delta, double low, double high,
+                  const std::function<Series(double size)>& after);
 
 /// Adds noise of law `shape(deviation)` to gyro_x of every replicate, the deviation (unit of
 /// gyro_x) such that δ is what is asked; powers must go with its square.

@@ -18,8 +18,8 @@ struct TrueParameter {
 
 /// What was put in.
 struct Injection {
-  double delta = 0.0;         ///< The oracle's non-centrality; see oracle.h.
-  double identifiable = 0.0;  ///< What is left if the oracle must fit the base's levels, too.
+  double delta = 0.0;     ///< The oracle's non-centrality; see oracle.h.
+  double informed = 0.0;  ///< The same of an oracle who is told the base's levels as well.
   std::vector<TrueParameter> parameters;
 };
 

@@ -41,7 +41,7 @@ Injection hide_tilt(Scene& scene, double delta) {
 }
 
 // The structure shakes both gyros alike, with frequencies up to a few hertz. δ is that of an
-// observer of both gyros who knows the spectrum of the shaking.
+// observer of both gyros.
 Injection hide_vibration(Scene& scene, double delta) {
   const double tau = log_uniform(scene.random, 3.0, 10.0);  // samples
   const Series neighbour = scene.neighbour.spectrum(scene.samples());

@@ -5,7 +5,6 @@
 
 #include "tests/hidden_effects/generator/apply.h"
 #include "tests/hidden_effects/generator/draw.h"
-#include "tests/hidden_effects/generator/oracle.h"
 
 namespace imunoise::hidden {
 namespace {
@@ -58,8 +57,10 @@ Injection hide_short_markov(Scene& scene, double delta) {
   return hide_markov(scene, delta, log_uniform(scene.random, 4.0, 12.0));
 }
 
+// 50 to 200 correlation times in a replicate.
 Injection hide_long_markov(Scene& scene, double delta) {
-  return hide_markov(scene, delta, log_uniform(scene.random, 200.0, 800.0));
+  const double part = log_uniform(scene.random, 0.005, 0.02);
+  return hide_markov(scene, delta, part * static_cast<double>(scene.samples()));
 }
 
 Injection hide_flicker(Scene& scene, double delta) {
@@ -105,8 +106,7 @@ Injection hide_low_pass(Scene& scene, double delta) {
     }
     return out;
   };
-  const double pole = solve_strength(delta, 1e-6, 0.9,
-                                     [&](double p) { return spectral_strength(scene, after(p)); });
+  const double pole = solve_size(scene, delta, 1e-6, 0.9, after);
   for (Recording& recording : scene.recordings) {
     Series& gyro = recording[kSubject];
     double state = gyro.front();
@@ -128,8 +128,7 @@ Injection hide_angle_rounding(Scene& scene, double delta) {
     }
     return out;
   };
-  const double error = solve_strength(delta, 1e-6 * scene.floor(), scene.floor(),
-                                      [&](double q) { return spectral_strength(scene, after(q)); });
+  const double error = solve_size(scene, delta, 1e-6 * scene.floor(), scene.floor(), after);
   const double step = std::sqrt(12.0) * error;
   for (Recording& recording : scene.recordings) {
     double angle = step * uniform(scene.random, 0.0, 1.0);

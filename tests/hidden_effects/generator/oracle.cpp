@@ -27,20 +27,18 @@ double divergence(const Series& before, const Series& after) {
   return sum;
 }
 
-// With S1 = S0 + c·11ᵀ the whitened change c·S0^-½11ᵀS0^-½ has rank one and the eigenvalue
-// c(1/a + 1/b): one coefficient of that gain carries all of it.
 double shared_divergence(const Series& a, const Series& b, const Series& common) {
   double sum = 0.0;
   for (std::size_t k = 0; k < common.size(); ++k) {
-    const double more = common[k] * (1.0 / a[k] + 1.0 / b[k]);
-    sum += 0.5 * (more - std::log1p(more));
+    const double c = common[k];
+    sum -= 0.5 * std::log1p(-c * c / ((a[k] + c) * (b[k] + c)));
   }
   return sum;
 }
 
 // The Itakura-Saito divergence falls at every step of this multiplicative update (Févotte, Bertin &
 // Durrieu 2009, section 2, with the exponent ½ of the majorisation).
-double identifiable_divergence(const Series& after, const std::vector<Series>& parts) {
+Series nearest_sum(const Series& after, const std::vector<Series>& parts) {
   const std::size_t n = after.size();
   std::vector<double> levels(parts.size(), 1.0);
   Series sum(n);
@@ -51,7 +49,7 @@ double identifiable_divergence(const Series& after, const std::vector<Series>& p
       for (std::size_t k = 0; k < n; ++k) sum[k] += levels[j] * parts[j][k];
     }
     const double now = divergence(sum, after);
-    if (step > 0 && std::abs(now - last) < 1e-4 * (1e-3 + now)) return now;
+    if (step > 0 && std::abs(now - last) < 1e-4 * (1e-3 + now)) break;
     last = now;
     for (std::size_t j = 0; j < parts.size(); ++j) {
       double up = 0.0;
@@ -63,7 +61,7 @@ double identifiable_divergence(const Series& after, const std::vector<Series>& p
       levels[j] *= std::sqrt(up / down);
     }
   }
-  return last;
+  return sum;
 }
 
 double outlier_divergence(double share, double factor) {
@@ -79,7 +77,9 @@ double outlier_divergence(double share, double factor) {
                                           : std::log(share / wide) + exponent;
     out += 2.0 * kStep * ((1.0 - share) * bell + share * broad) * ratio;
   }
-  return std::max(out, 0.0);
+  // So far from N(0, 1); the divergence of the normal law nearest to the mixture adds to the rest.
+  const double more = share * factor * factor;
+  return std::max(out - 0.5 * (more - std::log1p(more)), 0.0);
 }
 
 double strength(double divergence, double count) { return std::sqrt(2.0 * divergence * count); }

@@ -26,15 +26,16 @@ double mean_strength(const std::vector<Series>& shapes, const Series& spectrum);
 /// KL of variances `after` from `before`, one independent coefficient each; nats.
 double divergence(const Series& before, const Series& after);
 
-/// The same for two channels of spectra a and b that come to share one more of spectrum `common`,
-/// seen by an observer of both.
+/// The sum of `parts`, their levels free, from which `after` diverges least.
+Series nearest_sum(const Series& after, const std::vector<Series>& parts);
+
+/// KL of two channels of spectra a and b that share one more of spectrum `common`, from two
+/// channels of the same spectra that share nothing: -½ Σ ln(1 - coherence²); nats. What each gains
+/// alone counts for nothing.
 double shared_divergence(const Series& a, const Series& b, const Series& common);
 
-/// KL of `after` from the nearest sum of `parts`, their levels free: what remains when the observer
-/// must fit the levels of the base to the same data.
-double identifiable_divergence(const Series& after, const std::vector<Series>& parts);
-
-/// KL of a sample of N(0, 1) that with probability `share` becomes N(0, 1 + factor²); nats.
+/// KL of a sample of N(0, 1) that with probability `share` becomes N(0, 1 + factor²), from the
+/// normal sample of the same variance; nats.
 double outlier_divergence(double share, double factor);
 
 /// δ of `count` independent repetitions.

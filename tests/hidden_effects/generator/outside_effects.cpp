@@ -5,7 +5,6 @@
 
 #include "tests/hidden_effects/generator/apply.h"
 #include "tests/hidden_effects/generator/draw.h"
-#include "tests/hidden_effects/generator/oracle.h"
 
 namespace imunoise::hidden {
 namespace {
@@ -74,8 +73,7 @@ Injection hide_echo(Scene& scene, double delta) {
     }
     return out;
   };
-  const double gain = solve_strength(delta, 1e-6, 0.9,
-                                     [&](double a) { return spectral_strength(scene, after(a)); });
+  const double gain = solve_size(scene, delta, 1e-6, 0.9, after);
   for (Recording& recording : scene.recordings) {
     Series& gyro = recording[kSubject];
     for (std::size_t t = gyro.size(); t-- > delay;) gyro[t] += gain * gyro[t - delay];
