@@ -1,6 +1,5 @@
 #include "tests/hidden_effects/trial_plan.h"
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
@@ -27,10 +26,7 @@ TrialPlan trial_plan() {
 
 std::vector<Outcome> diagnose_all(const std::vector<CaseSpec>& specs, const Questions& questions) {
   std::vector<Outcome> out(specs.size());
-  const auto start = std::chrono::steady_clock::now();
   for_each_index(specs.size(), [&](std::size_t i) { out[i] = diagnose(specs[i], questions); });
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  std::printf("%zu cases in %.0f s\n", specs.size(), took.count());
   print_where("no report", out, [](const Outcome& outcome) { return !outcome.error.empty(); });
   return out;
 }
