@@ -15,6 +15,8 @@ Outcome of(std::vector<std::string> effects, double delta, bool withhold = false
   spec.delta = delta;
   spec.seed = 1;
   spec.withhold = withhold;
+  spec.replicates = 3;
+  spec.samples = 1U << 13U;
   return diagnose(spec);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
+#include <sstream>
 
 #include "core/support/parallel.h"
 
@@ -16,6 +18,10 @@ TrialPlan trial_plan() {
   out.test_seeds = variable("IMUNOISE_TRIAL_SEEDS") == "test";
   if (const std::string repeats = variable("IMUNOISE_TRIAL_REPEATS"); !repeats.empty()) {
     out.repeats = std::strtoul(repeats.c_str(), nullptr, 10);
+  }
+  if (const std::string strengths = variable("IMUNOISE_TRIAL_STRENGTHS"); !strengths.empty()) {
+    std::istringstream words(strengths);
+    out.strengths.assign(std::istream_iterator<double>(words), {});
   }
   out.only = variable("IMUNOISE_TRIAL_ONLY");
   std::printf("%s seeds from %llu, %zu for each effect and strength%s%s\n",

@@ -15,7 +15,9 @@ namespace imunoise::hidden {
 struct TrialPlan {
   bool test_seeds = false;  ///< IMUNOISE_TRIAL_SEEDS=test
   std::size_t repeats = 2;  ///< IMUNOISE_TRIAL_REPEATS: seeds for each effect and strength
-  std::string only;         ///< IMUNOISE_TRIAL_ONLY: effects whose name holds this text
+  /// δ of the catalogue's effects; IMUNOISE_TRIAL_STRENGTHS: "8 12"
+  std::vector<double> strengths = {6.0, 8.0, 10.0, 12.0, 16.0};
+  std::string only;  ///< IMUNOISE_TRIAL_ONLY: effects whose name holds this text
 
   std::uint64_t seed(std::size_t repeat) const {
     return (test_seeds ? 1'000'001U : 1U) + static_cast<std::uint64_t>(repeat);

@@ -117,7 +117,7 @@ Outcome diagnose(const CaseSpec& spec, const Questions& questions) {
     return out;
   }
   out.report = *report;
-  if (questions.oracle_error) {
+  if (questions.oracle_at == spec.delta) {
     const auto clean = ask(made.clean, made, false);
     if (clean && clean->ladder_size() > 0 && clean->ladder(0).has_heldout_error()) {
       out.oracle_error = clean->ladder(0).heldout_error();

@@ -54,8 +54,9 @@ struct Outcome {
 
 /// What a trial asks of a case.
 struct Questions {
-  bool automatic = false;     ///< Let the tool go on after the first effect.
-  bool oracle_error = false;  ///< Diagnose the clean data as well.
+  bool automatic = false;  ///< Let the tool go on after the first effect.
+  /// Diagnose the clean data as well, where δ is this: its error is what an oracle would leave.
+  std::optional<double> oracle_at;
 };
 
 /// Makes the case, tells the tool the base's model (without values), and keeps what it says.
