@@ -14,6 +14,7 @@
 #include "drivers/emulator/serve.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
+#include "study/analysis/diagnose_series.h"
 #include "study/analysis/dynamic_series.h"
 #include "study/analysis/fault_series.h"
 #include "study/analysis/fit_series.h"
@@ -85,6 +86,13 @@ struct DynamicArguments {
   ShowArguments show;
 };
 
+struct DiagnoseArguments {
+  InputArguments input;
+  std::vector<std::string> channels;  ///< to be diagnosed; empty: those of the first one's quantity
+  study::DiagnoseOptions diagnose;
+  ShowArguments show;
+};
+
 struct FaultsArguments {
   InputArguments input;
   InputArguments training;  ///< read like the input; no files: the model is fitted to the input
@@ -139,10 +147,11 @@ struct VerifyArguments {
 };
 
 struct Arguments {
-  using Command = std::variant<WvArguments, FitArguments, TestArguments, SelectArguments,
-                               ArrayArguments, MixedArguments, FaultsArguments, DynamicArguments,
-                               SimulateArguments, RecordArguments, VerifyArguments,
-                               EmulateArguments, DriversArguments, DecodeArguments>;
+  using Command =
+      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
+                   MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
+                   SimulateArguments, RecordArguments, VerifyArguments, EmulateArguments,
+                   DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -16,6 +16,7 @@ int run(const MixedArguments& arguments);
 int run(const FaultsArguments& arguments);
 int run(const DynamicArguments& arguments);
 int run(const DecodeArguments& arguments);
+int run(const DiagnoseArguments& arguments);
 int run(const EmulateArguments& arguments);
 int run(const RecordArguments& arguments);
 int run(const VerifyArguments& arguments);

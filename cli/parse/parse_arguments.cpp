@@ -34,8 +34,9 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   program.add_option("--threads", threads, "Threads to use (results do not depend on it)")
       ->check(CLI::Range(1, 1024));
   std::vector<ParsedCommand> commands;
-  for (const auto& group : {analysis_commands, array_commands, recording_commands, device_commands,
-                            emulation_commands, replay_commands}) {
+  for (const auto& group :
+       {analysis_commands, array_commands, diagnosis_commands, recording_commands, device_commands,
+        emulation_commands, replay_commands}) {
     for (ParsedCommand& command : group(program)) commands.push_back(std::move(command));
   }
   try {

@@ -125,6 +125,20 @@ Curvature curvature_at(const Model& model, const std::vector<Coordinate>& coordi
   return out;
 }
 
+// Calls visit(coordinate, place in `columns`) for each column of the model that is asked for.
+template <class Visit>
+void for_each_column(const Model& model, const std::vector<Eigen::Index>& columns,
+                     const Visit& visit) {
+  Eigen::Index column = 0;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    const std::vector<ParameterInfo> about = parameters(model.terms[t].process);
+    for (std::size_t p = 0; p < about.size(); ++p, ++column) {
+      const auto place = std::find(columns.begin(), columns.end(), column);
+      if (place != columns.end()) visit(Coordinate{t, p, about[p]}, place - columns.begin());
+    }
+  }
+}
+
 }  // namespace
 
 double whittle_objective(const Model& model, std::span<const BandedPower> replicates) {
@@ -138,32 +152,33 @@ double whittle_objective(const Model& model, std::span<const BandedPower> replic
   return out;
 }
 
+Eigen::MatrixXd whittle_slopes(const Model& model, const BandedPower& bands,
+                               const std::vector<Eigen::Index>& columns) {
+  const Eigen::ArrayXd root = (0.5 * bands.count).sqrt() / spectrum_over(model, bands.frequency);
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(bands.frequency.size(), static_cast<Eigen::Index>(columns.size()));
+  for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
+    if (std::holds_alternative<Drift>(model.terms[c.term].process)) return;
+    const double value = values(model.terms[c.term].process)[c.parameter];
+    const double per_value = c.power() ? 1.0 : 1.0 / c.scale().slope(value);
+    out.col(place) = (root * slope_over(model, c, bands.frequency) * per_value).matrix();
+  });
+  return out;
+}
+
 Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPower> replicates,
                                     const std::vector<Eigen::Index>& columns) {
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
   for (const BandedPower& bands : replicates) {
+    const Eigen::MatrixXd slopes = whittle_slopes(model, bands, columns);
+    out += slopes.transpose() * slopes;
     const Eigen::ArrayXd s = spectrum_over(model, bands.frequency);
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(bands.frequency.size(), n);
-    Eigen::Index column = 0;
-    for (std::size_t t = 0; t < model.terms.size(); ++t) {
-      const std::vector<ParameterInfo> about = parameters(model.terms[t].process);
-      const std::vector<double> v = values(model.terms[t].process);
-      for (std::size_t p = 0; p < about.size(); ++p, ++column) {
-        const auto place = std::find(columns.begin(), columns.end(), column) - columns.begin();
-        if (place == n) continue;
-        const Coordinate c{t, p, about[p]};
-        if (std::holds_alternative<Drift>(model.terms[t].process)) {
-          out(place, place) += (bands.count * bands.ramp_power / s).sum() / (4.0 * v[p]);
-          continue;
-        }
-        const double per_value = c.power() ? 1.0 : 1.0 / c.scale().slope(v[p]);
-        a.col(place) =
-            ((0.5 * bands.count).sqrt() / s * slope_over(model, c, bands.frequency) * per_value)
-                .matrix();
-      }
-    }
-    out += a.transpose() * a;
+    for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
+      const auto* drift = std::get_if<Drift>(&model.terms[c.term].process);
+      if (drift == nullptr) return;
+      out(place, place) += (bands.count * bands.ramp_power / s).sum() / (4.0 * drift->omega2);
+    });
   }
   return out;
 }

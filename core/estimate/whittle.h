@@ -23,6 +23,11 @@ double whittle_objective(const Model& model, std::span<const BandedPower> replic
 Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPower> replicates,
                                     const std::vector<Eigen::Index>& columns);
 
+/// Its root for one replicate, without its rows for ramps: how the logarithm of each band's power
+/// moves with each parameter, over its standard error √(2/count). Bands × columns.
+Eigen::MatrixXd whittle_slopes(const Model& model, const BandedPower& bands,
+                               const std::vector<Eigen::Index>& columns);
+
 struct WhittleEstimate {
   Model model;  ///< sorted
   double objective = 0.0;

@@ -49,4 +49,27 @@ Eigen::VectorXd cosine_transform(const VectorRef& x) {
   return out;
 }
 
+Eigen::VectorXd inverse_cosine_transform(const VectorRef& c) {
+  const Eigen::Index n = c.size() + 1;
+  assert(quick_length(static_cast<std::size_t>(n)) == static_cast<std::size_t>(n));
+  // Makhoul's steps backwards: V_k = e^{iπk/2n} (c_k - i c_{n-k}) is the transform of the folded
+  // series.
+  const double scale = std::sqrt(0.5 * static_cast<double>(n));
+  std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(n));
+  for (Eigen::Index k = 1; k < n; ++k) {
+    const double angle = std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(n));
+    spectrum[static_cast<std::size_t>(k)] =
+        scale * std::polar(1.0, angle) * std::complex<double>(c(k - 1), -c(n - k - 1));
+  }
+  std::vector<std::complex<double>> folded;
+  Eigen::FFT<double> transform;
+  transform.inv(folded, spectrum);
+  Eigen::VectorXd out(n);
+  for (Eigen::Index t = 0; t < n; ++t) {
+    const Eigen::Index place = t % 2 == 0 ? t / 2 : n - 1 - t / 2;
+    out(t) = folded[static_cast<std::size_t>(place)].real();
+  }
+  return out;
+}
+
 }  // namespace imunoise

@@ -20,4 +20,7 @@ std::size_t quick_length(std::size_t n);
 /// length n (Makhoul 1980). Precondition: n is a quick_length().
 Eigen::VectorXd cosine_transform(const VectorRef& x);
 
+/// The series of mean zero whose cosine_transform() is c: n samples of n - 1 coefficients.
+Eigen::VectorXd inverse_cosine_transform(const VectorRef& c);
+
 }  // namespace imunoise

@@ -21,8 +21,8 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;
 };
 
-/// Which effect the model of a channel lacks. Error: no such channel or witness, a model that cannot
-/// be read, replicates that are too short, or the caller stopped it.
+/// Which effect the model of a channel lacks. Error: no such channel or witness, a model that
+/// cannot be read, replicates that are too short, or the caller stopped it.
 Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recordings,
                                             std::size_t channel, const DiagnoseOptions& options,
                                             const Progress& progress = {});

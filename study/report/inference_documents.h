@@ -1,6 +1,7 @@
 #pragma once
 
 #include "imunoise/v1/array.pb.h"
+#include "imunoise/v1/diagnosis.pb.h"
 #include "imunoise/v1/dynamic.pb.h"
 #include "imunoise/v1/faults.pb.h"
 #include "imunoise/v1/inference.pb.h"
@@ -17,5 +18,6 @@ Document document(const v1::ArrayReport& report, Digits digits);
 Document document(const v1::MixedReport& report, Digits digits);
 Document document(const v1::FaultReport& report, Digits digits);
 Document document(const v1::DynamicReports& reports, Digits digits);
+Document document(const v1::DiagnosisReports& reports, Digits digits);
 
 }  // namespace imunoise::report

@@ -1,0 +1,48 @@
+#include <algorithm>
+
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/progress_line.h"
+#include "cli/show.h"
+
+namespace imunoise::cli {
+namespace {
+
+// The numbers of the channels to be diagnosed. Error: a name that does not exist.
+Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
+                                          const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> out;
+  for (const std::string& name : wanted) {
+    const auto found =
+        std::find_if(first.channels.begin(), first.channels.end(),
+                     [&](const recording::Channel& one) { return one.name == name; });
+    if (found == first.channels.end())
+      return fail(fmt::format("channel {}: there is none in {}", name, first.name));
+    out.push_back(static_cast<std::size_t>(found - first.channels.begin()));
+  }
+  if (!out.empty()) return out;
+  for (std::size_t c = 0; c < first.channels.size(); ++c) {
+    if (first.channels[c].unit.quantity == first.channels[0].unit.quantity) out.push_back(c);
+  }
+  return out;
+}
+
+}  // namespace
+
+int run(const DiagnoseArguments& arguments) {
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return print_error(replicates.error());
+  const auto channels = subjects(replicates->front(), arguments.channels);
+  if (!channels) return print_error(channels.error());
+  v1::DiagnosisReports reports;
+  for (const std::size_t channel : *channels) {
+    ProgressLine line(replicates->front().channels[channel].name);
+    const auto done =
+        study::diagnose_series(*replicates, channel, arguments.diagnose, line.progress());
+    if (!done) return print_error(done.error());
+    *reports.add_channels() = *done;
+  }
+  return show(reports, arguments.show);
+}
+
+}  // namespace imunoise::cli

@@ -1,0 +1,125 @@
+#include "core/diagnosis/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/diagnosis/outliers.h"
+#include "core/diagnosis/telegraph.h"
+#include "core/inference/parameter_covariance.h"
+#include "core/support/linear_algebra.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Degrees of freedom of the noise level where an effect's coefficients get their information: 2
+// over the variance of its logarithm, by the information on the noise's parameters (Satterthwaite
+// 1946).
+double freedom_of(const Trial& trial, std::size_t effect) {
+  const Regression& regression = trial.regression;
+  const Index first = regression.first(effect);
+  const Index last = regression.first(effect + 1);
+  if (first == last) return INFINITY;
+  EffectCoefficients own = trial.fit.effects;
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(own.covariance.rows(), own.covariance.cols());
+  block.block(first, first, last - first, last - first) =
+      own.covariance.block(first, first, last - first, last - first);
+  own.covariance = block;
+  const Model& noise = trial.fit.model.noise;
+  const std::vector<Eigen::ArrayXd> share = regression.leverage(own, noise);
+  const std::vector<BandedPower> bands = regression.residual(trial.fit.effects.value);
+  const std::vector<Index> interior = parameter_sets(noise).interior;
+  const auto p = static_cast<Index>(interior.size());
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(p, p);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(p);
+  double total = 0.0;
+  for (std::size_t k = 0; k < bands.size(); ++k) {
+    const Eigen::MatrixXd slopes = whittle_slopes(noise, bands[k], interior);
+    information += slopes.transpose() * slopes;
+    const Eigen::VectorXd weight = (share[k] / (0.5 * bands[k].count).sqrt()).matrix();
+    slope += slopes.transpose() * weight;
+    total += share[k].sum();
+  }
+  if (!(total > 0.0)) return INFINITY;
+  slope /= total;
+  const double variance = slope.dot(pseudo_inverse(information).matrix * slope);
+  return variance > 0.0 ? std::max(1.0, 2.0 / variance) : INFINITY;
+}
+
+// A Markov process so fast that it left no white noise is the sensor's bandwidth.
+bool is_bandwidth(const Model& noise) {
+  constexpr double kFastest = 20.0;  // samples
+  constexpr double kLeft = 0.1;
+  double white = 0.0;
+  double fast = 0.0;
+  for (const Term& term : noise.terms) {
+    const auto* markov = std::get_if<Ar1>(&term.process);
+    if (std::holds_alternative<WhiteNoise>(term.process)) white += spectrum(term.process, 0.5);
+    if (markov != nullptr && markov->phi > 0.0 && -1.0 / std::log(markov->phi) < kFastest)
+      fast += spectrum(term.process, 0.5);
+  }
+  return fast > 0.0 && white < kLeft * fast;
+}
+
+void name_better(TriedEffect& tried) {
+  if (tried.effect != "gauss_markov") return;
+  if (is_bandwidth(tried.trial.fit.model.noise)) {
+    tried.effect = "low_pass";
+    return;
+  }
+  const double levels = two_level_gain(tried.trial.regression, tried.trial.fit);
+  constexpr double kClearly = 5.0;
+  if (levels < kClearly) return;
+  tried.effect = "telegraph";
+  tried.likelihood_gain += levels;
+}
+
+}  // namespace
+
+Trial try_out(const Current& current, const Suggestion& suggestion) {
+  if (const auto* noise = std::get_if<Model>(&suggestion.added))
+    return {current.regression, joint_fit(current.regression, *noise)};
+  const auto& term = std::get<EffectTerm>(suggestion.added);
+  Regression grown = current.regression.with(term);
+  if (term.kind == EffectKind::kOutliers)
+    grown = grown.on(without(current.subject(), find_outliers(current, term.above)));
+  JointFit fit = joint_fit(grown, current.fit.model.noise);
+  return {std::move(grown), std::move(fit)};
+}
+
+std::vector<TriedEffect> try_all(const Current& current, const Suggestions& suggestions,
+                                 const Progress& progress) {
+  // Effects that noise alone suggests are not worth a fit.
+  constexpr double kWorthTrying = 2.0;  // nats
+  std::vector<const Suggestion*> worth;
+  for (const Suggestion& one : suggestions) {
+    if (one.score_nats > kWorthTrying) worth.push_back(&one);
+  }
+  std::vector<std::optional<TriedEffect>> tried(worth.size());
+  for_each_index(worth.size(), [&](std::size_t i) {
+    if (progress.stopped()) return;
+    const Suggestion& one = *worth[i];
+    Trial trial = try_out(current, one);
+    TriedEffect out{std::string(one.effect), one, std::move(trial)};
+    out.likelihood_gain = out.trial.fit.log_likelihood - current.fit.log_likelihood;
+    const std::size_t effects = out.trial.regression.effects().size();
+    out.freedom = std::holds_alternative<EffectTerm>(one.added) ? freedom_of(out.trial, effects - 1)
+                                                                : INFINITY;
+    name_better(out);
+    out.log_chance = log_chance(out.likelihood_gain, one.dof, out.freedom, one.power, one.search);
+    out.gain = -out.log_chance;
+    tried[i] = std::move(out);
+  });
+  std::vector<TriedEffect> out;
+  for (auto& one : tried) {
+    if (one) out.push_back(std::move(*one));
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const TriedEffect& a, const TriedEffect& b) { return a.gain > b.gain; });
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnosis/subject.h"
+
+namespace imunoise {
+
+/// A physical effect that can be missing from a model.
+struct EffectInfo {
+  std::string_view id;
+  std::string_view title;                      ///< "coupling to temperature"
+  std::string_view cause;                      ///< the physics, a sentence
+  std::string_view record_next;                ///< what to record to be sure
+  std::vector<std::string_view> looks_like{};  ///< ids
+  std::string_view family;  ///< effects whose difference is a matter of words share one
+};
+
+/// All effects, in the order of the documentation.
+const std::vector<EffectInfo>& effect_catalogue();
+/// Precondition: an id of the catalogue.
+const EffectInfo& effect_info(std::string_view id);
+
+/// What a coupling to a witness is called: by the witness's quantity, else by its name.
+std::string_view coupling_effect(Quantity subject, const Witness& witness);
+/// True where both sensors could feel the same motion, so that it need not be the one leaking into
+/// the other.
+bool may_share_motion(Quantity subject, const Witness& witness);
+
+}  // namespace imunoise

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/diagnosis/effect_term.h"
+#include "core/diagnosis/subject.h"
+#include "core/support/linear_algebra.h"
+
+namespace imunoise {
+
+/// What one effect adds to the mean of one replicate: samples, a column a coefficient. Each
+/// coefficient is a place in the list of all of the effect's; those shared by the replicates have
+/// the same place in each.
+struct Columns {
+  Eigen::MatrixXd cosines;           ///< (samples - 1) × columns, their cosine_transform()
+  std::vector<Eigen::Index> places;  ///< one a column
+};
+
+/// A coefficient of an effect, for people.
+struct CoefficientName {
+  std::string name;              ///< "slope", "cosine", "height"
+  std::size_t replicate = kAll;  ///< the one that it belongs to
+  static constexpr std::size_t kAll = static_cast<std::size_t>(-1);
+};
+
+/// An effect as regressors of every replicate. Kinds that are no regressors (modulation, outliers,
+/// own powers) have no coefficients.
+struct Regressors {
+  std::vector<Columns> replicates;
+  std::vector<CoefficientName> coefficients;
+};
+
+/// Precondition: the effect's witness exists and its replicate too, see check().
+Regressors regressors_of(const EffectTerm& term, const Subject& subject);
+
+/// Error: a witness or replicate that the subject does not have, or a frequency that it cannot
+/// show.
+Result<void> check(const EffectTerm& term, const Subject& subject);
+
+/// The response of a first-order lag of time constant `lag` samples > 0 to a series that stood at
+/// its first value before: exact for a piecewise constant input.
+Eigen::VectorXd lagged(const VectorRef& x, double lag);
+
+}  // namespace imunoise

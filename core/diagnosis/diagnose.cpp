@@ -1,0 +1,180 @@
+#include "core/diagnosis/diagnose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/catalogue.h"
+#include "core/diagnosis/outliers.h"
+#include "core/support/distributions.h"
+
+namespace imunoise {
+namespace {
+
+constexpr double kClearGap = 3.0;     // nats: less cannot tell two effects apart
+constexpr std::size_t kProven = 3;    // effects that are tried on held-out replicates
+constexpr double kMisfitShare = 0.2;  // of the level is spent on misfits of unknown cause
+
+// Effects that a temperature which nobody recorded looks like. One that was recorded has been
+// tried.
+bool slow(const RankedEffect& effect, const Subject& subject) {
+  const std::string& id = effect.tried.effect;
+  if (id == "rate_ramp" || id == "warm_up" || id == "random_walk") return true;
+  if (id != "gauss_markov" && id != "flicker") return false;
+  if (id == "flicker") return true;
+  constexpr double kSlow = 10.0;  // s: heat does not move a sensor faster
+  for (const Term& term : effect.tried.trial.fit.model.noise.terms) {
+    const auto* markov = std::get_if<Ar1>(&term.process);
+    if (markov != nullptr && markov->phi > 0.0 &&
+        -1.0 / std::log(markov->phi) > kSlow * subject.rate.value)
+      return true;
+  }
+  return false;
+}
+
+bool has_witness(const Subject& subject, std::string_view effect) {
+  return std::any_of(subject.witnesses.begin(), subject.witnesses.end(), [&](const Witness& one) {
+    return coupling_effect(subject.quantity, one) == effect;
+  });
+}
+
+void add_unique(std::vector<std::string>& to, std::string_view id, const std::string& self) {
+  if (id != self && std::find(to.begin(), to.end(), id) == to.end()) to.emplace_back(id);
+}
+
+// Candidates whose evidence is as good, and what was not recorded.
+void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject) {
+  for (RankedEffect& one : effects) {
+    for (const RankedEffect& other : effects) {
+      const bool same =
+          effect_info(one.tried.effect).family == effect_info(other.tried.effect).family;
+      if (!same && std::abs(one.tried.gain - other.tried.gain) < kClearGap)
+        add_unique(one.confused_with, other.tried.effect, one.tried.effect);
+    }
+    if (slow(one, subject) && !has_witness(subject, "temperature"))
+      add_unique(one.confused_with, "temperature", one.tried.effect);
+    if (one.tried.suggestion.backwards)
+      add_unique(one.confused_with, "gauss_markov", one.tried.effect);
+  }
+}
+
+bool can_hold_out(const Trial& trial) {
+  const auto& effects = trial.regression.effects();
+  return trial.regression.subject().replicates() > 1 &&
+         std::none_of(effects.begin(), effects.end(),
+                      [](const EffectTerm& term) { return term.kind == EffectKind::kOwnPowers; });
+}
+
+// Both the likelihood and, where the wavelet variance can see the effect, the error must be better.
+bool proven(const RankedEffect& effect, const std::optional<Errors>& before) {
+  if (!effect.heldout || !before) return true;
+  return effect.heldout->total_likelihood() > before->total_likelihood();
+}
+
+std::string parameter_of(const Suggestion& one) {
+  const auto* term = std::get_if<EffectTerm>(&one.added);
+  if (term == nullptr) return "power";
+  switch (term->kind) {
+    case EffectKind::kRamp:
+      return "slope";
+    case EffectKind::kStep:
+      return "height";
+    case EffectKind::kLine:
+    case EffectKind::kWarmUp:
+      return "amplitude";
+    default:
+      return "coefficient";
+  }
+}
+
+// How large the coefficient of a search must be to pass the threshold nine times in ten.
+std::optional<DetectionLimit> limit_of(const Suggestion& one, double level) {
+  if (!(one.information > 0.0)) return std::nullopt;
+  double low = 0.0;
+  double high = 1e3;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (log_chance(middle, one.dof, INFINITY, one.power, one.search) > std::log(level) ? low : high) =
+        middle;
+  }
+  const double nine_in_ten = normal_quantile(0.9);
+  const auto* term = std::get_if<EffectTerm>(&one.added);
+  return DetectionLimit{std::string(one.effect), term != nullptr ? term->witness : "",
+                        parameter_of(one),
+                        (std::sqrt(2.0 * high) + nine_in_ten) / std::sqrt(one.information)};
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Progress& progress) {
+  const Current current = current_of(model.regression, model.fit);
+  const Subject& subject = current.subject();
+  Suggestions all;
+  const std::vector<Suggestions (*)(const Current&)> searches{
+      scan_noise, scan_lines, scan_steps, scan_trends, scan_witnesses, scan_samples};
+  double done = 0.0;
+  for (const auto search : searches) {
+    if (progress.stopped()) return {};
+    Suggestions found = search(current);
+    all.insert(all.end(), std::make_move_iterator(found.begin()),
+               std::make_move_iterator(found.end()));
+    done += 1.0 / static_cast<double>(searches.size());
+    progress.report(0.4 * done);
+  }
+  Diagnosis out;
+  for (TriedEffect& tried : try_all(current, all, progress.part(0.4, 0.8))) {
+    RankedEffect one{std::move(tried), 1.0, {}, {}};
+    // Everything that was searched is a chance of a false alarm.
+    one.familywise_p =
+        std::min(1.0, static_cast<double>(all.size()) * std::exp(one.tried.log_chance));
+    out.effects.push_back(std::move(one));
+  }
+  fill_confusions(out.effects, subject);
+  out.misfit = misfit_of(current);
+  out.misfit_p = misfit_p_value(out.misfit);
+  progress.report(0.85);
+  if (can_hold_out(model)) {
+    out.heldout = heldout_errors(model);
+    for (std::size_t i = 0; i < std::min(kProven, out.effects.size()); ++i) {
+      if (progress.stopped()) return {};
+      if (can_hold_out(out.effects[i].tried.trial))
+        out.effects[i].heldout = heldout_errors(out.effects[i].tried.trial);
+    }
+  }
+  progress.report(1.0);
+  const double level = (1.0 - kMisfitShare) * options.level;
+  for (const Suggestion& one : all) {
+    if (auto limit = limit_of(one, level / static_cast<double>(all.size())))
+      out.limits.push_back(std::move(*limit));
+  }
+  const bool seen = !out.effects.empty() && out.effects[0].familywise_p < level &&
+                    proven(out.effects[0], out.heldout);
+  if (seen) {
+    const Trial& best = out.effects[0].tried.trial;
+    // What remains after the best effect must be small against what it took away, or it is not it.
+    const MisfitReport after = misfit_of(current_of(best.regression, best.fit));
+    const bool explains = !(after.spectrum.p_value < 1e-6) ||
+                          after.spectrum.statistic < 0.5 * out.misfit.spectrum.statistic;
+    out.verdict = !explains                              ? DiagnosisVerdict::kUnknown
+                  : out.effects[0].confused_with.empty() ? DiagnosisVerdict::kFound
+                                                         : DiagnosisVerdict::kOneOf;
+  } else if (out.misfit_p < kMisfitShare * options.level) {
+    out.verdict = DiagnosisVerdict::kUnknown;
+  }
+  return out;
+}
+
+Trial fit_full_model(std::shared_ptr<const Subject> subject, const FullModel& start,
+                     const Progress& progress) {
+  Regression regression(std::move(subject));
+  for (const EffectTerm& term : start.effects) regression = regression.with(term);
+  JointFit fit = joint_fit(regression, start.noise, progress);
+  for (const EffectTerm& term : start.effects) {
+    if (term.kind != EffectKind::kOutliers) continue;
+    const Current current = current_of(regression, fit);
+    regression = regression.on(without(regression.subject(), find_outliers(current, term.above)));
+    fit = joint_fit(regression, fit.model.noise, progress);
+  }
+  return {std::move(regression), std::move(fit)};
+}
+
+}  // namespace imunoise

@@ -1,0 +1,34 @@
+#pragma once
+
+// How much a candidate explains, in one currency, whatever it is and wherever it was sought.
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace imunoise {
+
+/// Where a search looked for an effect: the more places, the better the best of them looks by
+/// chance.
+struct Search {
+  /// Length of the path of whitened unit scores over a scanned shape (Davies 1987): the sum of the
+  /// angles between neighbours, rad. 0 where nothing was scanned.
+  double path = 0.0;
+  /// Logarithm of how many separate places were tried besides: 0 for one.
+  double log_places = 0.0;
+};
+
+/// Logarithm of the chance that an effect of `dof` coefficients gains this many nats of likelihood
+/// at a given place without being there. `freedom`: degrees of freedom behind the noise level where
+/// the effect is (infinite: known). One-sided for a power, which cannot be negative.
+double log_chance(double gain_nats, double dof, double freedom, bool power);
+
+/// The same for the best place of a search, at most 0.
+double log_chance(double gain_nats, double dof, double freedom, bool power, const Search& search);
+
+/// The length of the path along the columns of a matrix (unit vectors up to their sign).
+double path_length(const Eigen::MatrixXd& scores);
+
+/// log(exp(a) + exp(b)).
+double log_sum(double a, double b);
+
+}  // namespace imunoise

@@ -1,0 +1,103 @@
+#include "core/diagnosis/heldout.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "core/inference/normal_scores.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+double wavelet_error(const Regression& regression, const Eigen::VectorXd& coefficients,
+                     std::size_t replicate, const Model& noise) {
+  const Eigen::VectorXd left =
+      inverse_cosine_transform(regression.residual_cosines(coefficients, replicate));
+  const auto n = static_cast<std::size_t>(left.size());
+  const Signal signal(std::span<const double>(left.data(), n), regression.subject().rate);
+  const std::vector<WaveletVariance> measured{wavelet_variance(signal, Scales::for_samples(n))};
+  const MomentCovariances covariances = moment_covariances(noise, measured);
+  const auto scores = normal_scores(noise, measured, covariances);
+  const Eigen::VectorXd z =
+      scores[0].residual(measured[0].variance, variance(noise, measured[0].scales.half_widths()));
+  return z.size() > 0 ? z.squaredNorm() / static_cast<double>(z.size()) : 1.0;
+}
+
+double log_likelihood_of(const Regression& one, const Eigen::VectorXd& coefficients,
+                         const Model& noise) {
+  return -whittle_objective(noise, one.residual(coefficients));
+}
+
+// Gain of the modulated effects of a fit on one replicate.
+double modulation_gain(const Trial& trial, const Regression& one,
+                       const Eigen::VectorXd& coefficients, const Model& noise,
+                       std::size_t replicate) {
+  double out = 0.0;
+  JointFit there{{noise, {}}, {coefficients, {}}, {}, {}, 0.0, Termination::kConverged};
+  for (const EffectTerm& term : trial.regression.effects()) {
+    if (term.kind != EffectKind::kModulated) continue;
+    Witness alone = *one.subject().find(term.witness);
+    alone.samples = {alone.samples[replicate]};
+    out += modulation_by(alone, {innovations(one, there, replicate)}).log_likelihood - 0.5;
+  }
+  return out;
+}
+
+}  // namespace
+
+double Errors::mean_error() const {
+  return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());
+}
+
+double Errors::error_of_mean() const {
+  if (error.size() < 2) return 0.0;
+  const double mean = mean_error();
+  double squares = 0.0;
+  for (const double one : error) squares += (one - mean) * (one - mean);
+  const auto n = static_cast<double>(error.size());
+  return std::sqrt(squares / (n * (n - 1.0)));
+}
+
+double Errors::total_likelihood() const {
+  return std::accumulate(log_likelihood.begin(), log_likelihood.end(), 0.0);
+}
+
+Errors training_errors(const Trial& trial) {
+  const std::size_t count = trial.regression.subject().replicates();
+  Errors out{std::vector<double>(count), std::vector<double>(count)};
+  for_each_index(count, [&](std::size_t k) {
+    const Model& noise =
+        trial.fit.own_powers.empty() ? trial.fit.model.noise : trial.fit.own_powers[k];
+    const Eigen::VectorXd& at = trial.fit.effects.value;
+    out.error[k] = wavelet_error(trial.regression, at, k, noise);
+    out.log_likelihood[k] = log_likelihood_of(trial.regression.of({k}), at, noise);
+  });
+  return out;
+}
+
+Errors heldout_errors(const Trial& trial) {
+  const Regression& all = trial.regression;
+  const std::size_t count = all.subject().replicates();
+  Errors out{std::vector<double>(count), std::vector<double>(count)};
+  for_each_index(count, [&](std::size_t k) {
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i != k) others.push_back(i);
+    }
+    const JointFit fit = joint_fit(all.of(others), trial.fit.model.noise);
+    const Model& noise = fit.model.noise;
+    const Regression one = all.of({k});
+    const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;
+    double own = 0.0;
+    for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
+    out.error[k] = wavelet_error(all, at, k, noise);
+    out.log_likelihood[k] =
+        log_likelihood_of(one, at, noise) - own + modulation_gain(trial, one, at, noise, k);
+  });
+  return out;
+}
+
+}  // namespace imunoise

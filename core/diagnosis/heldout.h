@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/candidates.h"
+#include "core/wavelet/wavelet_variance.h"
+
+namespace imunoise {
+
+/// How a model does on replicates, one number a replicate.
+struct Errors {
+  /// Mean square of the whitened normal scores of the wavelet variance, with the effects taken out:
+  /// 1.0 is the noise floor.
+  std::vector<double> error;
+  std::vector<double> log_likelihood;  ///< nats, less what does not depend on the model
+
+  double mean_error() const;
+  /// Standard error of the mean; 0 with one replicate.
+  double error_of_mean() const;
+  double total_likelihood() const;
+};
+
+/// On the replicates that the model was fitted to.
+Errors training_errors(const Trial& trial);
+
+/// On each replicate by a fit to the others. Coefficients that belong to the held-out replicate
+/// alone (phases, steps) are estimated there, and each costs a nat. Precondition: at least two
+/// replicates, all of the model's parameters common to them.
+Errors heldout_errors(const Trial& trial);
+
+}  // namespace imunoise

@@ -1,0 +1,138 @@
+#include "core/diagnosis/misfit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/inference/parameter_covariance.h"
+#include "core/support/linear_algebra.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Bands are put together until they have this many degrees of freedom and span half an octave.
+constexpr double kFewestFreedom = 8.0;
+
+// Mean power over model of a χ² with `freedom` degrees as a normal score (Wilson & Hilferty 1931).
+double normal_score(double ratio, double freedom) {
+  const double spread = 2.0 / (9.0 * freedom);
+  return (std::cbrt(ratio) - (1.0 - spread)) / std::sqrt(spread);
+}
+
+double model_spectrum(const Model& noise, double f) {
+  double out = 0.0;
+  for (const Term& term : noise.terms) out += spectrum(term.process, f);
+  return out;
+}
+
+// Half octaves of one length of replicates, with the directions of the parameters.
+void add_bands(const Current& current, const BandedPower& bands, const std::vector<Index>& interior,
+               std::vector<BandMisfit>& out, std::vector<Eigen::VectorXd>& directions) {
+  const Model& noise = current.fit.model.noise;
+  const Eigen::MatrixXd slopes = whittle_slopes(noise, bands, interior);
+  const double rate = bands.rate.value;
+  Index begin = 0;
+  while (begin < bands.frequency.size()) {
+    double freedom = 0.0;
+    double excess = 0.0;
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(static_cast<Index>(interior.size()));
+    Index end = begin;
+    while (end < bands.frequency.size() &&
+           (freedom < kFewestFreedom ||
+            bands.frequency(end) < std::sqrt(2.0) * bands.frequency(begin))) {
+      const double c = bands.count(end);
+      freedom += c;
+      excess += c * bands.power(end) / model_spectrum(noise, bands.frequency(end));
+      direction += std::sqrt(0.5 * c) * slopes.row(end).transpose();
+      ++end;
+    }
+    if (freedom >= kFewestFreedom) {
+      BandMisfit one{bands.frequency(begin) * rate, bands.frequency(end - 1) * rate,
+                     excess / freedom, 0.0, 0};
+      one.sigma = normal_score(one.ratio, freedom);
+      out.push_back(one);
+      directions.push_back(direction / std::sqrt(0.5 * freedom));
+    }
+    begin = end;
+  }
+}
+
+void count_replicates(const Current& current, std::vector<BandMisfit>& bands) {
+  const Model& noise = current.fit.model.noise;
+  for (const BandedPower& one : current.regression.residual(current.fit.effects.value)) {
+    for (BandMisfit& band : bands) {
+      double freedom = 0.0;
+      double excess = 0.0;
+      for (Index b = 0; b < one.frequency.size(); ++b) {
+        const double f = one.frequency(b) * one.rate.value;
+        if (f < band.from || f > band.to) continue;
+        freedom += one.count(b);
+        excess += one.count(b) * one.power(b) / model_spectrum(noise, one.frequency(b));
+      }
+      if (freedom > 0.0 && (excess > freedom) == (band.ratio > 1.0)) ++band.replicates;
+    }
+  }
+}
+
+}  // namespace
+
+MisfitReport misfit_of(const Current& current) {
+  MisfitReport out;
+  const std::vector<Index> interior = parameter_sets(current.fit.model.noise).interior;
+  std::vector<Eigen::VectorXd> directions;
+  for (const BandedPower& bands : current.pooled)
+    add_bands(current, bands, interior, out.bands, directions);
+  count_replicates(current, out.bands);
+  const auto n = static_cast<Index>(out.bands.size());
+  Eigen::VectorXd z(n);
+  Eigen::MatrixXd a(n, static_cast<Index>(interior.size()));
+  for (Index i = 0; i < n; ++i) {
+    z(i) = out.bands[static_cast<std::size_t>(i)].sigma;
+    a.row(i) = directions[static_cast<std::size_t>(i)].transpose();
+  }
+  const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
+  const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
+  out.spectrum = chi_square_test(left.squaredNorm(), std::max<Index>(0, n - inverse.rank));
+
+  constexpr Index kStretches = 16;
+  const std::size_t count = current.subject().replicates();
+  std::vector<Eigen::VectorXd> white(count);
+  for_each_index(
+      count, [&](std::size_t k) { white[k] = innovations(current.regression, current.fit, k); });
+  double squares = 0.0;
+  double fourth = 0.0;
+  double samples = 0.0;
+  double chi = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index length = white[k].size() / kStretches;
+    // Each replicate against its own level: that is another question.
+    const double level = white[k].squaredNorm() / static_cast<double>(white[k].size());
+    const double seconds = static_cast<double>(length) / current.subject().rate.value;
+    for (Index i = 0; i < kStretches; ++i) {
+      const double ratio = white[k].segment(i * length, length).squaredNorm() /
+                           (level * static_cast<double>(length));
+      const double sigma = normal_score(ratio, static_cast<double>(length));
+      chi += sigma * sigma;
+      out.times.push_back({k, static_cast<double>(i) * seconds,
+                           static_cast<double>(i + 1) * seconds, ratio, sigma});
+    }
+    squares += white[k].squaredNorm();
+    fourth += white[k].array().square().square().sum();
+    samples += static_cast<double>(white[k].size());
+  }
+  const auto replicates = static_cast<Index>(count);
+  out.time = chi_square_test(chi, replicates * (kStretches - 1));
+  out.excess_kurtosis = fourth * samples / (squares * squares) - 3.0;
+  out.kurtosis = chi_square_test(out.excess_kurtosis * out.excess_kurtosis * samples / 24.0, 1);
+  return out;
+}
+
+double misfit_p_value(const MisfitReport& misfit) {
+  const double least =
+      std::min({misfit.spectrum.p_value, misfit.time.p_value, misfit.kurtosis.p_value});
+  return 1.0 - std::pow(1.0 - least, 3.0);
+}
+
+}  // namespace imunoise

@@ -1,0 +1,54 @@
+#include "core/diagnosis/outliers.h"
+
+#include <cmath>
+
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/distributions.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+
+using Index = Eigen::Index;
+
+Outliers find_outliers(const Current& current, double above) {
+  const std::size_t count = current.weighted.size();
+  Outliers out{std::vector<std::vector<Index>>(count), std::vector<std::vector<double>>(count)};
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::VectorXd& u = current.weighted[k];
+    const double information = (1.0 / current.spectrum[k]).mean();
+    const double least = above * std::sqrt(information);
+    for (Index t = 0; t < u.size(); ++t) {
+      const double size = std::abs(u(t));
+      if (size < least) continue;
+      const bool peak = (t == 0 || size >= std::abs(u(t - 1))) &&
+                        (t + 1 == u.size() || size > std::abs(u(t + 1)));
+      if (!peak) continue;
+      out.places[k].push_back(t);
+      out.sizes[k].push_back(u(t) / information);
+      out.gain_nats += 0.5 * size * size / information;
+      ++out.count;
+    }
+  }
+  return out;
+}
+
+double outlier_threshold(const Subject& subject) {
+  double samples = 0.0;
+  for (const Eigen::VectorXd& x : subject.samples) samples += static_cast<double>(x.size());
+  constexpr double kOnceIn = 20.0;
+  return normal_quantile(1.0 - 0.5 / (kOnceIn * samples));
+}
+
+std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& outliers) {
+  auto out = std::make_shared<Subject>(subject);
+  for_each_index(out->samples.size(), [&](std::size_t k) {
+    if (outliers.places[k].empty()) return;
+    for (std::size_t i = 0; i < outliers.places[k].size(); ++i)
+      out->samples[k](outliers.places[k][i]) -= outliers.sizes[k][i];
+    out->samples[k].array() -= out->samples[k].mean();
+    out->cosines[k] = cosine_transform(out->samples[k]);
+  });
+  return out;
+}
+
+}  // namespace imunoise

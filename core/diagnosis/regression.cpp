@@ -1,0 +1,233 @@
+#include "core/diagnosis/regression.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "core/spectrum/bands.h"
+#include "core/support/linear_algebra.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+Eigen::ArrayXd spectrum_of(const Model& noise, const Eigen::ArrayXd& frequency) {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(frequency.size());
+  for (const Term& term : noise.terms) out += spectrum(term.process, frequency);
+  return out;
+}
+
+// Weights of bands under a model: coefficients over spectrum.
+Eigen::ArrayXd weights(const BandedPower& bands, const Model& noise) {
+  return bands.count / spectrum_of(noise, bands.frequency);
+}
+
+BandedPower empty_bands(Index n, Hertz rate) {
+  const Bands bands(n);
+  const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(bands.size());
+  return {bands.frequency, bands.count, zero, zero, zero, static_cast<std::size_t>(n), rate};
+}
+
+}  // namespace
+
+Regression::Regression(std::shared_ptr<const Subject> subject)
+    : subject_(std::move(subject)),
+      replicates_(subject_->replicates()),
+      moments_(subject_->replicates()) {
+  std::iota(replicates_.begin(), replicates_.end(), 0);
+  for_each_index(moments_.size(), [&](std::size_t k) { fill_moments(k); });
+}
+
+void Regression::fill_moments(std::size_t replicate) {
+  const Eigen::VectorXd& response = subject_->cosines[replicate];
+  std::vector<Eigen::Ref<const Eigen::VectorXd>> all{response};
+  Moments made{empty_bands(response.size() + 1, subject_->rate), {}, {}};
+  for (std::size_t e = 0; e < columns_.size(); ++e) {
+    const Columns& columns = columns_[e]->replicates[replicate];
+    for (Index i = 0; i < columns.cosines.cols(); ++i) {
+      all.emplace_back(columns.cosines.col(i));
+      made.places.push_back(first_[e] + columns.places[static_cast<std::size_t>(i)]);
+    }
+  }
+  const Bands bands(response.size() + 1);
+  const auto size = static_cast<Index>(all.size());
+  made.product.assign(static_cast<std::size_t>(bands.size()), Eigen::MatrixXd(size, size));
+  for (std::size_t b = 0; b < made.product.size(); ++b) {
+    const Index begin = bands.edges[b];
+    const Index width = bands.edges[b + 1] - begin;
+    for (Index i = 0; i < size; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        const double mean = all[static_cast<std::size_t>(i)]
+                                .segment(begin, width)
+                                .dot(all[static_cast<std::size_t>(j)].segment(begin, width)) /
+                            static_cast<double>(width);
+        made.product[b](i, j) = mean;
+        made.product[b](j, i) = mean;
+      }
+    }
+    made.bands.power(static_cast<Index>(b)) = made.product[b](0, 0);
+  }
+  moments_[replicate] = std::move(made);
+}
+
+Regression Regression::with(const EffectTerm& term) const {
+  Regression out = *this;
+  auto columns = std::make_shared<const Regressors>(regressors_of(term, *subject_));
+  out.effects_.push_back(term);
+  out.names_.insert(out.names_.end(), columns->coefficients.begin(), columns->coefficients.end());
+  const bool empty = columns->coefficients.empty();
+  out.columns_.push_back(std::move(columns));
+  out.first_.push_back(static_cast<Index>(out.names_.size()));
+  if (!empty) for_each_index(moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  return out;
+}
+
+Regression Regression::of(const std::vector<std::size_t>& replicates) const {
+  Regression out = *this;
+  out.replicates_ = replicates;
+  return out;
+}
+
+Regression Regression::on(std::shared_ptr<const Subject> subject) const {
+  Regression out = *this;
+  out.subject_ = std::move(subject);
+  for_each_index(out.moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  return out;
+}
+
+Regression::Normal Regression::normal_equations(const Model& noise) const {
+  const auto n = static_cast<Index>(names_.size());
+  Normal out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  for (const std::size_t k : replicates_) {
+    const Moments& at = moments_[k];
+    const auto q = static_cast<Index>(at.places.size());
+    if (q == 0) continue;
+    const Eigen::ArrayXd weight = weights(at.bands, noise);
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(1 + q, 1 + q);
+    for (std::size_t b = 0; b < at.product.size(); ++b)
+      sum += weight(static_cast<Index>(b)) * at.product[b];
+    for (Index i = 0; i < q; ++i) {
+      const Index row = at.places[static_cast<std::size_t>(i)];
+      out.moment(row) += sum(1 + i, 0);
+      for (Index j = 0; j < q; ++j)
+        out.gram(row, at.places[static_cast<std::size_t>(j)]) += sum(1 + i, 1 + j);
+    }
+  }
+  return out;
+}
+
+EffectCoefficients Regression::under(const Model& noise) const {
+  if (names_.empty()) return {Eigen::VectorXd(0), Eigen::MatrixXd(0, 0)};
+  const Normal normal = normal_equations(noise);
+  const Eigen::MatrixXd covariance = pseudo_inverse(normal.gram).matrix;
+  return {covariance * normal.moment, covariance};
+}
+
+EffectCoefficients Regression::under(const Model& noise, const Eigen::VectorXd& shared) const {
+  if (names_.empty()) return {Eigen::VectorXd(0), Eigen::MatrixXd(0, 0)};
+  Normal normal = normal_equations(noise);
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(shared.size());
+  for (Index i = 0; i < known.size(); ++i) {
+    if (names_[static_cast<std::size_t>(i)].replicate == CoefficientName::kAll)
+      known(i) = shared(i);
+  }
+  normal.moment -= normal.gram * known;
+  for (Index i = 0; i < known.size(); ++i) {
+    if (names_[static_cast<std::size_t>(i)].replicate != CoefficientName::kAll) continue;
+    normal.gram.row(i).setZero();
+    normal.gram.col(i).setZero();
+    normal.moment(i) = 0.0;
+  }
+  const Eigen::MatrixXd covariance = pseudo_inverse(normal.gram).matrix;
+  return {known + covariance * normal.moment, covariance};
+}
+
+std::vector<BandedPower> Regression::residual(const Eigen::VectorXd& coefficients) const {
+  std::vector<BandedPower> out;
+  for (const std::size_t k : replicates_) {
+    const Moments& at = moments_[k];
+    Eigen::VectorXd left = Eigen::VectorXd::Ones(1 + static_cast<Index>(at.places.size()));
+    for (std::size_t i = 0; i < at.places.size(); ++i)
+      left(1 + static_cast<Index>(i)) = -coefficients(at.places[i]);
+    BandedPower bands = at.bands;
+    if (!at.places.empty()) {
+      for (std::size_t b = 0; b < at.product.size(); ++b)
+        bands.power(static_cast<Index>(b)) = std::max(0.0, left.dot(at.product[b] * left));
+    }
+    out.push_back(std::move(bands));
+  }
+  return out;
+}
+
+std::vector<Eigen::ArrayXd> Regression::leverage(const EffectCoefficients& found,
+                                                 const Model& noise) const {
+  std::vector<Eigen::ArrayXd> out;
+  for (const std::size_t k : replicates_) {
+    const Moments& at = moments_[k];
+    const auto q = static_cast<Index>(at.places.size());
+    Eigen::MatrixXd covariance(q, q);
+    for (Index i = 0; i < q; ++i) {
+      for (Index j = 0; j < q; ++j)
+        covariance(i, j) = found.covariance(at.places[static_cast<std::size_t>(i)],
+                                            at.places[static_cast<std::size_t>(j)]);
+    }
+    const Eigen::ArrayXd weight = weights(at.bands, noise);
+    Eigen::ArrayXd share = Eigen::ArrayXd::Zero(weight.size());
+    if (q > 0) {
+      for (std::size_t b = 0; b < at.product.size(); ++b) {
+        const auto place = static_cast<Index>(b);
+        share(place) =
+            weight(place) * covariance.cwiseProduct(at.product[b].bottomRightCorner(q, q)).sum();
+      }
+    }
+    out.push_back(std::move(share));
+  }
+  return out;
+}
+
+std::vector<BandedPower> Regression::residual(const EffectCoefficients& found,
+                                              const Model& noise) const {
+  std::vector<BandedPower> out = residual(found.value);
+  if (names_.empty()) return out;
+  const std::vector<Eigen::ArrayXd> taken = leverage(found, noise);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    // A band that lost all its freedom says nothing; what is left of it must not be divided by.
+    constexpr double kLeast = 1e-3;
+    const Eigen::ArrayXd left = (out[i].count - taken[i]).max(kLeast * out[i].count);
+    out[i].power *= out[i].count / left;
+    out[i].count = left;
+  }
+  return out;
+}
+
+Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients,
+                                             std::size_t replicate) const {
+  Eigen::VectorXd out = subject_->cosines[replicate];
+  for (std::size_t e = 0; e < columns_.size(); ++e) {
+    const Columns& columns = columns_[e]->replicates[replicate];
+    for (Index i = 0; i < columns.cosines.cols(); ++i) {
+      out -= coefficients(first_[e] + columns.places[static_cast<std::size_t>(i)]) *
+             columns.cosines.col(i);
+    }
+  }
+  return out;
+}
+
+std::vector<BandedPower> pooled(std::span<const BandedPower> replicates) {
+  std::vector<BandedPower> out;
+  for (const BandedPower& one : replicates) {
+    auto same = std::find_if(out.begin(), out.end(), [&](const BandedPower& other) {
+      return other.samples == one.samples;
+    });
+    if (same == out.end()) {
+      out.push_back(one);
+      continue;
+    }
+    same->power = (same->count * same->power + one.count * one.power) / (same->count + one.count);
+    same->count += one.count;
+  }
+  return out;
+}
+
+}  // namespace imunoise

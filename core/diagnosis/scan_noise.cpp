@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/diagnosis/scan.h"
+#include "core/inference/parameter_covariance.h"
+#include "core/support/linear_algebra.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Whitened band powers of all lengths of replicates, one below the other, and the directions in
+// which the free parameters move them.
+class ScoreSpace {
+ public:
+  explicit ScoreSpace(const Current& current) : pooled_(current.pooled) {
+    const Model& noise = current.fit.model.noise;
+    const std::vector<Index> interior = parameter_sets(noise).interior;
+    Index rows = 0;
+    for (const BandedPower& bands : pooled_) rows += bands.frequency.size();
+    root_.resize(rows);
+    excess_.resize(rows);
+    Eigen::MatrixXd slopes(rows, static_cast<Index>(interior.size()));
+    Index begin = 0;
+    for (const BandedPower& bands : pooled_) {
+      const Index size = bands.frequency.size();
+      Eigen::ArrayXd s = Eigen::ArrayXd::Zero(size);
+      for (const Term& term : noise.terms) s += spectrum(term.process, bands.frequency);
+      root_.segment(begin, size) = (0.5 * bands.count).sqrt() / s;
+      excess_.segment(begin, size) = (root_.segment(begin, size) * (bands.power - s)).matrix();
+      slopes.middleRows(begin, size) = whittle_slopes(noise, bands, interior);
+      begin += size;
+    }
+    slopes_ = slopes;
+    inverse_ = pseudo_inverse(slopes.transpose() * slopes).matrix;
+  }
+
+  // The direction of a new spectrum of unit power, less what the parameters can do.
+  Eigen::VectorXd direction(const Process& process) const {
+    Eigen::VectorXd out(root_.size());
+    Index begin = 0;
+    for (const BandedPower& bands : pooled_) {
+      const Index size = bands.frequency.size();
+      out.segment(begin, size) =
+          (root_.segment(begin, size) * spectrum(process, bands.frequency)).matrix();
+      begin += size;
+    }
+    out /= out.norm();  // powers may be of any size
+    return out - slopes_ * (inverse_ * (slopes_.transpose() * out));
+  }
+
+  double score(const Eigen::VectorXd& direction) const {
+    const double norm = direction.norm();
+    constexpr double kNothingNew = 1e-4;
+    return norm > kNothingNew ? direction.dot(excess_) / norm : 0.0;
+  }
+
+  // Square root of the information on the power of a process: 1/standard error.
+  double precision(const Process& process) const {
+    double norm2 = 0.0;
+    Index begin = 0;
+    for (const BandedPower& bands : pooled_) {
+      const Index size = bands.frequency.size();
+      norm2 += (root_.segment(begin, size) * spectrum(process, bands.frequency)).square().sum();
+      begin += size;
+    }
+    return std::sqrt(norm2) * std::max(direction(process).norm(), 1e-4);
+  }
+
+ private:
+  const std::vector<BandedPower>& pooled_;
+  Eigen::ArrayXd root_;
+  Eigen::VectorXd excess_;
+  Eigen::MatrixXd slopes_;
+  Eigen::MatrixXd inverse_;
+};
+
+// The best of a scanned family of processes.
+void add_best(const Current& current, const ScoreSpace& space, std::string_view effect,
+              const std::vector<Process>& family, Suggestions& out) {
+  Eigen::MatrixXd directions(space.direction(family[0]).size(), static_cast<Index>(family.size()));
+  std::size_t best = 0;
+  double most = -INFINITY;
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    directions.col(static_cast<Index>(i)) = space.direction(family[i]);
+    const double score = space.score(directions.col(static_cast<Index>(i)));
+    if (score <= most) continue;
+    most = score;
+    best = i;
+  }
+  if (!(most > 0.0)) return;
+  Process process = family[best];
+  std::vector<double> v = values(process);
+  const double precision = space.precision(process);
+  v[0] = std::max(most, 1.0) / precision;
+  set_values(process, v);
+  Model grown = current.fit.model.noise;
+  grown.terms.emplace_back(process);
+  Suggestion made{effect, std::move(grown), 0.5 * most * most, 1.0, true, {}};
+  made.search.path = path_length(directions);
+  made.information = precision * precision;
+  out.push_back(std::move(made));
+}
+
+template <class P>
+bool has(const Model& model) {
+  return std::any_of(model.terms.begin(), model.terms.end(),
+                     [](const Term& term) { return std::holds_alternative<P>(term.process); });
+}
+
+template <class P>
+void add_simple(const Current& current, const ScoreSpace& space, std::string_view effect,
+                Suggestions& out) {
+  if (!has<P>(current.fit.model.noise)) add_best(current, space, effect, {Process(P{})}, out);
+}
+
+std::vector<Process> markov_family(double longest) {
+  constexpr int kEachOctave = 3;
+  std::vector<Process> out;
+  const int last = static_cast<int>(kEachOctave * std::log2(longest));
+  for (int i = 0; i <= last; ++i)
+    out.emplace_back(Ar1{1.0, std::exp(-1.0 / std::exp2(static_cast<double>(i) / kEachOctave))});
+  return out;
+}
+
+// Resonances of one damping, over their frequencies.
+std::vector<Process> resonance_family(double damping, double lowest) {
+  std::vector<Process> out;
+  for (double f = lowest; f < 0.48; f *= 1.0 + 0.7 * damping) {
+    const double omega = 2.0 * std::numbers::pi * f;
+    out.emplace_back(Resonance{1.0, std::exp(-damping * omega), omega});
+  }
+  return out;
+}
+
+// White noise through the device's filter instead of white noise.
+void add_filters(const Current& current, Suggestions& out) {
+  const Model& noise = current.fit.model.noise;
+  const auto white = std::find_if(noise.terms.begin(), noise.terms.end(), [](const Term& term) {
+    return std::holds_alternative<WhiteNoise>(term.process) && !term.given[0];
+  });
+  if (white == noise.terms.end()) return;
+  const auto place = static_cast<std::size_t>(white - noise.terms.begin());
+  const double sigma2 = values(white->process)[0];
+  const std::vector<int> lengths{2, 3, 4, 6, 8, 12, 16};
+  const double before = whittle_objective(noise, current.pooled);
+  for (const bool twice : {false, true}) {
+    Suggestion best{"low_pass", Model{}, 0.0, 1.0, false, {}};
+    best.search.log_places = std::log(static_cast<double>(lengths.size()));
+    for (const int n : lengths) {
+      Model changed = noise;
+      const Process filter =
+          twice ? Process(BartlettFilter{sigma2, n}) : Process(MovingAverageFilter{sigma2, n});
+      changed.terms[place] = Term(filter);
+      const double gain = before - whittle(changed, current.pooled).objective;
+      if (!(gain > best.score_nats)) continue;
+      best.score_nats = gain;
+      best.added = std::move(changed);
+    }
+    if (best.score_nats > 0.0) out.push_back(std::move(best));
+  }
+}
+
+}  // namespace
+
+Suggestions scan_noise(const Current& current) {
+  const ScoreSpace space(current);
+  Suggestions out;
+  add_simple<WhiteNoise>(current, space, "white_noise", out);
+  add_simple<QuantisationNoise>(current, space, "quantisation", out);
+  add_simple<RandomWalk>(current, space, "random_walk", out);
+  add_simple<Flicker>(current, space, "flicker", out);
+  const auto longest = static_cast<double>(current.subject().length(0));
+  add_best(current, space, "gauss_markov", markov_family(longest / 4.0), out);
+  Suggestions resonances;
+  for (const double damping : {0.005, 0.02, 0.08, 0.25})
+    add_best(current, space, "resonance", resonance_family(damping, 20.0 / longest), resonances);
+  if (!resonances.empty()) {
+    auto best = std::max_element(
+        resonances.begin(), resonances.end(),
+        [](const Suggestion& a, const Suggestion& b) { return a.score_nats < b.score_nats; });
+    double path = 0.0;
+    for (const Suggestion& one : resonances) path += one.search.path;
+    best->search.path = path;
+    out.push_back(*best);
+  }
+  add_filters(current, out);
+  return out;
+}
+
+}  // namespace imunoise

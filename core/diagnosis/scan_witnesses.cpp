@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/diagnosis/catalogue.h"
+#include "core/diagnosis/scan.h"
+#include "core/diagnosis/slow_view.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Sums over all replicates, by the place in the transform of the first: products of the whitened
+// witness with what is left, and its squares. Cumulated from low frequencies up.
+struct Cumulated {
+  Eigen::ArrayXd product;
+  Eigen::ArrayXd square;
+  double gain(Index from, Index to) const {
+    const double p = product(to) - product(from);
+    const double s = square(to) - square(from);
+    return s > 0.0 ? 0.5 * p * p / s : 0.0;
+  }
+};
+
+// At the octaves of frequency: entry i holds all below 2^i/2T.
+Cumulated cumulated(const Current& current, const Witness& witness) {
+  const auto octaves =
+      static_cast<Index>(std::ceil(std::log2(static_cast<double>(current.subject().length(0)))));
+  Cumulated out{Eigen::ArrayXd::Zero(octaves + 1), Eigen::ArrayXd::Zero(octaves + 1)};
+  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
+    const Eigen::ArrayXd weighted = witness.cosines[k].array() / current.spectrum[k];
+    Index begin = 0;
+    double product = 0.0;
+    double square = 0.0;
+    for (Index i = 0; i <= octaves; ++i) {
+      const Index end = std::min<Index>(weighted.size(), (Index{1} << i) - 1);
+      product += weighted.segment(begin, end - begin)
+                     .matrix()
+                     .dot(current.cosines[k].segment(begin, end - begin));
+      square += weighted.segment(begin, end - begin)
+                    .matrix()
+                    .dot(witness.cosines[k].segment(begin, end - begin));
+      out.product(i) += product;
+      out.square(i) += square;
+      begin = end;
+    }
+  }
+  return out;
+}
+
+void add_static(const Current& current, const Witness& witness, Suggestions& out) {
+  const Cumulated sums = cumulated(current, witness);
+  const Index last = sums.product.size() - 1;
+  const EffectTerm whole{.kind = EffectKind::kWitness, .witness = witness.name};
+  out.push_back({coupling_effect(current.subject().quantity, witness),
+                 whole,
+                 sums.gain(0, last),
+                 1.0,
+                 false,
+                 {}});
+  if (!may_share_motion(current.subject().quantity, witness)) return;
+  // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
+  constexpr Index kFirst = 4;
+  const double per_octave = 0.5 / current.subject().seconds(0);
+  Suggestion slow{"tilt", whole, 0.0, 1.0, false, {}};
+  Suggestion fast{"common_vibration", whole, 0.0, 1.0, false, {}};
+  slow.search.log_places = fast.search.log_places = std::log(static_cast<double>(last - kFirst));
+  for (Index i = kFirst; i < last; ++i) {
+    const double edge = std::exp2(static_cast<double>(i)) * per_octave;
+    if (const double gain = sums.gain(0, i); gain > slow.score_nats) {
+      slow.score_nats = gain;
+      std::get<EffectTerm>(slow.added).to = edge;
+    }
+    if (const double gain = sums.gain(i, last); gain > fast.score_nats) {
+      fast.score_nats = gain;
+      std::get<EffectTerm>(fast.added).from = edge;
+    }
+  }
+  if (slow.score_nats > 0.0) out.push_back(std::move(slow));
+  if (fast.score_nats > 0.0) out.push_back(std::move(fast));
+}
+
+void add_lagged(const Current& current, const SlowView& view, const Witness& witness,
+                Suggestions& out) {
+  const Subject& subject = current.subject();
+  SlowView::Means means;
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    means.push_back(view.means(witness.samples[k], k));
+  const double block_s = static_cast<double>(view.block(0)) / subject.rate.value;
+  const auto late = [&](double lag) {
+    SlowView::Means made;
+    for (const Eigen::VectorXd& x : means) made.push_back(lagged(x, lag / block_s));
+    return made;
+  };
+  const auto early = [&](double lag) {
+    SlowView::Means made;
+    for (const Eigen::VectorXd& x : means)
+      made.push_back(lagged(x.reverse(), lag / block_s).reverse());
+    return made;
+  };
+  const double shortest = std::max(4.0 * block_s, 2e-4 * subject.seconds(0));
+  const double longest = 0.25 * subject.seconds(0);
+  if (shortest < longest) {
+    const SlowView::BestTime best = view.best_time(shortest, longest, false, late);
+    const SlowView::BestTime backwards = view.best_time(shortest, longest, false, early);
+    Suggestion behind{
+        coupling_effect(subject.quantity, witness),
+        EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .lag = best.seconds},
+        best.gain,
+        1.0,
+        false,
+        {best.path, 0.0}};
+    behind.information = best.information;
+    behind.shape_error = best.log_error;
+    constexpr double kClearly = 3.0;  // nats
+    behind.backwards = backwards.gain > best.gain + kClearly;
+    if (best.gain > 0.0) out.push_back(std::move(behind));
+  }
+
+  std::vector<Eigen::VectorXd> squares;
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    squares.push_back(view.means(witness.samples[k].array().square().matrix(), k));
+  out.push_back(
+      {coupling_effect(subject.quantity, witness),
+       EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .quadratic = true},
+       view.gain(view.whitened(squares), false),
+       1.0,
+       false,
+       {}});
+}
+
+}  // namespace
+
+Suggestions scan_witnesses(const Current& current) {
+  const Subject& subject = current.subject();
+  const SlowView view(current);
+  std::vector<Eigen::VectorXd> white(subject.replicates());
+  if (!subject.witnesses.empty()) {
+    for_each_index(white.size(), [&](std::size_t k) {
+      white[k] = innovations(current.regression, current.fit, k);
+    });
+  }
+  std::vector<Suggestions> each(subject.witnesses.size());
+  for_each_index(each.size(), [&](std::size_t w) {
+    const Witness& witness = subject.witnesses[w];
+    add_static(current, witness, each[w]);
+    add_lagged(current, view, witness, each[w]);
+    each[w].push_back({"modulated_variance",
+                       EffectTerm{.kind = EffectKind::kModulated, .witness = witness.name},
+                       modulation_by(witness, white).log_likelihood,
+                       1.0,
+                       false,
+                       {}});
+  });
+  Suggestions out;
+  for (const Suggestions& some : each) out.insert(out.end(), some.begin(), some.end());
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,57 @@
+#include "core/diagnosis/subject.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/spectrum/cosine_transform.h"
+#include "core/spectrum/cross_power.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+Eigen::VectorXd centred_samples(const Signal& signal) {
+  Eigen::VectorXd out = samples_of(std::span(&signal, 1)).col(0);
+  out.array() -= out.mean();
+  return out;
+}
+
+}  // namespace
+
+const Witness* Subject::find(const std::string& name) const {
+  const auto found = std::find_if(witnesses.begin(), witnesses.end(),
+                                  [&](const Witness& one) { return one.name == name; });
+  return found == witnesses.end() ? nullptr : &*found;
+}
+
+Subject make_subject(const std::vector<Signal>& replicates,
+                     const std::vector<NamedChannel>& witnesses, const Progress& progress) {
+  assert(!replicates.empty());
+  const std::size_t count = replicates.size();
+  Subject out{replicates[0].rate(), replicates[0].quantity(), {}, {}, {}};
+  out.samples.resize(count);
+  out.cosines.resize(count);
+  for (const NamedChannel& channel : witnesses) {
+    assert(channel.replicates.size() == count);
+    out.witnesses.push_back({channel.name, channel.replicates[0].quantity(),
+                             std::vector<Eigen::VectorXd>(count),
+                             std::vector<Eigen::VectorXd>(count)});
+  }
+  // One task a channel and replicate; the channel under study comes first.
+  for_each_index((1 + witnesses.size()) * count, [&](std::size_t task) {
+    if (progress.stopped()) return;
+    const std::size_t k = task % count;
+    const std::size_t channel = task / count;
+    auto& samples = channel == 0 ? out.samples[k] : out.witnesses[channel - 1].samples[k];
+    auto& cosines = channel == 0 ? out.cosines[k] : out.witnesses[channel - 1].cosines[k];
+    samples = centred_samples(channel == 0 ? replicates[k] : witnesses[channel - 1].replicates[k]);
+    cosines = cosine_transform(samples);
+  });
+  std::erase_if(out.witnesses, [](const Witness& one) {
+    return std::all_of(one.samples.begin(), one.samples.end(),
+                       [](const Eigen::VectorXd& x) { return x.size() == 0 || x.isZero(0.0); });
+  });
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/signal/signal.h"
+#include "core/spectrum/banded_power.h"
+#include "core/support/progress.h"
+#include "core/support/units.h"
+
+namespace imunoise {
+
+/// Another channel that was recorded beside the one under study.
+struct Witness {
+  std::string name;
+  Quantity quantity = Quantity::kUnknown;
+  std::vector<Eigen::VectorXd> samples;  ///< a replicate each, SI, mean zero
+  std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
+};
+
+/// The channel whose model is doubted: replicates and witnesses, and all their transforms, made
+/// once.
+struct Subject {
+  Hertz rate;
+  Quantity quantity = Quantity::kUnknown;
+  std::vector<Eigen::VectorXd> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
+  std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
+  std::vector<Witness> witnesses;
+
+  std::size_t replicates() const { return samples.size(); }
+  /// Samples in a replicate.
+  Eigen::Index length(std::size_t replicate) const { return samples[replicate].size(); }
+  double seconds(std::size_t replicate) const {
+    return static_cast<double>(length(replicate)) / rate.value;
+  }
+  /// The witness of this name, or null.
+  const Witness* find(const std::string& name) const;
+};
+
+/// Names and replicates of one channel.
+struct NamedChannel {
+  std::string name;
+  std::vector<Signal> replicates;
+};
+
+/// Precondition: at least one replicate, each of at least kFewestSamples samples; witnesses have
+/// the same replicates. Witnesses that never change are left out.
+Subject make_subject(const std::vector<Signal>& replicates,
+                     const std::vector<NamedChannel>& witnesses, const Progress& progress = {});
+
+}  // namespace imunoise

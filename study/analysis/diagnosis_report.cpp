@@ -1,0 +1,286 @@
+#include "study/analysis/diagnosis_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/catalogue.h"
+#include "core/inference/normal_scores.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/distributions.h"
+#include "study/analysis/effect_parameters.h"
+#include "study/analysis/measure.h"
+#include "study/analysis/vocabulary.h"
+
+namespace imunoise::study {
+namespace {
+
+constexpr std::size_t kMostCandidates = 12;
+constexpr double kWorthSaying = 3.0;  // standard deviations
+
+v1::Verdict verdict_of(DiagnosisVerdict from) {
+  switch (from) {
+    case DiagnosisVerdict::kFound:
+      return v1::found;
+    case DiagnosisVerdict::kOneOf:
+      return v1::one_of;
+    case DiagnosisVerdict::kUnknown:
+      return v1::unknown;
+    case DiagnosisVerdict::kNone:
+      break;
+  }
+  return v1::none;
+}
+
+std::string titles(const std::vector<std::string>& ids) {
+  std::string out;
+  for (const std::string& id : ids)
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", effect_info(id).title);
+  return out;
+}
+
+// "frequency 12.34 Hz, amplitude 3.2e-05 rad/s".
+std::string numbers(const std::vector<v1::EffectParameter>& parameters) {
+  constexpr std::size_t kMost = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kMost, parameters.size()); ++i) {
+    std::string name = parameters[i].name();
+    for (const std::string_view suffix : {"_hz", "_s"}) {
+      if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
+    }
+    std::replace(name.begin(), name.end(), '_', ' ');
+    out += fmt::format("{}{} {:.4g}{}", out.empty() ? "" : ", ", name, parameters[i].value(),
+                       parameters[i].unit() == "1" ? "" : " " + parameters[i].unit());
+  }
+  return out;
+}
+
+v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<Errors>& before,
+                                 const Subject& subject) {
+  const TriedEffect& tried = from.tried;
+  const EffectInfo& about = effect_info(tried.effect);
+  v1::EffectCandidate to;
+  to.set_effect(tried.effect);
+  to.set_title(std::string(about.title));
+  to.set_term(added_term(tried));
+  if (const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added))
+    to.set_witness(term->witness);
+  to.set_familywise_p(from.familywise_p);
+  to.set_gain_nats(tried.gain);
+  to.set_likelihood_gain_nats(tried.likelihood_gain);
+  if (from.heldout && before) {
+    to.set_heldout_error_before(before->mean_error());
+    to.set_heldout_error_after(from.heldout->mean_error());
+    to.set_heldout_gain_nats(from.heldout->total_likelihood() - before->total_likelihood());
+  }
+  const std::vector<v1::EffectParameter> parameters = effect_parameters(tried, subject);
+  for (const v1::EffectParameter& one : parameters) *to.add_parameters() = one;
+  for (const std::string& id : from.confused_with) to.add_confused_with(id);
+  to.set_cause(std::string(about.cause));
+  to.set_record_next(std::string(about.record_next));
+  const std::string with = to.witness().empty() ? "" : fmt::format(" ({})", to.witness());
+  const std::string told = numbers(parameters);
+  std::string sentence = fmt::format("{}{}{}{}: explains {:.1f} nats", about.title, with,
+                                     told.empty() ? "" : ", ", told, tried.likelihood_gain);
+  if (to.has_heldout_error_after()) {
+    sentence += fmt::format(", and takes the error on replicates not used from {:.3g} to {:.3g}",
+                            to.heldout_error_before(), to.heldout_error_after());
+  }
+  to.set_sentence(sentence + fmt::format(" ({}).", chance_words(from.familywise_p)));
+  return to;
+}
+
+std::string summary_of(const Diagnosis& diagnosis) {
+  switch (diagnosis.verdict) {
+    case DiagnosisVerdict::kFound: {
+      const RankedEffect& best = diagnosis.effects.front();
+      return fmt::format("{} is missing ({}). {}", effect_info(best.tried.effect).title,
+                         chance_words(best.familywise_p), effect_info(best.tried.effect).cause);
+    }
+    case DiagnosisVerdict::kOneOf: {
+      const RankedEffect& best = diagnosis.effects.front();
+      return fmt::format(
+          "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.",
+          effect_info(best.tried.effect).title, titles(best.confused_with),
+          effect_info(best.tried.effect).record_next);
+    }
+    case DiagnosisVerdict::kUnknown:
+      return "The model misses something that no known effect explains: look where it fails.";
+    case DiagnosisVerdict::kNone:
+      break;
+  }
+  return "Nothing is missing that these data could show; the limits say how strong each effect "
+         "would have had to be.";
+}
+
+std::string percent_more(double ratio) {
+  return ratio >= 1.0 ? fmt::format("{:.0f} % more", 100.0 * (ratio - 1.0))
+                      : fmt::format("{:.0f} % less", 100.0 * (1.0 - ratio));
+}
+
+// Neighbouring half octaves that deviate to the same side are one place.
+void add_band_misfits(const Diagnosis& diagnosis, std::size_t replicates, v1::DiagnosisReport& to) {
+  const std::vector<BandMisfit>& bands = diagnosis.misfit.bands;
+  for (std::size_t i = 0; i < bands.size();) {
+    if (std::abs(bands[i].sigma) < kWorthSaying) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    std::size_t worst = i;
+    while (end < bands.size() && std::abs(bands[end].sigma) >= kWorthSaying &&
+           (bands[end].sigma > 0.0) == (bands[i].sigma > 0.0)) {
+      if (std::abs(bands[end].sigma) > std::abs(bands[worst].sigma)) worst = end;
+      ++end;
+    }
+    const BandMisfit& one = bands[worst];
+    v1::Misfit& misfit = *to.add_misfits();
+    misfit.set_kind("frequency");
+    misfit.set_from(bands[i].from);
+    misfit.set_to(bands[end - 1].to);
+    misfit.set_sigma(one.sigma);
+    const std::string where =
+        one.replicates == static_cast<int>(replicates)
+            ? "in all replicates"
+            : fmt::format("in {} of {} replicates", one.replicates, replicates);
+    misfit.set_sentence(fmt::format(
+        "At {:.3g} to {:.3g} Hz (periods of {:.3g} to {:.3g} s) the recording has {} power than "
+        "the model ({:.1f} sigma), {}.",
+        misfit.from(), misfit.to(), 1.0 / misfit.to(), 1.0 / misfit.from(), percent_more(one.ratio),
+        std::abs(one.sigma), where));
+    i = end;
+  }
+}
+
+void add_time_misfits(const Diagnosis& diagnosis, const std::vector<std::string>& replicates,
+                      v1::DiagnosisReport& to) {
+  // Of so many stretches some deviate by three standard deviations.
+  constexpr double kOfMany = 4.0;
+  for (const TimeMisfit& one : diagnosis.misfit.times) {
+    if (std::abs(one.sigma) < kOfMany) continue;
+    v1::Misfit& misfit = *to.add_misfits();
+    misfit.set_kind("time");
+    misfit.set_from(one.from);
+    misfit.set_to(one.to);
+    misfit.set_sigma(one.sigma);
+    misfit.set_sentence(fmt::format(
+        "{}: from {:.0f} to {:.0f} s the noise has {} variance than in the rest ({:.1f} sigma).",
+        replicates[one.replicate], one.from, one.to, percent_more(one.ratio), std::abs(one.sigma)));
+  }
+}
+
+}  // namespace
+
+std::string added_term(const TriedEffect& effect) {
+  if (const auto* term = std::get_if<EffectTerm>(&effect.suggestion.added)) return print(*term);
+  Model alone;
+  alone.terms.push_back(std::get<Model>(effect.suggestion.added).terms.back());
+  if (effect.effect == "low_pass") {
+    for (const Term& term : std::get<Model>(effect.suggestion.added).terms) {
+      const bool filter = std::holds_alternative<MovingAverageFilter>(term.process) ||
+                          std::holds_alternative<BartlettFilter>(term.process);
+      if (filter) alone.terms = {term};
+    }
+  }
+  return print(alone);
+}
+
+void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
+                   const std::vector<std::string>& replicates, v1::DiagnosisReport& to) {
+  to.set_verdict(verdict_of(diagnosis.verdict));
+  to.set_summary(summary_of(diagnosis));
+  for (std::size_t i = 0; i < std::min(kMostCandidates, diagnosis.effects.size()); ++i)
+    *to.add_candidates() = candidate_of(diagnosis.effects[i], diagnosis.heldout, subject);
+  add_band_misfits(diagnosis, replicates.size(), to);
+  add_time_misfits(diagnosis, replicates, to);
+  constexpr double kKurtosisSaid = 1e-3;
+  if (diagnosis.misfit.kurtosis.p_value < kKurtosisSaid) {
+    v1::Misfit& misfit = *to.add_misfits();
+    misfit.set_kind("kurtosis");
+    misfit.set_sigma(std::sqrt(diagnosis.misfit.kurtosis.statistic));
+    misfit.set_sentence(
+        fmt::format("The noise is not normal: its excess kurtosis is {:.3g} ({:.1f} sigma).",
+                    diagnosis.misfit.excess_kurtosis, misfit.sigma()));
+  }
+  for (const DetectionLimit& from : diagnosis.limits) {
+    const bool seen = std::any_of(
+        diagnosis.effects.begin(), diagnosis.effects.end(), [&](const RankedEffect& one) {
+          constexpr double kSeen = 0.01;
+          return one.tried.effect == from.effect && one.familywise_p < kSeen;
+        });
+    if (seen) continue;
+    v1::DetectionLimit& limit = *to.add_limits();
+    limit.set_effect(from.effect);
+    limit.set_witness(from.witness);
+    limit.set_parameter(from.parameter);
+    limit.set_value(from.value);
+    const Witness* witness = subject.find(from.witness);
+    const std::string unit(si_symbol(subject.quantity));
+    limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, false)
+                   : from.parameter == "power" ? fmt::format("({})²", unit)
+                   : from.parameter == "slope" ? unit + "/s"
+                                               : unit);
+  }
+}
+
+v1::Rung rung_of(const Trial& trial, const std::string& added, double first, double misfit_p,
+                 const std::optional<Errors>& heldout, const std::string& why) {
+  v1::Rung out;
+  out.set_model(print(trial.fit.model));
+  out.set_added(added);
+  out.set_training_error(training_errors(trial).mean_error());
+  if (heldout) {
+    out.set_heldout_error(heldout->mean_error());
+    const double dof = static_cast<double>(heldout->error.size()) - 1.0;
+    const double reach = student_quantile(0.975, dof) * heldout->error_of_mean();
+    out.set_heldout_lower(std::max(0.0, heldout->mean_error() - reach));
+    out.set_heldout_upper(heldout->mean_error() + reach);
+  }
+  out.set_log_likelihood(trial.fit.log_likelihood - first);
+  out.set_misfit_p(misfit_p);
+  out.set_why(why);
+  return out;
+}
+
+v1::NoiseBudget budget_of(const Trial& trial) {
+  const Subject& subject = trial.regression.subject();
+  std::vector<WaveletVariance> measured;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    const Eigen::VectorXd left =
+        inverse_cosine_transform(trial.regression.residual_cosines(trial.fit.effects.value, k));
+    const auto n = static_cast<std::size_t>(left.size());
+    measured.push_back(wavelet_variance(
+        Signal(std::span<const double>(left.data(), n), subject.rate, subject.quantity),
+        Scales::for_samples(n)));
+  }
+  const Model& noise = trial.fit.model.noise;
+  const MomentCovariances covariances = moment_covariances(noise, measured);
+  const WaveletVariance total = pooled(measured);
+  const Eigen::ArrayXd m = total.scales.half_widths();
+  const Eigen::ArrayXd nu = variance(noise, m);
+  v1::NoiseBudget out;
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    double weights = 0.0;
+    double spread = 0.0;
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+      if (i >= measured[k].variance.size()) continue;
+      const double weight = static_cast<double>(measured[k].samples) - 2.0 * m(i) + 1.0;
+      weights += weight;
+      spread += weight * weight * covariances[k](i, i);
+    }
+    spread /= weights * weights;
+    const double edof = 2.0 * nu(i) * nu(i) / spread;
+    out.add_scales(2.0 * m(i));
+    out.add_scales_s(2.0 * m(i) / subject.rate.value);
+    out.add_measured(total.variance(i));
+    out.add_lower(total.variance(i) * edof / chi_square_quantile(0.975, edof));
+    out.add_upper(total.variance(i) * edof / chi_square_quantile(0.025, edof));
+    out.add_model(nu(i));
+    out.add_residual((total.variance(i) - nu(i)) / std::sqrt(spread));
+    out.add_tested(edof >= 5.0 * static_cast<double>(measured.size()));
+  }
+  return out;
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,24 @@
+#pragma once
+
+// A diagnosis as a message.
+
+#include "core/diagnosis/diagnose.h"
+#include "imunoise/v1/diagnosis.pb.h"
+
+namespace imunoise::study {
+
+/// Fills verdict, summary, candidates, misfits, limits and witnesses of a report whose unit is set.
+void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
+                   const std::vector<std::string>& replicates, v1::DiagnosisReport& to);
+
+/// A model that was tried, for the ladder. `first` is the likelihood of the lowest rung.
+v1::Rung rung_of(const Trial& trial, const std::string& added, double first, double misfit_p,
+                 const std::optional<Errors>& heldout, const std::string& why);
+
+/// The measured wavelet variance, with the effects taken out, against the noise of a fit.
+v1::NoiseBudget budget_of(const Trial& trial);
+
+/// What an effect adds to the model, in the grammar.
+std::string added_term(const TriedEffect& effect);
+
+}  // namespace imunoise::study

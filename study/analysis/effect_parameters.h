@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/diagnose.h"
+#include "imunoise/v1/diagnosis.pb.h"
+
+namespace imunoise::study {
+
+/// The numbers of a tried effect with their intervals (95 %), in SI units.
+std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
+                                                   const Subject& subject);
+
+/// The unit of a coupling of one quantity to another: "rad/s/K"; "1" where both are the same.
+std::string coupling_unit(Quantity subject, const Witness& witness, bool squared);
+
+}  // namespace imunoise::study

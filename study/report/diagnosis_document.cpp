@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "study/report/inference_documents.h"
+#include "study/report/interval_chart.h"
+#include "study/report/svg_plot.h"
+#include "study/report/verdict.h"
+
+namespace imunoise::report {
+namespace {
+
+constexpr int kMostShown = 8;
+
+struct VerdictWords {
+  const char* badge;
+  Mood mood;
+};
+
+VerdictWords words(const v1::DiagnosisReport& report) {
+  switch (report.verdict()) {
+    case v1::found:
+      return {"effect found", Mood::kBad};
+    case v1::one_of:
+      return {"one of several", Mood::kDoubtful};
+    case v1::unknown:
+      return {"something unknown", Mood::kDoubtful};
+    default:
+      return {"nothing missing", Mood::kGood};
+  }
+}
+
+std::string chance(double p, Digits digits) { return p < 1e-4 ? "< 0.0001" : number(p, 2, digits); }
+
+Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
+  Table out{"The ladder: error on replicates not used (noise floor = 1)",
+            {"added", "held-out error", "training error", "gained", "misfit p"},
+            {}};
+  for (const v1::Rung& rung : report.ladder()) {
+    out.rows.push_back({rung.added().empty() ? rung.model() : "+ " + rung.added(),
+                        rung.has_heldout_error()
+                            ? with_interval(rung.heldout_error(), rung.heldout_lower(),
+                                            rung.heldout_upper(), digits)
+                            : "-",
+                        number(rung.training_error(), 3, digits),
+                        fmt::format("{} nats", number(rung.log_likelihood(), 4, digits)),
+                        chance(rung.misfit_p(), digits)});
+  }
+  return out;
+}
+
+std::string confusions(const v1::EffectCandidate& one) {
+  std::string out;
+  for (const std::string& id : one.confused_with()) out += (out.empty() ? "" : ", ") + id;
+  return out;
+}
+
+Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
+  Table out{"What may be missing, best first",
+            {"effect", "term", "gain", "p", "held-out error", "looks like"},
+            {}};
+  for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
+    const v1::EffectCandidate& one = report.candidates(i);
+    out.rows.push_back({one.effect(), one.term(),
+                        fmt::format("{} nats", number(one.gain_nats(), 3, digits)),
+                        chance(one.familywise_p(), digits),
+                        one.has_heldout_error_after()
+                            ? fmt::format("{} → {}", number(one.heldout_error_before(), 3, digits),
+                                          number(one.heldout_error_after(), 3, digits))
+                            : "",
+                        confusions(one)});
+  }
+  return out;
+}
+
+std::string value_of(const v1::EffectParameter& one, Digits digits) {
+  std::string out = one.has_lower() ? with_interval(one.value(), one.lower(), one.upper(), digits)
+                                    : number(one.value(), 5, digits);
+  return one.unit() == "1" ? out : out + " " + one.unit();
+}
+
+Table parameter_table(const v1::EffectCandidate& best, Digits digits) {
+  Table out{fmt::format("{}: its numbers", best.title()), {"", "value"}, {}};
+  for (const v1::EffectParameter& one : best.parameters())
+    out.rows.push_back({one.name(), value_of(one, digits)});
+  out.rows.push_back({"physics", best.cause()});
+  out.rows.push_back({"to be sure, record", best.record_next()});
+  return out;
+}
+
+Table misfit_table(const v1::DiagnosisReport& report) {
+  Table out{"Where the model fails", {"kind", ""}, {}};
+  for (const v1::Misfit& one : report.misfits()) out.rows.push_back({one.kind(), one.sentence()});
+  return out;
+}
+
+Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
+  Table out{"What would have been seen nine times in ten", {"effect", "from", "of"}, {}};
+  for (const v1::DetectionLimit& one : report.limits()) {
+    const std::string effect =
+        one.witness().empty() ? one.effect() : fmt::format("{} ({})", one.effect(), one.witness());
+    out.rows.push_back({effect, fmt::format("{} {}", number(one.value(), 2, digits), one.unit()),
+                        one.parameter()});
+  }
+  return out;
+}
+
+// A noise budget of the report as the figure of a fit.
+Figure budget_figure(const v1::DiagnosisReport& report, const v1::NoiseBudget& budget,
+                     const std::string& title, const std::string& model, const std::string& id) {
+  v1::FitReport fit;
+  fit.set_channel(report.channel());
+  fit.set_unit(report.unit());
+  fit.set_rate_hz(report.rate_hz());
+  fit.set_model(model);
+  fit.set_confidence(0.95);
+  *fit.mutable_budget() = budget;
+  const auto drawn = [&](double width, const std::string& suffix) {
+    return budget_svg(fit, {SvgVariant::kInline, width, id + suffix});
+  };
+  return {title, drawn(900.0, "w"), drawn(380.0, "n"), "Model: " + model};
+}
+
+void add_figures(const v1::DiagnosisReport& report, Section& to) {
+  const std::string id = "d" + report.channel();
+  if (report.ladder_size() == 0) return;
+  to.figures.push_back(
+      budget_figure(report, report.before(), "Before", report.ladder(0).model(), id + "b"));
+  if (report.ladder_size() < 2) return;
+  const v1::Rung& last = report.ladder(report.ladder_size() - 1);
+  to.figures.push_back(budget_figure(report, report.after(),
+                                     "After: the effects taken out of the measurements",
+                                     last.model(), id + "a"));
+  std::vector<IntervalRow> rows;
+  for (const v1::Rung& rung : report.ladder()) {
+    if (!rung.has_heldout_error()) continue;
+    rows.push_back({rung.added().empty() ? rung.model() : "+ " + rung.added(), rung.heldout_error(),
+                    rung.heldout_lower(), rung.heldout_upper(), rung.misfit_p() < 0.01});
+  }
+  auto ladder = interval_chart(
+      "The error falling", "held-out error, 1 = noise floor",
+      "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
+      "noise alone makes; orange models do not fit.",
+      std::move(rows), 1.0);
+  if (ladder) to.figures.push_back(std::move(*ladder));
+}
+
+Section section(const v1::DiagnosisReport& report, Digits digits) {
+  Section out;
+  out.title = channel_name(report.channel());
+  std::string witnesses;
+  for (const std::string& name : report.witnesses())
+    witnesses += (witnesses.empty() ? "" : ", ") + name;
+  out.facts = fmt::format("{:g} Hz · model {} · witnesses {}", report.rate_hz(), report.model(),
+                          witnesses.empty() ? "none" : witnesses);
+  out.badge = words(report).badge;
+  out.mood = words(report).mood;
+  out.summary = report.summary();
+  add_figures(report, out);
+  if (report.misfits_size() > 0) out.tables.push_back(misfit_table(report));
+  if (report.candidates_size() > 0) {
+    out.tables.push_back(candidate_table(report, digits));
+    if (report.verdict() == v1::found || report.verdict() == v1::one_of)
+      out.tables.push_back(parameter_table(report.candidates(0), digits));
+  }
+  if (report.ladder_size() > 0) out.tables.push_back(ladder_table(report, digits));
+  if (report.verdict() == v1::none) out.tables.push_back(limit_table(report, digits));
+  out.notes.assign(report.notes().begin(), report.notes().end());
+  return out;
+}
+
+}  // namespace
+
+Document document(const v1::DiagnosisReports& reports, Digits digits) {
+  Document out{"diagnosis", {}};
+  for (const v1::DiagnosisReport& one : reports.channels())
+    out.sections.push_back(section(one, digits));
+  return out;
+}
+
+}  // namespace imunoise::report
