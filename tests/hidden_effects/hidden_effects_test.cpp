@@ -15,7 +15,6 @@ Outcome of(std::vector<std::string> effects, double delta, bool withhold = false
   spec.delta = delta;
   spec.seed = 1;
   spec.withhold = withhold;
-  spec.replicates = 3;
   spec.samples = 1U << 13U;
   return diagnose(spec);
 }
@@ -25,9 +24,15 @@ void expect_named(const char* effect, double delta) {
   EXPECT_TRUE(outcome.named(1)) << outcome.describe();
 }
 
+// One null in twenty may raise an alarm, and which one says little; that it is sure of it may not
+// be.
 TEST(HiddenEffects, NothingIsFoundInNothing) {
   const Outcome outcome = of({}, 0.0);
-  EXPECT_FALSE(outcome.detected()) << outcome.describe();
+  ASSERT_EQ(outcome.error, "");
+  EXPECT_EQ(outcome.report.integrity_size(), 0) << outcome.describe();
+  for (const v1::EffectCandidate& one : outcome.report.candidates()) {
+    EXPECT_GT(one.familywise_p(), 1e-3) << outcome.describe();
+  }
 }
 
 TEST(HiddenEffects, ALine) { expect_named("line", 16.0); }
@@ -51,6 +56,7 @@ TEST(Share, HasClopperAndPearsonsBounds) {
 
 TEST(StrengthAt90, InterpolatesAndPools) {
   EXPECT_NEAR(*strength_at_90({{6.0, {5, 10}}, {8.0, {10, 10}}}), 7.6, 1e-12);
+  EXPECT_EQ(*strength_at_90({{6.0, {10, 10}}, {8.0, {10, 10}}}), 6.0);
   EXPECT_FALSE(strength_at_90({{6.0, {5, 10}}, {8.0, {8, 10}}}));
   // 90 % at δ = 6 does not count when fewer are found at 8: together they are 85 %.
   EXPECT_NEAR(*strength_at_90({{6.0, {9, 10}}, {8.0, {8, 10}}, {10.0, {10, 10}}}), 8.0 + 2.0 / 3.0,

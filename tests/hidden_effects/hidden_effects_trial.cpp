@@ -36,9 +36,7 @@ TEST(HiddenEffectsTrial, Nothing) {
   std::printf("false alarms: %s, at most %.1f %% (95 %%); beside lively witnesses %s\n",
               to_string(alarms).c_str(), 100.0 * alarms.upper(), to_string(lively).c_str());
   for (const auto& [base, share] : by_base) {
-    CaseSpec spec;
-    spec.null_base = base;
-    std::printf("  %s: %s\n", describe(spec).c_str(), to_string(share).c_str());
+    std::printf("  in %s: %s\n", name_of(base), to_string(share).c_str());
   }
   print_where("false alarms", outcomes, [](const Outcome& one) { return one.detected(); });
   EXPECT_LE(alarms.lower(), 0.05);

@@ -72,12 +72,16 @@ HiddenCase make_case(const CaseSpec& spec) {
   return out;
 }
 
+const char* name_of(Base base) {
+  static constexpr const char* kNames[] = {"WN", "WN+RW", "AR1+RW", "WN+AR1+RW", "WN+FN+RW"};
+  return kNames[static_cast<int>(base)];
+}
+
 std::string describe(const CaseSpec& spec) {
   std::string out;
   for (const std::string& name : spec.effects) out += (out.empty() ? "" : " + ") + name;
   if (spec.effects.empty()) {
-    static constexpr const char* kBases[] = {"WN", "WN+RW", "AR1+RW", "WN+AR1+RW", "WN+FN+RW"};
-    out = std::string("nothing in ") + kBases[static_cast<int>(spec.null_base)] +
+    out = std::string("nothing in ") + name_of(spec.null_base) +
           (spec.null_weather == Weather::kLively ? ", lively weather" : ", calm weather");
   } else {
     out += ", δ = " + std::to_string(static_cast<int>(spec.delta));

@@ -35,6 +35,9 @@ struct HiddenCase {
 /// Makes a case: the same from the same spec, on every machine. Precondition: the effects exist.
 HiddenCase make_case(const CaseSpec& spec);
 
+/// "WN+RW": a base by its noises.
+const char* name_of(Base base);
+
 /// "temperature/lagged, δ = 12, seed 7", for tables and messages.
 std::string describe(const CaseSpec& spec);
 

@@ -87,13 +87,15 @@ std::optional<double> strength_at_90(std::vector<std::pair<double, Share>> found
       blocks.pop_back();
     }
   }
-  double delta = 0.0;  // nothing is found of nothing
-  double share = 0.0;
+  const Block* before = nullptr;
   for (const Block& block : blocks) {
     const double here = block.share.value();
-    if (here >= 0.9) return delta + (block.from - delta) * (0.9 - share) / (here - share);
-    delta = block.to;
-    share = here;
+    if (here >= 0.9 && before == nullptr) return block.from;
+    if (here >= 0.9) {
+      const double part = (0.9 - before->share.value()) / (here - before->share.value());
+      return before->to + (block.from - before->to) * part;
+    }
+    before = &block;
   }
   return std::nullopt;
 }

@@ -35,7 +35,8 @@ std::string to_string(const Share& share);
 std::optional<double> median(std::vector<double> values);
 
 /// The δ at which 90 % are found, by linear interpolation of the shares over δ (increasing), made
-/// monotone by pooling neighbours; absent when it lies above the largest.
+/// monotone by pooling neighbours. The smallest δ when that is enough; absent when the largest is
+/// not.
 std::optional<double> strength_at_90(std::vector<std::pair<double, Share>> found);
 
 /// The δ at which an observer who knows the form, but has to look through the whole of a search
