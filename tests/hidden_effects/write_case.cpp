@@ -2,7 +2,7 @@
 //
 //   hidden_effects list
 //   hidden_effects FOLDER [EFFECT | nothing] [DELTA] [SEED] [--withhold]
-//   imunoise diagnose FOLDER/*.h5 --channels gyro_x
+//   imunoise diagnose FOLDER/*.h5 --channel gyro_x --auto
 //
 // FOLDER/truth.json says what was hidden. Without an effect the seed draws one: then nobody knows
 // until the file is opened.

@@ -104,10 +104,22 @@ double oracle_at_90(const HiddenEffect& effect, std::size_t samples, std::size_t
   const double tail = 0.05 / kFamilies /
                       places(effect, static_cast<double>(samples), static_cast<double>(replicates));
   const double found = normal_quantile(0.9);
-  // A line of unknown phase has two degrees of freedom: a threshold of -2 ln(tail) on its power.
-  if (effect.family == Family::kLine) return std::sqrt(-2.0 * std::log(tail)) + found;
-  const bool signless = effect.family == Family::kShort || effect.family == Family::kSlow;
-  return normal_quantile(1.0 - (signless ? tail : 0.5 * tail)) + found;
+  if (effect.family != Family::kLine) {
+    const bool signless = effect.family == Family::kShort || effect.family == Family::kSlow;
+    return normal_quantile(1.0 - (signless ? tail : 0.5 * tail)) + found;
+  }
+  // The power of lines of unknown phase: χ² with two degrees of freedom each, of mean dof + δ² and
+  // variance 2·dof + 4δ² when they are there.
+  const double dof = effect.id == "harmonics" ? 6.0 : 2.0;
+  const double threshold = chi_square_quantile(1.0 - tail, dof);
+  double low = 0.0;
+  double high = 100.0;
+  for (int i = 0; i < 50; ++i) {
+    const double delta = 0.5 * (low + high);
+    const double above = dof + delta * delta - threshold;
+    (above < found * std::sqrt(2.0 * dof + 4.0 * delta * delta) ? low : high) = delta;
+  }
+  return high;
 }
 
 }  // namespace imunoise::hidden
