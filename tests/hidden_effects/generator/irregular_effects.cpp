@@ -23,23 +23,36 @@ Injection hide_step(Scene& scene, double delta) {
                          {"amplitude", height, "rad/s"}});
 }
 
-// A charge trap fills and empties: two levels, a handful of jumps in a recording. δ is that of an
-// observer told when: who is not pays about 2 ln n for each jump.
+// A charge trap fills and empties: two levels, a handful of jumps in a recording. An oracle told
+// when would see √(hᵀΣ⁻¹h) ("informed"). One who is not finds each jump within about
+// (noise/height)² samples of its dwell, and pays the logarithm of their ratio: half the square of δ
+// is the informed one's less ln(signal to noise of a dwell)² for each jump (Laplace's
+// approximation).
 Injection hide_telegraph(Scene& scene, double delta) {
   const double dwell = static_cast<double>(scene.samples()) / uniform(scene.random, 4.0, 8.0);
   std::vector<Series> shapes;
+  double jumps = 0.0;
   for (std::size_t r = 0; r < scene.replicates(); ++r) {
     Series shape(scene.samples());
     double level = 0.5 * sign(scene.random);
     for (double& x : shape) {
-      if (uniform(scene.random, 0.0, 1.0) < 1.0 / dwell) level = -level;
+      if (uniform(scene.random, 0.0, 1.0) < 1.0 / dwell) {
+        level = -level;
+        jumps += 1.0;
+      }
       x = level;
     }
     shapes.push_back(std::move(shape));
   }
-  const double amplitude = add_shapes(scene, shapes, delta);
-  return of_mean(delta,
-                 {{"amplitude", amplitude, "rad/s"}, {"dwell_s", dwell / scene.rate_hz, "s"}});
+  const double dwells = jumps + static_cast<double>(scene.replicates());
+  const double informed = solve_strength(delta, delta, 100.0 * delta, [&](double told) {
+    const double price = jumps * std::log(std::max(1.0, told * told / dwells));
+    return std::sqrt(std::max(0.0, told * told - 2.0 * price));
+  });
+  const double amplitude = add_shapes(scene, shapes, informed);
+  return {delta,
+          informed,
+          {{"amplitude", amplitude, "rad/s"}, {"dwell_s", dwell / scene.rate_hz, "s"}}};
 }
 
 // Normal, 3 to 6 times as wide as a sample's own noise, here and there. δ beside the white floor.

@@ -63,6 +63,13 @@ bool Outcome::abstained() const {
   return report.verdict() == v1::unknown || report.verdict() == v1::one_of;
 }
 
+bool Outcome::described() const {
+  static const std::vector<std::string> kNoises = {"white_noise", "random_walk", "gauss_markov",
+                                                   "flicker", "resonance"};
+  return report.verdict() == v1::found && report.candidates_size() > 0 &&
+         contains(kNoises, report.candidates(0).effect());
+}
+
 std::optional<double> Outcome::error_reduction() const {
   if (!oracle_error || !named(1) || report.candidates_size() == 0) return std::nullopt;
   const v1::EffectCandidate& first = report.candidates(0);
@@ -102,6 +109,9 @@ std::string Outcome::describe() const {
   }
   for (const v1::IntegrityFinding& finding : report.integrity()) {
     out += ", integrity: " + finding.effect();
+  }
+  for (const v1::Rung& rung : report.ladder()) {
+    if (!rung.added().empty()) out += ", added " + rung.added();
   }
   return out;
 }

@@ -41,6 +41,9 @@ struct Outcome {
   /// Whether it says that something is missing without naming one cause.
   bool abstained() const;
 
+  /// Whether it says "found" and names a noise by its spectrum alone, which claims no cause.
+  bool described() const;
+
   /// (E0 - E1)/(E0 - E_oracle) of what it puts first, on held-out replicates; absent when it gives
   /// none, or when the effect costs less than a hundredth of the noise floor.
   std::optional<double> error_reduction() const;
