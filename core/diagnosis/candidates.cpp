@@ -80,8 +80,8 @@ void name_better(TriedEffect& tried) {
 }  // namespace
 
 Trial try_out(const Current& current, const Suggestion& suggestion) {
-  if (const auto* noise = std::get_if<Model>(&suggestion.added))
-    return {current.regression, joint_fit(current.regression, *noise)};
+  if (const auto* change = std::get_if<NoiseChange>(&suggestion.added))
+    return {current.regression, joint_fit(current.regression, change->start)};
   const auto& term = std::get<EffectTerm>(suggestion.added);
   Regression grown = current.regression.with(term);
   if (term.kind == EffectKind::kOutliers)

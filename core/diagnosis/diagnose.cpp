@@ -146,9 +146,9 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
     if (auto limit = limit_of(one, level / static_cast<double>(all.size())))
       out.limits.push_back(std::move(*limit));
   }
-  const bool seen = !out.effects.empty() && out.effects[0].familywise_p < level &&
-                    proven(out.effects[0], out.heldout);
-  if (seen) {
+  out.worth_adding = !out.effects.empty() && out.effects[0].familywise_p < level &&
+                     proven(out.effects[0], out.heldout);
+  if (out.worth_adding) {
     const Trial& best = out.effects[0].tried.trial;
     // What remains after the best effect must be small against what it took away, or it is not it.
     const MisfitReport after = misfit_of(current_of(best.regression, best.fit));

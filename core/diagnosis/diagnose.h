@@ -32,6 +32,7 @@ struct DetectionLimit {
 /// What one look at a model shows.
 struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
+  bool worth_adding = false;  ///< the best effect is no chance, and helps on replicates not used
   std::vector<RankedEffect> effects;  ///< best first
   MisfitReport misfit;                ///< of the model as it is
   double misfit_p = 1.0;

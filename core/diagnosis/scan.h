@@ -8,14 +8,20 @@
 
 namespace imunoise {
 
+/// Noise that may be missing.
+struct NoiseChange {
+  Model start;    ///< the whole noise with it, every value set
+  Process added;  ///< it alone
+};
+
 /// What may be missing, as a search found it: a term that could be added, at the place where it
 /// explains most. To first order only; the joint fit with it is what counts.
 struct Suggestion {
-  std::string_view effect;                ///< its id in the catalogue
-  std::variant<EffectTerm, Model> added;  ///< Model: noise instead of the current one, as a start
-  double score_nats = 0.0;                ///< log-likelihood that it would gain, to first order
-  double dof = 1.0;                       ///< coefficients, or powers, that it adds
-  bool power = false;                     ///< it is a power: one-sided
+  std::string_view effect;  ///< its id in the catalogue
+  std::variant<EffectTerm, NoiseChange> added;
+  double score_nats = 0.0;  ///< log-likelihood that it would gain, to first order
+  double dof = 1.0;         ///< coefficients, or powers, that it adds
+  bool power = false;       ///< it is a power: one-sided
   Search search;
   /// 1/variance of its coefficient or power under the current noise; 0 where that has no meaning.
   double information = 0.0;

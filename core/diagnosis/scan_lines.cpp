@@ -2,11 +2,11 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <unsupported/Eigen/FFT>
 
 #include "core/diagnosis/peak.h"
 #include "core/diagnosis/scan.h"
 #include "core/spectrum/cosine_transform.h"
+#include "core/spectrum/fourier.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -35,10 +35,7 @@ Eigen::ArrayXd gains(const Current& current, std::size_t k, Index padded) {
   const Eigen::VectorXd& u = current.weighted[k];
   std::vector<double> series(static_cast<std::size_t>(padded), 0.0);
   std::copy(u.data(), u.data() + u.size(), series.begin());
-  std::vector<std::complex<double>> spectrum;
-  Eigen::FFT<double> transform;
-  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  transform.fwd(spectrum, series);
+  const std::vector<std::complex<double>> spectrum = half_spectrum(series);
   Eigen::ArrayXd out(static_cast<Index>(spectrum.size()));
   for (Index i = 0; i < out.size(); ++i) {
     const double f = static_cast<double>(i) / static_cast<double>(padded);

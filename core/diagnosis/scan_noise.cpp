@@ -98,7 +98,7 @@ void add_best(const Current& current, const ScoreSpace& space, std::string_view 
   set_values(process, v);
   Model grown = current.fit.model.noise;
   grown.terms.emplace_back(process);
-  Suggestion made{effect, std::move(grown), 0.5 * most * most, 1.0, true, {}};
+  Suggestion made{effect, NoiseChange{std::move(grown), process}, 0.5 * most * most, 1.0, true, {}};
   made.search.path = path_length(directions);
   made.information = precision * precision;
   out.push_back(std::move(made));
@@ -147,7 +147,7 @@ void add_filters(const Current& current, Suggestions& out) {
   const std::vector<int> lengths{2, 3, 4, 6, 8, 12, 16};
   const double before = whittle_objective(noise, current.pooled);
   for (const bool twice : {false, true}) {
-    Suggestion best{"low_pass", Model{}, 0.0, 1.0, false, {}};
+    Suggestion best{"low_pass", NoiseChange{}, 0.0, 1.0, false, {}};
     best.search.log_places = std::log(static_cast<double>(lengths.size()));
     for (const int n : lengths) {
       Model changed = noise;
@@ -157,7 +157,7 @@ void add_filters(const Current& current, Suggestions& out) {
       const double gain = before - whittle(changed, current.pooled).objective;
       if (!(gain > best.score_nats)) continue;
       best.score_nats = gain;
-      best.added = std::move(changed);
+      best.added = NoiseChange{std::move(changed), filter};
     }
     if (best.score_nats > 0.0) out.push_back(std::move(best));
   }

@@ -1,9 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <unsupported/Eigen/FFT>
 
 #include "core/diagnosis/scan.h"
+#include "core/spectrum/fourier.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -22,7 +23,7 @@ StepScores step_scores(const Eigen::VectorXd& weighted, const Eigen::ArrayXd& sp
   const Index n = weighted.size();
   // The transform of a step at t0 is √(2/n) sin(πk t0/n) / (2 sin(πk/2n)): its information
   // (1/n) Σ w_k (1 - cos(2πk t0/n)) is a Fourier transform of w_k = 1/(4 sin²(πk/2n) S_k).
-  std::vector<std::complex<double>> weight(static_cast<std::size_t>(n), 0.0);
+  std::vector<double> weight(static_cast<std::size_t>(n), 0.0);
   double total = 0.0;
   double turning = 0.0;
   for (Index k = 1; k < n; ++k) {
@@ -34,16 +35,14 @@ StepScores step_scores(const Eigen::VectorXd& weighted, const Eigen::ArrayXd& sp
     total += w;
     turning += w * speed * speed;
   }
-  std::vector<std::complex<double>> wave;
-  Eigen::FFT<double> transform;
-  transform.fwd(wave, weight);
+  const std::vector<std::complex<double>> wave = half_spectrum(weight);
   StepScores out{Eigen::ArrayXd::Zero(n), Eigen::ArrayXd::Zero(n),
                  static_cast<double>(n) * std::sqrt(turning / total)};
   double sum = 0.0;
   for (Index t = n - 1; t >= 1; --t) {
     sum += weighted(t);
-    out.information(t) =
-        (total - wave[static_cast<std::size_t>(t)].real()) / static_cast<double>(n);
+    out.information(t) = (total - wave[static_cast<std::size_t>(std::min(t, n - t))].real()) /
+                         static_cast<double>(n);
     if (out.information(t) > 0.0) out.gain(t) = 0.5 * sum * sum / out.information(t);
   }
   return out;

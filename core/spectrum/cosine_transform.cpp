@@ -3,12 +3,11 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
-#include <numbers>
-#include <unsupported/Eigen/FFT>
 #include <vector>
 
-namespace imunoise {
+#include "core/spectrum/fourier.h"
 
+namespace imunoise {
 namespace {
 
 bool quick(std::size_t n) {
@@ -16,6 +15,12 @@ bool quick(std::size_t n) {
     while (n % factor == 0) n /= factor;
   }
   return n == 1;
+}
+
+// Where sample t stands: even ones forwards, then odd ones backwards, which halves the length of a
+// mirrored series (Makhoul 1980).
+std::size_t folded_place(std::size_t t, std::size_t n) {
+  return t % 2 == 0 ? t / 2 : n - 1 - t / 2;
 }
 
 }  // namespace
@@ -26,49 +31,40 @@ std::size_t quick_length(std::size_t n) {
 }
 
 Eigen::VectorXd cosine_transform(const VectorRef& x) {
-  const Eigen::Index n = x.size();
-  assert(n >= 2 && quick_length(static_cast<std::size_t>(n)) == static_cast<std::size_t>(n));
+  const auto n = static_cast<std::size_t>(x.size());
+  assert(n >= 2 && quick_length(n) == n);
   const double mean = x.mean();
-  // Even samples forwards, then odd samples backwards: half the length of a mirrored series.
-  std::vector<std::complex<double>> folded(static_cast<std::size_t>(n));
-  for (Eigen::Index t = 0; t < n; ++t) {
-    const Eigen::Index place = t % 2 == 0 ? t / 2 : n - 1 - t / 2;
-    folded[static_cast<std::size_t>(place)] = x(t) - mean;
-  }
-  std::vector<std::complex<double>> spectrum;
-  Eigen::FFT<double> transform;
-  transform.fwd(spectrum, folded);
+  std::vector<double> folded(n);
+  for (std::size_t t = 0; t < n; ++t)
+    folded[folded_place(t, n)] = x(static_cast<Eigen::Index>(t)) - mean;
+  const std::vector<std::complex<double>> spectrum = half_spectrum(folded);
+  const std::span<const std::complex<double>> turns = quarter_turns(n);
   const double scale = std::sqrt(2.0 / static_cast<double>(n));
-  Eigen::VectorXd out(n - 1);
-  for (Eigen::Index k = 1; k < n; ++k) {
-    const double angle =
-        -std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(n));
-    const std::complex<double>& one = spectrum[static_cast<std::size_t>(k)];
-    out(k - 1) = scale * (one.real() * std::cos(angle) - one.imag() * std::sin(angle));
+  Eigen::VectorXd out(x.size() - 1);
+  // c_k = Re(e^{-iπk/2n} V_k), and V_{n-k} is the conjugate of V_k.
+  for (std::size_t k = 1; k < spectrum.size(); ++k) {
+    const std::complex<double> turned = scale * std::conj(turns[k]) * spectrum[k];
+    out(static_cast<Eigen::Index>(n - k) - 1) = -turned.imag();
+    out(static_cast<Eigen::Index>(k) - 1) = turned.real();
   }
   return out;
 }
 
 Eigen::VectorXd inverse_cosine_transform(const VectorRef& c) {
-  const Eigen::Index n = c.size() + 1;
-  assert(quick_length(static_cast<std::size_t>(n)) == static_cast<std::size_t>(n));
-  // Makhoul's steps backwards: V_k = e^{iπk/2n} (c_k - i c_{n-k}) is the transform of the folded
-  // series.
+  const auto n = static_cast<std::size_t>(c.size()) + 1;
+  assert(n >= 2 && quick_length(n) == n);
+  const std::span<const std::complex<double>> turns = quarter_turns(n);
   const double scale = std::sqrt(0.5 * static_cast<double>(n));
-  std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(n));
-  for (Eigen::Index k = 1; k < n; ++k) {
-    const double angle = std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(n));
-    spectrum[static_cast<std::size_t>(k)] =
-        scale * std::polar(1.0, angle) * std::complex<double>(c(k - 1), -c(n - k - 1));
+  std::vector<std::complex<double>> spectrum(n / 2 + 1);
+  for (std::size_t k = 1; k < spectrum.size(); ++k) {
+    spectrum[k] = scale * turns[k] *
+                  std::complex<double>(c(static_cast<Eigen::Index>(k) - 1),
+                                       -c(static_cast<Eigen::Index>(n - k) - 1));
   }
-  std::vector<std::complex<double>> folded;
-  Eigen::FFT<double> transform;
-  transform.inv(folded, spectrum);
-  Eigen::VectorXd out(n);
-  for (Eigen::Index t = 0; t < n; ++t) {
-    const Eigen::Index place = t % 2 == 0 ? t / 2 : n - 1 - t / 2;
-    out(t) = folded[static_cast<std::size_t>(place)].real();
-  }
+  const std::vector<double> folded = from_half_spectrum(spectrum, n);
+  Eigen::VectorXd out(c.size() + 1);
+  for (std::size_t t = 0; t < n; ++t)
+    out(static_cast<Eigen::Index>(t)) = folded[folded_place(t, n)];
   return out;
 }
 

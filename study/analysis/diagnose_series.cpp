@@ -14,7 +14,7 @@
 namespace imunoise::study {
 namespace {
 
-constexpr int kMostRungs = 6;
+constexpr int kMostRungs = 8;
 
 struct Chosen {
   FullModel model;  ///< every value of the noise set
@@ -134,7 +134,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
     *out.add_ladder() = rung_of(model, added, first, diagnosis.misfit_p, diagnosis.heldout, why);
     // The verdict is about the model that was asked for; later rounds only climb.
     if (rung == 0) add_diagnosis(diagnosis, *subject, series.names, out);
-    if (diagnosis.verdict != DiagnosisVerdict::kFound) break;
+    if (!diagnosis.worth_adding) break;
     RankedEffect& best = diagnosis.effects.front();
     added = added_term(best.tried);
     why = fmt::format("{} explains {:.1f} nats ({:.1f} more than chance).", best.tried.effect,

@@ -175,14 +175,7 @@ void add_time_misfits(const Diagnosis& diagnosis, const std::vector<std::string>
 std::string added_term(const TriedEffect& effect) {
   if (const auto* term = std::get_if<EffectTerm>(&effect.suggestion.added)) return print(*term);
   Model alone;
-  alone.terms.push_back(std::get<Model>(effect.suggestion.added).terms.back());
-  if (effect.effect == "low_pass") {
-    for (const Term& term : std::get<Model>(effect.suggestion.added).terms) {
-      const bool filter = std::holds_alternative<MovingAverageFilter>(term.process) ||
-                          std::holds_alternative<BartlettFilter>(term.process);
-      if (filter) alone.terms = {term};
-    }
-  }
+  alone.terms.emplace_back(std::get<NoiseChange>(effect.suggestion.added).added);
   return print(alone);
 }
 

@@ -92,10 +92,8 @@ void add_amplitudes(const TriedEffect& effect, const std::string& unit, int harm
 
 void add_noise(const TriedEffect& effect, const Subject& subject,
                std::vector<v1::EffectParameter>& out) {
-  // The term that the current model has not, or has not at this place.
-  const auto& added = std::get<Model>(effect.suggestion.added);
   const Model& fitted = effect.trial.fit.model.noise;
-  const std::size_t kind = added.terms.back().process.index();
+  const std::size_t kind = std::get<NoiseChange>(effect.suggestion.added).added.index();
   const std::vector<BandedPower> left =
       pooled(effect.trial.regression.residual(effect.trial.fit.effects, fitted));
   const ParameterSets sets = parameter_sets(fitted);
