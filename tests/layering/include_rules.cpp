@@ -304,7 +304,7 @@ void check_generator(const Sources& sources, std::vector<std::string>& out) {
       for (const Include& include : next->second.includes) {
         if (!include.quoted || !seen.insert(include.path).second) continue;
         open.push_back(include.path);
-        if (lies_in_any(include.path, {"core/process", "core/diagnosis"})) {
+        if (lies_in_any(include.path, {"core/process", "core/model", "core/diagnosis", "study"})) {
           out.push_back(path + ": reaches " + include.path + " through " + next->first +
                         "; the blind trial's generator may not");
         }

@@ -154,6 +154,10 @@ TEST(LayeringRules, FollowTheGeneratorsIncludesThroughOtherHeaders) {
   EXPECT_NE(found.find("walk.cpp: reaches core/process/ar1.h through core/support/result.h"),
             std::string::npos)
       << found;
+  tree["core/support/result.h"] = "#pragma once\n#include \"core/model/model.h\"\n";
+  tree["core/model/model.h"] = "#pragma once\n";
+  EXPECT_NE(lines(layering_violations(tree)).find("walk.cpp: reaches core/model/model.h"),
+            std::string::npos);
 }
 
 TEST(LayeringRules, ReadCodeNotCommentsOrLiterals) {

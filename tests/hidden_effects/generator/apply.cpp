@@ -1,0 +1,69 @@
+#include "tests/hidden_effects/generator/apply.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/hidden_effects/generator/oracle.h"
+
+namespace imunoise::hidden {
+
+double add_shapes(Scene& scene, const std::vector<Series>& shapes, double delta) {
+  const double factor = delta / mean_strength(shapes, scene.spectrum);
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    Series& gyro = scene.recordings[r][kSubject];
+    for (std::size_t t = 0; t < gyro.size(); ++t) gyro[t] += factor * shapes[r][t];
+  }
+  return factor;
+}
+
+Injection of_mean(double delta, std::vector<TrueParameter> parameters) {
+  return {delta, delta, std::move(parameters)};
+}
+
+Injection of_spectrum(const Scene& scene, const Series& after) {
+  const double count = static_cast<double>(scene.replicates());
+  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
+  return {strength(divergence(nearest, after), count),
+          strength(divergence(scene.spectrum, after), count),
+          {}};
+}
+
+// The informed δ is cheap and near: from there, secants of ln δ over ln size.
+double solve_size(const Scene& scene, double delta, double low, double high,
+                  const std::function<Series(double size)>& after) {
+  const double count = static_cast<double>(scene.replicates());
+  double size = solve_strength(delta, low, high, [&](double x) {
+    return strength(divergence(scene.spectrum, after(x)), count);
+  });
+  double slope = 1.0;
+  double last_size = 0.0;
+  double last_excess = 0.0;
+  for (int step = 0; step < 20; ++step) {
+    const double excess = std::log(of_spectrum(scene, after(size)).delta / delta);
+    if (std::abs(excess) < 1e-4 || size == last_size) break;  // there, or at the end of the range
+    if (step > 0) slope = (excess - last_excess) / std::log(size / last_size);
+    last_size = size;
+    last_excess = excess;
+    size = std::min(size * std::exp(-excess / std::max(slope, 0.2)), high);
+  }
+  return size;
+}
+
+Injection add_noise(Scene& scene, double delta,
+                    const std::function<BaseNoise(double deviation)>& shape, double& deviation) {
+  const Series unit = shape(1.0).spectrum(scene.samples());
+  const auto after = [&](double size) {
+    Series out = scene.spectrum;
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] += size * size * unit[k];
+    return out;
+  };
+  deviation = solve_size(scene, delta, 1e-9 * scene.floor(), 1e3 * scene.floor(), after);
+  for (Recording& recording : scene.recordings) {
+    const Series noise = shape(deviation).simulate(scene.random, scene.samples());
+    Series& gyro = recording[kSubject];
+    for (std::size_t t = 0; t < gyro.size(); ++t) gyro[t] += noise[t];
+  }
+  return of_spectrum(scene, after(deviation));
+}
+
+}  // namespace imunoise::hidden

@@ -1,0 +1,88 @@
+// What gyro_x shares with the other sensors of its board.
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/hidden_effects/generator/apply.h"
+#include "tests/hidden_effects/generator/draw.h"
+#include "tests/hidden_effects/generator/oracle.h"
+
+namespace imunoise::hidden {
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s²
+
+void add(Series& to, const Series& part, double factor) {
+  for (std::size_t t = 0; t < to.size(); ++t) to[t] += factor * part[t];
+}
+
+// The bench rocks slowly by an angle θ: the gyro feels dθ/dt, the accelerometer g·θ. δ is that of
+// an observer who knows θ.
+Injection hide_tilt(Scene& scene, double delta) {
+  const double frequency = uniform(scene.random, 0.02, 0.05);  // Hz
+  const Ringing rocking{1.0, std::exp(-0.2 * 2.0 * std::numbers::pi * frequency / scene.rate_hz),
+                        2.0 * std::numbers::pi * frequency / scene.rate_hz};
+  std::vector<Series> angles;
+  std::vector<Series> rates;
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    angles.push_back(simulate(rocking, scene.random, scene.samples() + 1));
+    Series rate(scene.samples());
+    for (std::size_t t = 0; t < rate.size(); ++t) {
+      rate[t] = (angles.back()[t + 1] - angles.back()[t]) * scene.rate_hz;
+    }
+    angles.back().pop_back();
+    rates.push_back(std::move(rate));
+  }
+  const double factor = add_shapes(scene, rates, delta);
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    add(scene.recordings[r]["acc_x"], angles[r], factor * kGravity);
+  }
+  return of_mean(delta, {});
+}
+
+// The structure shakes both gyros alike, with frequencies up to a few hertz. δ is that of an
+// observer of both gyros.
+Injection hide_vibration(Scene& scene, double delta) {
+  const double tau = log_uniform(scene.random, 3.0, 10.0);  // samples
+  const Series neighbour = scene.neighbour.spectrum(scene.samples());
+  const double replicates = static_cast<double>(scene.replicates());
+  const auto seen = [&](double deviation) {
+    const Series common = spectrum(Markov{deviation, tau}, scene.samples());
+    return strength(shared_divergence(scene.spectrum, neighbour, common), replicates);
+  };
+  const double deviation = solve_strength(delta, 1e-6 * scene.floor(), 1e3 * scene.floor(), seen);
+  for (Recording& recording : scene.recordings) {
+    const Series shaking = simulate(Markov{deviation, tau}, scene.random, scene.samples());
+    add(recording[kSubject], shaking, 1.0);
+    add(recording["gyro_y"], shaking, 1.0);
+  }
+  return of_mean(delta, {});
+}
+
+// A part of what gyro_y gives out shows in gyro_x.
+Injection hide_cross_axis(Scene& scene, double delta) {
+  std::vector<Series> shapes;
+  for (const Recording& recording : scene.recordings) shapes.push_back(recording["gyro_y"]);
+  const double coefficient = add_shapes(scene, shapes, sign(scene.random) * delta);
+  return of_mean(delta, {{"coefficient", coefficient, "1"}});
+}
+
+}  // namespace
+
+std::vector<HiddenEffect> neighbour_effects() {
+  const auto effect = [](const char* id, const char* witness, auto hide) {
+    HiddenEffect out;
+    out.id = id;
+    out.family = Family::kWitness;
+    out.witness = witness;
+    out.hide = hide;
+    return out;
+  };
+  return {
+      effect("tilt", "acc_x", hide_tilt),
+      effect("common_vibration", "gyro_y", hide_vibration),
+      effect("cross_axis", "gyro_y", hide_cross_axis),
+  };
+}
+
+}  // namespace imunoise::hidden

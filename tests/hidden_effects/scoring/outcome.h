@@ -1,0 +1,71 @@
+#pragma once
+
+// What the diagnosis said of a case, against what was hidden in it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imunoise/v1/diagnosis.pb.h"
+#include "tests/hidden_effects/generator/hidden_case.h"
+
+namespace imunoise::hidden {
+
+/// A parameter that was put in and that the report gives with an interval.
+struct Covered {
+  std::string name;
+  double truth = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+  bool holds() const { return lower <= truth && truth <= upper; }
+};
+
+/// One case, diagnosed.
+struct Outcome {
+  CaseSpec spec;
+  std::vector<Injection> injections;
+  std::string error;  ///< The tool's, when it gave no report.
+  v1::DiagnosisReport report;
+  std::optional<double> oracle_error;  ///< Held-out error of the base model without the effect.
+
+  /// Whether the report says that anything is missing or wrong.
+  bool detected() const;
+
+  /// Whether what it puts first (of the first `ranks`) names the hidden effect. A defect of the
+  /// samples may be named by an integrity finding.
+  bool named(std::size_t ranks) const;
+
+  /// Whether it says "found" and names something else.
+  bool confidently_wrong() const;
+
+  /// Whether it says that something is missing without naming one cause.
+  bool abstained() const;
+
+  /// Whether it says "found" and names a noise by its spectrum alone, which claims no cause.
+  bool described() const;
+
+  /// (E0 - E1)/(E0 - E_oracle) of what it puts first, on held-out replicates; absent when it gives
+  /// none, or when the effect costs less than a hundredth of the noise floor.
+  std::optional<double> error_reduction() const;
+
+  /// The intervals of the first candidate when that is right.
+  std::vector<Covered> intervals() const;
+
+  /// One line: the case, what was said.
+  std::string describe() const;
+};
+
+/// What a trial asks of a case.
+struct Questions {
+  bool automatic = false;  ///< Let the tool go on after the first effect.
+  /// Diagnose the clean data as well, where δ is this: its error is what an oracle would leave.
+  std::optional<double> oracle_at;
+};
+
+/// Makes the case, tells the tool the base's model (without values), and keeps what it says.
+Outcome diagnose(const CaseSpec& spec, const Questions& questions = {});
+
+/// Whether every effect of a case is among what the tool added or put first, with `automatic`.
+bool all_named(const Outcome& outcome);
+
+}  // namespace imunoise::hidden
