@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/diagnosis/outliers.h"
+#include "core/diagnosis/steadiness.h"
 #include "core/diagnosis/telegraph.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/linear_algebra.h"
@@ -64,6 +65,36 @@ bool is_bandwidth(const Model& noise) {
   return fast > 0.0 && white < kLeft * fast;
 }
 
+// Heat does not move a sensor faster than this.
+constexpr double kFastestHeat = 10.0;  // s
+
+// Of the noise that each replicate has of its own: the share that white noise alone explains.
+bool slow_powers(const Trial& trial, const JointFit& before) {
+  const Regression& regression = trial.regression;
+  Model held = before.model.noise;
+  for (Term& term : held.terms)
+    term.given.assign(term.given.size(), !std::holds_alternative<WhiteNoise>(term.process));
+  double fast = 0.0;
+  for (const BandedPower& one : regression.residual(trial.fit.effects.value)) {
+    const std::span<const BandedPower> alone(&one, 1);
+    fast += whittle_objective(before.model.noise, alone) - whittle(held, alone).objective;
+  }
+  return fast < 0.5 * (trial.fit.log_likelihood - before.log_likelihood);
+}
+
+bool is_slow(const TriedEffect& tried, const Current& current) {
+  const std::string& id = tried.effect;
+  if (id == "rate_ramp" || id == "warm_up" || id == "random_walk" || id == "flicker") return true;
+  if (id == "replicate_change") return slow_powers(tried.trial, current.fit);
+  if (id != "gauss_markov") return false;
+  const double longest = kFastestHeat * current.subject().rate.value;
+  const auto& terms = tried.trial.fit.model.noise.terms;
+  return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+    const auto* markov = std::get_if<Ar1>(&term.process);
+    return markov != nullptr && markov->phi > 0.0 && -1.0 / std::log(markov->phi) > longest;
+  });
+}
+
 void name_better(TriedEffect& tried) {
   if (tried.effect != "gauss_markov") return;
   if (is_bandwidth(tried.trial.fit.model.noise)) {
@@ -109,6 +140,12 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
     out.freedom = std::holds_alternative<EffectTerm>(one.added) ? freedom_of(out.trial, effects - 1)
                                                                 : INFINITY;
     name_better(out);
+    out.slow = is_slow(out, current);
+    if (const auto* noise = std::get_if<NoiseChange>(&one.added); noise != nullptr) {
+      constexpr double kUnsteady = 1e-3;
+      out.steady =
+          steadiness(out.trial.regression, out.trial.fit, noise->added).p_value > kUnsteady;
+    }
     out.log_chance = log_chance(out.likelihood_gain, one.dof, out.freedom, one.power, one.search);
     out.gain = -out.log_chance;
     tried[i] = std::move(out);

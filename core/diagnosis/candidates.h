@@ -22,6 +22,8 @@ struct TriedEffect {
   double log_chance = 0.0;       ///< that noise makes this search gain as much, logarithm
   double gain = 0.0;             ///< likelihood_gain less what such a search gains by chance, nats
   double freedom = 0.0;          ///< degrees of freedom behind the noise level there
+  bool slow = false;             ///< heat could have done it, had nobody recorded the temperature
+  bool steady = true;            ///< if it is noise: it is there all the time
 };
 
 /// Every suggestion that is worth it, tried on the current model, best first.

@@ -237,4 +237,8 @@ bool may_share_motion(Quantity subject, const Witness& witness) {
   return quantity_of(witness) == subject;
 }
 
+bool feels_rocking(Quantity subject, const Witness& witness) {
+  return subject == Quantity::kAngularRate && quantity_of(witness) == Quantity::kAcceleration;
+}
+
 }  // namespace imunoise

@@ -29,4 +29,7 @@ std::string_view coupling_effect(Quantity subject, const Witness& witness);
 /// the other.
 bool may_share_motion(Quantity subject, const Witness& witness);
 
+/// True for a gyroscope beside an accelerometer, which sees the bench tilt.
+bool feels_rocking(Quantity subject, const Witness& witness);
+
 }  // namespace imunoise

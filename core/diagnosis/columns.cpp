@@ -57,10 +57,11 @@ void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate)
 Eigen::MatrixXd witness_cosines(const EffectTerm& term, const Witness& witness, std::size_t k,
                                 double rate) {
   Eigen::VectorXd cosines = witness.cosines[k];
-  if (term.quadratic || term.lag > 0.0) {
+  if (term.quadratic || term.derivative || term.lag > 0.0) {
     Eigen::VectorXd x = witness.samples[k];
     if (term.lag > 0.0) x = lagged(x, term.lag * rate);
     if (term.quadratic) x = x.array().square();
+    if (term.derivative) x = rate_of_change(x, rate);
     cosines = cosine_transform(x);
   }
   keep_between(cosines, term.from, term.to, rate);
@@ -103,6 +104,12 @@ Eigen::VectorXd lagged(const VectorRef& x, double lag) {
     state = keep * state + (1.0 - keep) * x(t);
     out(t) = state;
   }
+  return out;
+}
+
+Eigen::VectorXd rate_of_change(const VectorRef& x, double rate) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  out.tail(x.size() - 1) = rate * (x.tail(x.size() - 1) - x.head(x.size() - 1));
   return out;
 }
 

@@ -42,4 +42,7 @@ Result<void> check(const EffectTerm& term, const Subject& subject);
 /// its first value before: exact for a piecewise constant input.
 Eigen::VectorXd lagged(const VectorRef& x, double lag);
 
+/// Differences of neighbours times the sampling rate in Hz; the first is 0.
+Eigen::VectorXd rate_of_change(const VectorRef& x, double rate);
+
 }  // namespace imunoise

@@ -14,23 +14,6 @@ constexpr double kClearGap = 3.0;     // nats: less cannot tell two effects apar
 constexpr std::size_t kProven = 3;    // effects that are tried on held-out replicates
 constexpr double kMisfitShare = 0.2;  // of the level is spent on misfits of unknown cause
 
-// Effects that a temperature which nobody recorded looks like. One that was recorded has been
-// tried.
-bool slow(const RankedEffect& effect, const Subject& subject) {
-  const std::string& id = effect.tried.effect;
-  if (id == "rate_ramp" || id == "warm_up" || id == "random_walk") return true;
-  if (id != "gauss_markov" && id != "flicker") return false;
-  if (id == "flicker") return true;
-  constexpr double kSlow = 10.0;  // s: heat does not move a sensor faster
-  for (const Term& term : effect.tried.trial.fit.model.noise.terms) {
-    const auto* markov = std::get_if<Ar1>(&term.process);
-    if (markov != nullptr && markov->phi > 0.0 &&
-        -1.0 / std::log(markov->phi) > kSlow * subject.rate.value)
-      return true;
-  }
-  return false;
-}
-
 bool has_witness(const Subject& subject, std::string_view effect) {
   return std::any_of(subject.witnesses.begin(), subject.witnesses.end(), [&](const Witness& one) {
     return coupling_effect(subject.quantity, one) == effect;
@@ -41,16 +24,34 @@ void add_unique(std::vector<std::string>& to, std::string_view id, const std::st
   if (id != self && std::find(to.begin(), to.end(), id) == to.end()) to.emplace_back(id);
 }
 
+// Two effects whose evidence is alike are rivals if the one leaves little for the other to explain;
+// else both are there.
+bool rivals(const RankedEffect& one, const RankedEffect& other, double significant) {
+  if (std::abs(one.tried.gain - other.tried.gain) >= kClearGap) return false;
+  if (other.familywise_p > significant || one.familywise_p > significant) return true;
+  // A regressor can be added to either; two noises are each a change of the whole model.
+  const bool regressor = std::holds_alternative<EffectTerm>(other.tried.suggestion.added);
+  const RankedEffect& second = regressor ? other : one;
+  const RankedEffect& first = regressor ? one : other;
+  if (std::holds_alternative<NoiseChange>(second.tried.suggestion.added)) return true;
+  const Current with = current_of(first.tried.trial.regression, first.tried.trial.fit);
+  const double both = try_out(with, second.tried.suggestion).fit.log_likelihood;
+  return both - with.fit.log_likelihood < 0.5 * second.tried.likelihood_gain;
+}
+
 // Candidates whose evidence is as good, and what was not recorded.
-void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject) {
-  for (RankedEffect& one : effects) {
+void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
+                     double significant) {
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    RankedEffect& one = effects[i];
     for (const RankedEffect& other : effects) {
-      const bool same =
-          effect_info(one.tried.effect).family == effect_info(other.tried.effect).family;
-      if (!same && std::abs(one.tried.gain - other.tried.gain) < kClearGap)
-        add_unique(one.confused_with, other.tried.effect, one.tried.effect);
+      if (effect_info(one.tried.effect).family == effect_info(other.tried.effect).family) continue;
+      // Whether both are there is asked of the best one only: it costs a fit.
+      const bool alike = i == 0 ? rivals(one, other, significant)
+                                : std::abs(one.tried.gain - other.tried.gain) < kClearGap;
+      if (alike) add_unique(one.confused_with, other.tried.effect, one.tried.effect);
     }
-    if (slow(one, subject) && !has_witness(subject, "temperature"))
+    if (one.tried.slow && !has_witness(subject, "temperature"))
       add_unique(one.confused_with, "temperature", one.tried.effect);
     if (one.tried.suggestion.backwards)
       add_unique(one.confused_with, "gauss_markov", one.tried.effect);
@@ -128,7 +129,8 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
         std::min(1.0, static_cast<double>(all.size()) * std::exp(one.tried.log_chance));
     out.effects.push_back(std::move(one));
   }
-  fill_confusions(out.effects, subject);
+  const double level = (1.0 - kMisfitShare) * options.level;
+  fill_confusions(out.effects, subject, level);
   out.misfit = misfit_of(current);
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);
@@ -141,7 +143,6 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
     }
   }
   progress.report(1.0);
-  const double level = (1.0 - kMisfitShare) * options.level;
   for (const Suggestion& one : all) {
     if (auto limit = limit_of(one, level / static_cast<double>(all.size())))
       out.limits.push_back(std::move(*limit));

@@ -46,7 +46,7 @@ const std::vector<Spelling>& spellings() {
        "witness",
        true,
        {{"lag", &T::lag, false}, {"from", &T::from, false}, {"to", &T::to, false}},
-       {{"quadratic", &T::quadratic}, {"own", &T::own}}},
+       {{"quadratic", &T::quadratic}, {"derivative", &T::derivative}, {"own", &T::own}}},
       {EffectKind::kModulated, "modulated", true, {}, {}},
       {EffectKind::kOutliers, "outliers", false, {{"above", &T::above, true}}, {}},
       {EffectKind::kOwnPowers, "own_powers", false, {}, {}},

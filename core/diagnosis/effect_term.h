@@ -35,8 +35,9 @@ struct EffectTerm {
   double from = 0.0;       ///< Hz: only the witness's movements faster than this
   double to = std::numeric_limits<double>::infinity();  ///< Hz: and slower than this
   double above = 0.0;                                   ///< standard deviations
-  bool own = false;        ///< a coefficient of its own in every replicate
-  bool quadratic = false;  ///< the witness enters squared
+  bool own = false;         ///< a coefficient of its own in every replicate
+  bool quadratic = false;   ///< the witness enters squared
+  bool derivative = false;  ///< the witness's change per second enters
 
   friend bool operator==(const EffectTerm&, const EffectTerm&) = default;
 };

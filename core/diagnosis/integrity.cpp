@@ -24,6 +24,21 @@ struct Codes {
 
 constexpr std::size_t kMany = 100'000;  // distinct values: no grid worth the name
 
+// Samples at the extremes, which values without a grid have as well.
+void count_ends(const Signal& signal, Codes& to) {
+  double smallest = signal.value(0);
+  double largest = smallest;
+  for (std::size_t t = 0; t < signal.size(); ++t) {
+    const double value = signal.value(t);
+    if (value < smallest) to.lowest = 0;
+    if (value > largest) to.highest = 0;
+    smallest = std::min(smallest, value);
+    largest = std::max(largest, value);
+    to.lowest += value == smallest ? 1 : 0;
+    to.highest += value == largest ? 1 : 0;
+  }
+}
+
 Codes codes_of(const Signal& signal) {
   Codes out;
   std::map<double, std::size_t> counts;
@@ -44,15 +59,14 @@ Codes codes_of(const Signal& signal) {
     }
     before = value;
   }
+  count_ends(signal, out);
   out.spread = std::sqrt(squares / static_cast<double>(signal.size()));
   out.distinct = counts.size();
   if (counts.size() >= kMany || counts.size() < 2) return out;
   out.step = INFINITY;
   for (auto one = std::next(counts.begin()); one != counts.end(); ++one)
     out.step = std::min(out.step, one->first - std::prev(one)->first);
-  out.lowest = counts.begin()->second;
   out.above_lowest = std::next(counts.begin())->second;
-  out.highest = counts.rbegin()->second;
   out.below_highest = std::next(counts.rbegin())->second;
   return out;
 }
@@ -83,7 +97,7 @@ std::vector<Defect> integrity(const Signal& signal) {
     out.push_back({"stuck", codes.longest, 0.0, codes.longest_at});
   // Noise thins out towards its extremes; a converter at its end piles samples up there.
   const auto piled = [](std::size_t at_end, std::size_t next_to_it) {
-    return at_end >= 10 && at_end > 3 * next_to_it;
+    return at_end >= 5 && at_end > 3 * next_to_it;
   };
   if (piled(codes.highest, codes.below_highest))
     out.push_back({"saturation", codes.highest, static_cast<double>(codes.below_highest), 0});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/normal_power.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
@@ -14,12 +15,6 @@ using Index = Eigen::Index;
 
 // Bands are put together until they have this many degrees of freedom and span half an octave.
 constexpr double kFewestFreedom = 8.0;
-
-// Mean power over model of a χ² with `freedom` degrees as a normal score (Wilson & Hilferty 1931).
-double normal_score(double ratio, double freedom) {
-  const double spread = 2.0 / (9.0 * freedom);
-  return (std::cbrt(ratio) - (1.0 - spread)) / std::sqrt(spread);
-}
 
 double model_spectrum(const Model& noise, double f) {
   double out = 0.0;

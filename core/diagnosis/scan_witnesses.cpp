@@ -5,6 +5,7 @@
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/scan.h"
 #include "core/diagnosis/slow_view.h"
+#include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -64,7 +65,7 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
   // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
   constexpr Index kFirst = 4;
   const double per_octave = 0.5 / current.subject().seconds(0);
-  Suggestion slow{"tilt", whole, 0.0, 1.0, false, {}};
+  Suggestion slow{"", whole, 0.0, 1.0, false, {}};
   Suggestion fast{"common_vibration", whole, 0.0, 1.0, false, {}};
   slow.search.log_places = fast.search.log_places = std::log(static_cast<double>(last - kFirst));
   for (Index i = kFirst; i < last; ++i) {
@@ -78,8 +79,35 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
       std::get<EffectTerm>(fast.added).from = edge;
     }
   }
+  // A bench tilts over minutes; what is faster is vibration.
+  constexpr double kFastestTilt = 0.1;  // Hz
+  slow.effect = std::get<EffectTerm>(slow.added).to <= kFastestTilt ? "tilt" : "common_vibration";
   if (slow.score_nats > 0.0) out.push_back(std::move(slow));
   if (fast.score_nats > 0.0) out.push_back(std::move(fast));
+}
+
+// A gyroscope on a bench that rocks feels how fast the accelerometers' view of gravity turns.
+void add_rocking(const Current& current, const Witness& witness, Suggestions& out) {
+  const Subject& subject = current.subject();
+  if (!feels_rocking(subject.quantity, witness)) return;
+  double product = 0.0;
+  double square = 0.0;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    const Eigen::ArrayXd rate =
+        cosine_transform(rate_of_change(witness.samples[k], subject.rate.value));
+    product += (rate * current.cosines[k].array() / current.spectrum[k]).sum();
+    square += (rate.square() / current.spectrum[k]).sum();
+  }
+  if (!(square > 0.0)) return;
+  Suggestion rocking{
+      "tilt",
+      EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .derivative = true},
+      0.5 * product * product / square,
+      1.0,
+      false,
+      {}};
+  rocking.information = square;
+  out.push_back(std::move(rocking));
 }
 
 void add_lagged(const Current& current, const SlowView& view, const Witness& witness,
@@ -147,6 +175,7 @@ Suggestions scan_witnesses(const Current& current) {
     const Witness& witness = subject.witnesses[w];
     add_static(current, witness, each[w]);
     add_lagged(current, view, witness, each[w]);
+    add_rocking(current, witness, each[w]);
     each[w].push_back({"modulated_variance",
                        EffectTerm{.kind = EffectKind::kModulated, .witness = witness.name},
                        modulation_by(witness, white).log_likelihood,

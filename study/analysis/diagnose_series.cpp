@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/integrity.h"
 #include "core/spectrum/cross_power.h"
@@ -57,6 +58,8 @@ Result<Chosen> chosen_model(const Series& series, const Progress& progress) {
   if (!choice) return tl::unexpected(choice.error());
   const v1::CandidateModel* simplest = &choice->candidates(0);
   for (const v1::CandidateModel& one : choice->candidates()) {
+    // Where every model is bad, "equivalent" means little.
+    if (choice->far_from_floor()) break;
     if (one.verdict() == v1::equivalent && one.parameters() < simplest->parameters())
       simplest = &one;
   }
@@ -113,6 +116,28 @@ void add_integrity(const Series& series, v1::DiagnosisReport& to) {
   }
 }
 
+// Defects of the samples look like anything: they are the verdict, and what else seems missing
+// comes after them.
+void put_defects_first(v1::DiagnosisReport& to) {
+  if (to.integrity_size() == 0) return;
+  const v1::IntegrityFinding& finding = to.integrity(0);
+  const EffectInfo& about = effect_info(finding.effect());
+  v1::EffectCandidate defect;
+  defect.set_effect(finding.effect());
+  defect.set_title(std::string(about.title));
+  defect.set_cause(std::string(about.cause));
+  defect.set_record_next(std::string(about.record_next));
+  defect.set_sentence(finding.sentence());
+  google::protobuf::RepeatedPtrField<v1::EffectCandidate> all;
+  *all.Add() = std::move(defect);
+  all.MergeFrom(to.candidates());
+  to.mutable_candidates()->Swap(&all);
+  to.set_verdict(v1::found);
+  to.set_summary(fmt::format(
+      "The samples themselves are defective: {} Mend this first; it can look like any effect.",
+      finding.sentence()));
+}
+
 }  // namespace
 
 Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recordings,
@@ -162,7 +187,10 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
     if (progress.stopped()) return fail("stopped");
     *out.add_ladder() = rung_of(model, added, first, diagnosis.misfit_p, diagnosis.heldout, why);
     // The verdict is about the model that was asked for; later rounds only climb.
-    if (rung == 0) add_diagnosis(diagnosis, *subject, series.names, out);
+    if (rung == 0) {
+      add_diagnosis(diagnosis, *subject, series.names, out);
+      put_defects_first(out);
+    }
     if (!diagnosis.worth_adding) break;
     RankedEffect& best = diagnosis.effects.front();
     added = added_term(best.tried);

@@ -225,7 +225,7 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
     limit.set_value(from.value);
     const Witness* witness = subject.find(from.witness);
     const std::string unit(si_symbol(subject.quantity));
-    limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, false)
+    limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, {})
                    : from.parameter == "power" ? fmt::format("({})²", unit)
                    : from.parameter == "slope" ? unit + "/s"
                                                : unit);

@@ -126,8 +126,9 @@ void add_noise(const TriedEffect& effect, const Subject& subject,
 
 }  // namespace
 
-std::string coupling_unit(Quantity subject, const Witness& witness, bool squared) {
-  const std::string below = unit_name(witness.quantity) + (squared ? "²" : "");
+std::string coupling_unit(Quantity subject, const Witness& witness, const EffectTerm& term) {
+  std::string below = unit_name(witness.quantity) + (term.quadratic ? "²" : "");
+  if (term.derivative) below = fmt::format("({}/s)", below);
   if (below == unit_name(subject)) return "1";
   return below == "1" ? unit_name(subject) : fmt::format("{}/{}", unit_name(subject), below);
 }
@@ -163,9 +164,7 @@ std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
       if (term->lag > 0.0) out.push_back(with_log_error(parameter("lag_s", term->lag, "s"), shape));
       if (term->from > 0.0) out.push_back(parameter("from_hz", term->from, "Hz"));
       if (std::isfinite(term->to)) out.push_back(parameter("to_hz", term->to, "Hz"));
-      add_shared(effect,
-                 coupling_unit(subject.quantity, *subject.find(term->witness), term->quadratic),
-                 out);
+      add_shared(effect, coupling_unit(subject.quantity, *subject.find(term->witness), *term), out);
       break;
     case EffectKind::kModulated: {
       const Modulation& last = effect.trial.fit.modulation.back();

@@ -12,6 +12,6 @@ std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
                                                    const Subject& subject);
 
 /// The unit of a coupling of one quantity to another: "rad/s/K"; "1" where both are the same.
-std::string coupling_unit(Quantity subject, const Witness& witness, bool squared);
+std::string coupling_unit(Quantity subject, const Witness& witness, const EffectTerm& term);
 
 }  // namespace imunoise::study
