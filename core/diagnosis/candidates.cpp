@@ -132,7 +132,8 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
   std::vector<std::optional<TriedEffect>> tried(worth.size());
   for_each_index(worth.size(), [&](std::size_t i) {
     if (progress.stopped()) return;
-    const Suggestion& one = *worth[i];
+    Suggestion one = *worth[i];
+    if (auto* term = std::get_if<EffectTerm>(&one.added)) *term = rounded(*term, one.shape_error);
     Trial trial = try_out(current, one);
     TriedEffect out{std::string(one.effect), one, std::move(trial)};
     out.likelihood_gain = out.trial.fit.log_likelihood - current.fit.log_likelihood;
@@ -141,7 +142,8 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
                                                                 : INFINITY;
     name_better(out);
     out.slow = is_slow(out, current);
-    if (const auto* noise = std::get_if<NoiseChange>(&one.added); noise != nullptr) {
+    if (const auto* noise = std::get_if<NoiseChange>(&one.added);
+        noise != nullptr && out.effect != "telegraph") {
       constexpr double kUnsteady = 1e-3;
       out.steady =
           steadiness(out.trial.regression, out.trial.fit, noise->added).p_value > kUnsteady;

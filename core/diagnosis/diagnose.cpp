@@ -155,9 +155,12 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
     const MisfitReport after = misfit_of(current_of(best.regression, best.fit));
     const bool explains = !(after.spectrum.p_value < 1e-6) ||
                           after.spectrum.statistic < 0.5 * out.misfit.spectrum.statistic;
-    out.verdict = !explains                              ? DiagnosisVerdict::kUnknown
-                  : out.effects[0].confused_with.empty() ? DiagnosisVerdict::kFound
+    if (!explains || !out.effects[0].tried.steady) {
+      out.verdict = DiagnosisVerdict::kUnknown;
+    } else {
+      out.verdict = out.effects[0].confused_with.empty() ? DiagnosisVerdict::kFound
                                                          : DiagnosisVerdict::kOneOf;
+    }
   } else if (out.misfit_p < kMisfitShare * options.level) {
     out.verdict = DiagnosisVerdict::kUnknown;
   }

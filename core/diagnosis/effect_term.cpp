@@ -193,6 +193,20 @@ Result<FullModel> parse_full_model(std::string_view text, Hertz rate) {
   return out;
 }
 
+EffectTerm rounded(EffectTerm term, double frequency_error) {
+  const auto to_step = [](double value, double step) { return std::round(value / step) * step; };
+  for (double EffectTerm::*const member : {&EffectTerm::tau, &EffectTerm::lag, &EffectTerm::from,
+                                           &EffectTerm::to, &EffectTerm::above}) {
+    const double value = term.*member;
+    if (value > 0.0 && std::isfinite(value)) term.*member = std::stod(fmt::format("{:.4g}", value));
+  }
+  if (term.frequency > 0.0 && frequency_error > 0.0) {
+    const double step = std::pow(10.0, std::floor(std::log10(frequency_error / 50.0)));
+    term.frequency = std::stod(fmt::format("{:.12g}", to_step(term.frequency, step)));
+  }
+  return term;
+}
+
 std::string print(const EffectTerm& term) {
   const Spelling& about = spelling_of(term.kind);
   const EffectTerm absent;

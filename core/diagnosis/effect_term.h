@@ -54,6 +54,10 @@ struct FullModel {
 /// an effect.
 Result<FullModel> parse_full_model(std::string_view text, Hertz rate);
 
+/// The term with numbers that are worth reading: times to four digits, a frequency to a fiftieth of
+/// its error in Hz.
+EffectTerm rounded(EffectTerm term, double frequency_error);
+
 std::string print(const EffectTerm& term);
 std::string print(const FullModel& model);
 /// The same with every value of the noise.

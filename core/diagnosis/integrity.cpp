@@ -87,7 +87,7 @@ std::vector<Defect> integrity(const Signal& signal) {
   constexpr double kSurely = 6.0;  // standard deviations
   const double excess = repeats - expected;
   // The chance is an approximation: what is within a fifth of it is not called a defect.
-  if (codes.repeats > 2 && excess > kSurely * std::sqrt(expected + 1.0) && excess > 0.2 * expected)
+  if (excess > kSurely * std::sqrt(expected) + 1.0 && excess > 0.2 * expected)
     out.push_back({"duplicated_samples", codes.repeats, expected, 0});
   // A run of L equal samples is expected n·same^(L-1) times.
   const auto length = static_cast<double>(codes.longest);

@@ -11,6 +11,7 @@ namespace imunoise::report {
 namespace {
 
 constexpr int kMostShown = 8;
+constexpr int kAlwaysShown = 2;  // the others only if they are not mere chance
 
 struct VerdictWords {
   const char* badge;
@@ -61,6 +62,7 @@ Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
             {}};
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
     const v1::EffectCandidate& one = report.candidates(i);
+    if (i >= kAlwaysShown && one.familywise_p() >= 0.5) break;
     out.rows.push_back({one.effect(), one.term(),
                         fmt::format("{} nats", number(one.gain_nats(), 3, digits)),
                         chance(one.familywise_p(), digits),
@@ -138,10 +140,10 @@ Figure budget_figure(const v1::DiagnosisReport& report, const v1::NoiseBudget& b
   fit.set_model(model);
   fit.set_confidence(0.95);
   *fit.mutable_budget() = budget;
-  const auto drawn = [&](double width, const std::string& suffix) {
-    return budget_svg(fit, {SvgVariant::kInline, width, id + suffix});
+  const auto drawn = [&](double width, const char* kind) {
+    return of_kind(budget_svg(fit, {SvgVariant::kInline, width, id + kind}), kind);
   };
-  return {title, drawn(900.0, "w"), drawn(380.0, "n"), "Model: " + model};
+  return {title, drawn(900.0, "wide"), drawn(380.0, "narrow"), "Model: " + model};
 }
 
 void add_figures(const v1::DiagnosisReport& report, Section& to) {

@@ -48,12 +48,7 @@ const char* sign(Verdict verdict) {
 template <class Figure>
 std::string two_widths(Figure figure, const v1::FitReport& report, const std::string& id) {
   const auto one = [&](double width, const char* kind) {
-    std::string svg = figure(report, {SvgVariant::kInline, width, id + kind});
-    const std::string_view plain = R"(class="figure")";
-    if (!svg.empty()) {
-      svg.replace(svg.find(plain), plain.size(), fmt::format(R"(class="figure {}")", kind));
-    }
-    return svg;
+    return of_kind(figure(report, {SvgVariant::kInline, width, id + kind}), kind);
   };
   return one(kWide, "wide") + one(kPhone, "narrow");
 }

@@ -235,4 +235,11 @@ std::string budget_svg(const v1::FitReport& report, const SvgOptions& options) {
   return svg.str();
 }
 
+std::string of_kind(std::string svg, std::string_view kind) {
+  constexpr std::string_view kPlain = R"(class="figure")";
+  if (!svg.empty())
+    svg.replace(svg.find(kPlain), kPlain.size(), fmt::format(R"(class="figure {}")", kind));
+  return svg;
+}
+
 }  // namespace imunoise::report

@@ -35,6 +35,9 @@ std::string budget_caption(const v1::FitReport& report);
 /// Opening tag, name for screen readers, background and (standalone) style of a figure.
 std::string svg_opening(const SvgOptions& options, double height, const std::string& name);
 
+/// A figure of the page, shown in one of its two widths: `kind` is "wide" or "narrow".
+std::string of_kind(std::string svg, std::string_view kind);
+
 /// The same for a figure of the page in one of its two widths: `kind` is "wide" or "narrow".
 std::string page_opening(const char* kind, double width, double height, const std::string& name);
 
