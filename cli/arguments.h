@@ -12,6 +12,7 @@
 
 #include "cli/show.h"
 #include "drivers/emulator/serve.h"
+#include "imunoise/v1/study.pb.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
 #include "study/analysis/diagnose_series.h"
@@ -93,6 +94,13 @@ struct DiagnoseArguments {
   ShowArguments show;
 };
 
+/// One operation on a study's file.
+struct StudyArguments {
+  std::filesystem::path file;
+  v1::StudyRequest request;  ///< no operation: only show it
+  ShowArguments show;
+};
+
 struct FaultsArguments {
   InputArguments input;
   InputArguments training;  ///< read like the input; no files: the model is fitted to the input
@@ -150,8 +158,8 @@ struct Arguments {
   using Command =
       std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
                    MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
-                   SimulateArguments, RecordArguments, VerifyArguments, EmulateArguments,
-                   DriversArguments, DecodeArguments>;
+                   StudyArguments, SimulateArguments, RecordArguments, VerifyArguments,
+                   EmulateArguments, DriversArguments, DecodeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -17,6 +17,7 @@ int run(const FaultsArguments& arguments);
 int run(const DynamicArguments& arguments);
 int run(const DecodeArguments& arguments);
 int run(const DiagnoseArguments& arguments);
+int run(const StudyArguments& arguments);
 int run(const EmulateArguments& arguments);
 int run(const RecordArguments& arguments);
 int run(const VerifyArguments& arguments);

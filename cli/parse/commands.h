@@ -18,7 +18,7 @@ struct ParsedCommand {
 std::vector<ParsedCommand> analysis_commands(
     CLI::App& program);                                        ///< wv, fit, test, select, dynamic
 std::vector<ParsedCommand> array_commands(CLI::App& program);  ///< array, mixed, faults
-std::vector<ParsedCommand> diagnosis_commands(CLI::App& program);  ///< diagnose
+std::vector<ParsedCommand> diagnosis_commands(CLI::App& program);  ///< diagnose, study
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate

@@ -45,10 +45,119 @@ ParsedCommand diagnose_command(CLI::App& program) {
           }};
 }
 
+constexpr const char* kStudyExamples = R"help(
+Examples:
+  imunoise study new gyro.study run?.h5 --channel gyro_x --model "WN + RW"
+  imunoise study candidates gyro.study                 what does it lack?
+  imunoise study add gyro.study "line(f=7.123)"        add it, and see the error
+  imunoise study undo gyro.study
+  imunoise study add gyro.study QN --from 0            another branch, from the first model
+  imunoise study show gyro.study
+  imunoise study report gyro.study ladder.html)help";
+
+// What the parts of `study` share.
+struct RawStudy {
+  RawAnalysis raw;
+  std::string file;
+  std::string term;
+  int from = -1;
+  std::vector<std::string> witnesses;
+};
+
+v1::StudyRequest open_request(const RawStudy& typed) {
+  if (typed.raw.input.channels.size() > 1) refuse("--channel", "a study is about one channel");
+  static_cast<void>(input_from(typed.raw.input));  // refuses what cannot be read
+  v1::StudyRequest out;
+  v1::StudyRequest::Open& open = *out.mutable_open();
+  const RawInput& raw = typed.raw.input;
+  for (const std::string& file : raw.files)
+    open.mutable_input()->add_files(std::filesystem::absolute(file).string());
+  open.mutable_input()->set_rate_hz(raw.rate);
+  open.mutable_input()->set_unit(raw.unit);
+  open.mutable_input()->set_delimiter(raw.delimiter);
+  open.mutable_input()->set_header(raw.header);
+  open.mutable_input()->set_no_header(raw.no_header);
+  open.mutable_input()->set_split_into(static_cast<std::uint32_t>(raw.split_into));
+  if (!raw.channels.empty()) open.set_channel(raw.channels.front());
+  for (const std::string& one : typed.witnesses) open.add_witnesses(one);
+  open.set_model(typed.raw.model);
+  return out;
+}
+
+std::vector<ParsedCommand> study_commands(CLI::App& program) {
+  CLI::App* const study =
+      program.add_subcommand("study", "Improve a model step by step, and keep every step");
+  study->footer(kStudyExamples);
+  study->require_subcommand(1);
+  std::vector<ParsedCommand> out;
+  // A part of the command; `request` makes what it asks for.
+  const auto add = [&](const char* name, const char* about, const auto& options,
+                       const std::function<v1::StudyRequest(const RawStudy&)>& request) {
+    CLI::App* const part = study->add_subcommand(name, about);
+    const auto typed = std::make_shared<RawStudy>();
+    part->add_option("STUDY", typed->file, "The study's file")->required();
+    options(*part, *typed);
+    add_json(*part, typed->raw);
+    out.push_back({part, [typed, request] {
+                     return StudyArguments{typed->file, request(*typed), show_from(typed->raw)};
+                   }});
+  };
+  const auto no_options = [](CLI::App&, RawStudy&) {};
+  add(
+      "new", "Start a study",
+      [](CLI::App& part, RawStudy& typed) {
+        add_input(part, typed.raw.input);
+        add_model(part, typed.raw, "chosen by cross-validation");
+        part.add_option("--witness", typed.witnesses,
+                        "A channel that may be the cause; may be repeated (default: all others)")
+            ->allow_extra_args(false);
+      },
+      open_request);
+  add("show", "The ladder as it stands", no_options,
+      [](const RawStudy&) { return v1::StudyRequest(); });
+  add("candidates", "Seek what the current model lacks", no_options, [](const RawStudy&) {
+    v1::StudyRequest request;
+    request.mutable_candidates();
+    return request;
+  });
+  add(
+      "add", "Add a term to the current model",
+      [](CLI::App& part, RawStudy& typed) {
+        part.add_option("TERM", typed.term, "In the grammar: line(f=7.123), QN")->required();
+        part.add_option("--from", typed.from, "Add to this attempt instead of the current one")
+            ->check(CLI::NonNegativeNumber);
+      },
+      [](const RawStudy& typed) {
+        v1::StudyRequest request;
+        request.mutable_add()->set_term(typed.term);
+        if (typed.from >= 0)
+          request.mutable_add()->set_branch_from(static_cast<std::uint32_t>(typed.from));
+        return request;
+      });
+  add("undo", "Back to what the current model was added to", no_options, [](const RawStudy&) {
+    v1::StudyRequest request;
+    request.mutable_undo();
+    return request;
+  });
+  add(
+      "report", "Write the page",
+      [](CLI::App& part, RawStudy& typed) {
+        part.add_option("OUT", typed.raw.report, "The page's file")->required();
+      },
+      [](const RawStudy&) {
+        v1::StudyRequest request;
+        request.mutable_candidates();
+        return request;
+      });
+  return out;
+}
+
 }  // namespace
 
 std::vector<ParsedCommand> diagnosis_commands(CLI::App& program) {
-  return {diagnose_command(program)};
+  std::vector<ParsedCommand> out = study_commands(program);
+  out.push_back(diagnose_command(program));
+  return out;
 }
 
 }  // namespace imunoise::cli

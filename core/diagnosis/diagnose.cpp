@@ -58,13 +58,6 @@ void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
   }
 }
 
-bool can_hold_out(const Trial& trial) {
-  const auto& effects = trial.regression.effects();
-  return trial.regression.subject().replicates() > 1 &&
-         std::none_of(effects.begin(), effects.end(),
-                      [](const EffectTerm& term) { return term.kind == EffectKind::kOwnPowers; });
-}
-
 // Both the likelihood and, where the wavelet variance can see the effect, the error must be better.
 bool proven(const RankedEffect& effect, const std::optional<Errors>& before) {
   if (!effect.heldout || !before) return true;

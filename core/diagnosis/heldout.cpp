@@ -1,5 +1,6 @@
 #include "core/diagnosis/heldout.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -47,6 +48,13 @@ double modulation_gain(const Trial& trial, const Regression& one,
 }
 
 }  // namespace
+
+bool can_hold_out(const Trial& trial) {
+  const auto& effects = trial.regression.effects();
+  return trial.regression.subject().replicates() > 1 &&
+         std::none_of(effects.begin(), effects.end(),
+                      [](const EffectTerm& term) { return term.kind == EffectKind::kOwnPowers; });
+}
 
 double Errors::mean_error() const {
   return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());

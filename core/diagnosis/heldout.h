@@ -20,6 +20,9 @@ struct Errors {
   double total_likelihood() const;
 };
 
+/// True where replicates can be held out: two of them, and no parameters of their own.
+bool can_hold_out(const Trial& trial);
+
 /// On the replicates that the model was fitted to.
 Errors training_errors(const Trial& trial);
 

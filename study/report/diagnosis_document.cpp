@@ -207,4 +207,41 @@ Document document(const v1::DiagnosisReports& reports, Digits digits) {
   return out;
 }
 
+Document document(const v1::Study& study, Digits digits) {
+  // The attempts that led to the current model are its ladder.
+  v1::DiagnosisReport report = study.diagnosis();
+  report.set_channel(study.channel());
+  report.clear_ladder();
+  std::vector<const v1::StudyAttempt*> path;
+  for (const v1::StudyAttempt* at = &study.attempts(static_cast<int>(study.current()));;
+       at = &study.attempts(static_cast<int>(at->parent()))) {
+    path.push_back(at);
+    if (!at->has_parent()) break;
+  }
+  std::reverse(path.begin(), path.end());
+  for (const v1::StudyAttempt* one : path) *report.add_ladder() = one->rung();
+  Section out = section(report, digits);
+  if (!study.has_diagnosis()) {
+    out.badge.clear();
+    out.mood = Mood::kNeutral;
+    out.facts = "model " + path.back()->rung().model();
+    out.summary = "Ask for candidates to learn what this model lacks.";
+    out.figures.clear();
+    out.tables = {ladder_table(report, digits), drift_table(report, digits)};
+  }
+  Table attempts{"Every model that was tried", {"", "model", "held-out error", ""}, {}};
+  for (int i = 0; i < study.attempts_size(); ++i) {
+    const v1::StudyAttempt& one = study.attempts(i);
+    const bool current = i == static_cast<int>(study.current());
+    attempts.rows.push_back(
+        {std::to_string(i), one.rung().model(),
+         one.rung().has_heldout_error() ? number(one.rung().heldout_error(), 3, digits) : "-",
+         current        ? "current"
+         : one.undone() ? "undone"
+                        : ""});
+  }
+  out.tables.push_back(std::move(attempts));
+  return {"study", {std::move(out)}};
+}
+
 }  // namespace imunoise::report

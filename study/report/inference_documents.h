@@ -6,6 +6,7 @@
 #include "imunoise/v1/faults.pb.h"
 #include "imunoise/v1/inference.pb.h"
 #include "imunoise/v1/mixed.pb.h"
+#include "imunoise/v1/study.pb.h"
 #include "study/report/document.h"
 #include "study/report/number.h"
 
@@ -19,5 +20,6 @@ Document document(const v1::MixedReport& report, Digits digits);
 Document document(const v1::FaultReport& report, Digits digits);
 Document document(const v1::DynamicReports& reports, Digits digits);
 Document document(const v1::DiagnosisReports& reports, Digits digits);
+Document document(const v1::Study& study, Digits digits);
 
 }  // namespace imunoise::report

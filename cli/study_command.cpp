@@ -1,0 +1,46 @@
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/parse/input_options.h"
+#include "cli/progress_line.h"
+#include "cli/show.h"
+#include "study/ladder/study.h"
+
+namespace imunoise::cli {
+namespace {
+
+Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input) {
+  RawInput raw;
+  raw.files.assign(input.files().begin(), input.files().end());
+  raw.rate = input.rate_hz();
+  raw.unit = input.unit();
+  raw.delimiter = input.delimiter();
+  raw.header = input.header();
+  raw.no_header = input.no_header();
+  if (input.split_into() > 1) raw.split_into = input.split_into();
+  return read_input(input_from(raw));
+}
+
+}  // namespace
+
+int run(const StudyArguments& arguments) {
+  v1::Study study;
+  const bool opens = arguments.request.has_open();
+  if (opens && std::filesystem::exists(arguments.file))
+    return print_error({arguments.file.string() + ": there is one already; name another file"});
+  if (!opens) {
+    auto known = study::read_study(arguments.file);
+    if (!known) return print_error(known.error());
+    study = std::move(*known);
+  }
+  if (arguments.request.operation_case() != v1::StudyRequest::OPERATION_NOT_SET) {
+    ProgressLine line("study");
+    auto done = study::apply(study, arguments.request, read, line.progress());
+    if (!done) return print_error(done.error());
+    study = std::move(*done);
+    if (auto saved = write_file(arguments.file, study::study_text(study)); !saved)
+      return print_error(saved.error());
+  }
+  return show(study, arguments.show);
+}
+
+}  // namespace imunoise::cli

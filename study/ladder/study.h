@@ -1,0 +1,35 @@
+#pragma once
+
+// The loop of a study: look at a model, learn what it lacks, add it, watch the error fall, take it
+// back.
+
+#include <filesystem>
+#include <functional>
+
+#include "core/support/progress.h"
+#include "core/support/result.h"
+#include "imunoise/v1/study.pb.h"
+#include "recording/import/channel.h"
+
+namespace imunoise::study {
+
+/// Reads the replicates of a study.
+using ReadInput = std::function<Result<std::vector<recording::Replicate>>(const v1::StudyInput&)>;
+
+/// Does what a request asks of a study; `study` is empty for an Open. Nothing changes on an error:
+/// a file, channel or model that cannot be read, a term that does not fit, nothing to undo, an
+/// attempt that does not exist, or the caller stopped it.
+Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
+                        const ReadInput& read, const Progress& progress = {});
+
+/// The current model, in the grammar.
+const std::string& current_model(const v1::Study& study);
+
+/// The attempts from the first to the current one, by their places.
+std::vector<int> path_to_current(const v1::Study& study);
+
+/// A study in its file (JSON). Error: what is wrong with the file.
+Result<v1::Study> read_study(const std::filesystem::path& file);
+std::string study_text(const v1::Study& study);
+
+}  // namespace imunoise::study
