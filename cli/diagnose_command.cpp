@@ -13,9 +13,10 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
                                           const std::vector<std::string>& wanted) {
   std::vector<std::size_t> out;
   for (const std::string& name : wanted) {
-    const auto found =
-        std::find_if(first.channels.begin(), first.channels.end(),
-                     [&](const recording::Channel& one) { return one.name == name; });
+    const auto found = std::find_if(first.channels.begin(), first.channels.end(),
+                                    [&](const recording::Channel& one) {
+                                      return one.name == name || one.name.ends_with("/" + name);
+                                    });
     if (found == first.channels.end())
       return fail(fmt::format("channel {}: there is none in {}", name, first.name));
     out.push_back(static_cast<std::size_t>(found - first.channels.begin()));
@@ -30,7 +31,7 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
 }  // namespace
 
 int run(const DiagnoseArguments& arguments) {
-  const auto replicates = read_input(arguments.input);
+  const auto replicates = read_with_witnesses(arguments.input);
   if (!replicates) return print_error(replicates.error());
   const auto channels = subjects(replicates->front(), arguments.channels);
   if (!channels) return print_error(channels.error());

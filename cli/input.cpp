@@ -5,9 +5,24 @@
 
 namespace imunoise::cli {
 
+namespace {
+
+bool is_recording(const InputArguments& arguments) {
+  return arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files.front());
+}
+
+}  // namespace
+
+Result<std::vector<recording::Replicate>> read_with_witnesses(InputArguments arguments) {
+  // Other files have one clock: all their channels are read.
+  if (!is_recording(arguments)) arguments.import.channels.clear();
+  arguments.import.beside = true;
+  return read_input(arguments);
+}
+
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments) {
   ProgressLine line("reading");
-  if (arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files.front())) {
+  if (is_recording(arguments)) {
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
                                        arguments.import, line.progress());
   }

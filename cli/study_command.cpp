@@ -8,7 +8,8 @@
 namespace imunoise::cli {
 namespace {
 
-Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input) {
+Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input,
+                                               const std::string& channel) {
   RawInput raw;
   raw.files.assign(input.files().begin(), input.files().end());
   raw.rate = input.rate_hz();
@@ -17,7 +18,8 @@ Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input) {
   raw.header = input.header();
   raw.no_header = input.no_header();
   if (input.split_into() > 1) raw.split_into = input.split_into();
-  return read_input(input_from(raw));
+  if (!channel.empty()) raw.channels = {channel};
+  return read_with_witnesses(input_from(raw));
 }
 
 }  // namespace

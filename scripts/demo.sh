@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to a noise model with its intervals, on simulated gyro recordings whose true
-# noise is known. Needs no sensor. The report is left in build/demo-output/.
+# noise is known; then an effect hidden in emulated sensors is found. Needs no sensor. The reports are
+# left in build/demo-output/.
+#
+#   bash scripts/demo.sh [--hide fan|mains|step|outliers|warm_up]     else one is drawn, and sealed
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+hide=""
+if [[ ${1:-} == --hide ]]; then hide=${2:?"--hide needs the name of an effect"}; fi
 
 # A MEMS gyro: angle random walk 0.17 °/√h, a bias that wanders by 20 °/h with a memory of 5 s, and
 # slowly without bound. Six static recordings of one hour at 100 Hz show all four parameters.
@@ -14,7 +20,7 @@ out=build/demo-output
 bash scripts/install_packages.sh build
 echo "Building imunoise (the first time takes some minutes) ..."
 quietly build/log/demo-configure.txt cmake --preset demo
-quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise
+quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise imunoise_plugins
 imunoise=build/demo/imunoise
 
 rm -rf "$out"
@@ -37,3 +43,6 @@ awk -v truth="$truth" -f scripts/fit_against_truth.awk "$out/fit.json"
 echo
 echo "The report: file://$PWD/$out/report.html"
 echo "The same as JSON: $out/fit.json"
+
+echo
+bash scripts/hide_effect.sh "$imunoise" "$out" "$hide"

@@ -38,8 +38,7 @@ ParsedCommand diagnose_command(CLI::App& program) {
             if (!raw->input.robust.empty()) refuse("--robust", "not for diagnosis");
             if (raw->input.per_octave != 1) refuse("--per-octave", "not for diagnosis");
             DiagnoseArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
-            // All channels are read: those that are not diagnosed are witnesses.
-            out.channels = std::exchange(out.input.import.channels, {});
+            out.channels = out.input.import.channels;
             out.diagnose.model = model_from(*raw);
             return out;
           }};

@@ -22,6 +22,9 @@ inline constexpr std::size_t kMinimumSamples = 16;
 struct ImportOptions {
   /// Names of the channels wanted, in this order. Empty: every channel of the first file.
   std::vector<std::string> channels;
+  /// Of a recording's folder: those and every channel that shares their clock (of the first stream
+  /// where none is named).
+  bool beside = false;
   /// Sampling rate. Wins over what a file states; a time column is then ignored, gaps included.
   std::optional<Hertz> rate;
   /// Unit of every channel read. Wins over what a file states.

@@ -49,6 +49,16 @@ struct Wanted {
   Place place;
 };
 
+std::vector<Wanted> same_stream(const Offers& offers, const Place& as) {
+  std::vector<Wanted> out;
+  for (std::size_t i = 0; i < offers.places.size(); ++i) {
+    const Place& place = offers.places[i];
+    if (place.device == as.device && place.stream == as.stream)
+      out.push_back({offers.names[i].name, place});
+  }
+  return out;
+}
+
 Result<std::vector<Wanted>> select(const std::string& file, const v1::Manifest& manifest,
                                    const ImportOptions& options) {
   const Offers offers = offers_of(manifest);
@@ -56,6 +66,7 @@ Result<std::vector<Wanted>> select(const std::string& file, const v1::Manifest& 
   if (!chosen) return tl::make_unexpected(chosen.error());
   std::vector<Wanted> out;
   for (const std::size_t i : *chosen) out.push_back({offers.names[i].name, offers.places[i]});
+  if (options.beside) return same_stream(offers, out.front().place);
   for (const Wanted& one : out) {
     const Place& first = out.front().place;
     if (one.place.device == first.device && one.place.stream == first.stream) continue;

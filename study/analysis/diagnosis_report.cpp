@@ -96,7 +96,7 @@ std::string summary_of(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case DiagnosisVerdict::kFound: {
       const RankedEffect& best = diagnosis.effects.front();
-      return fmt::format("{} is missing ({}). {}", effect_info(best.tried.effect).title,
+      return fmt::format("Missing: {} ({}). {}", effect_info(best.tried.effect).title,
                          chance_words(best.familywise_p), effect_info(best.tried.effect).cause);
     }
     case DiagnosisVerdict::kOneOf: {

@@ -13,8 +13,10 @@ Result<std::size_t> channel_of(const std::vector<recording::Replicate>& recordin
                                const std::string& name) {
   const auto& channels = recordings.front().channels;
   if (name.empty() && channels.size() == 1) return std::size_t{0};
-  const auto found = std::find_if(channels.begin(), channels.end(),
-                                  [&](const recording::Channel& one) { return one.name == name; });
+  const auto found =
+      std::find_if(channels.begin(), channels.end(), [&](const recording::Channel& one) {
+        return one.name == name || one.name.ends_with("/" + name);
+      });
   if (found != channels.end()) return static_cast<std::size_t>(found - channels.begin());
   std::string known;
   for (const recording::Channel& one : channels) known += (known.empty() ? "" : ", ") + one.name;
@@ -23,7 +25,7 @@ Result<std::size_t> channel_of(const std::vector<recording::Replicate>& recordin
 
 Result<v1::DiagnosisReport> report_of(const v1::Study& study, const std::string& model, bool search,
                                       const ReadInput& read, const Progress& progress) {
-  const auto recordings = read(study.input());
+  const auto recordings = read(study.input(), study.channel());
   if (!recordings) return tl::unexpected(recordings.error());
   const auto channel = channel_of(*recordings, study.channel());
   if (!channel) return tl::unexpected(channel.error());

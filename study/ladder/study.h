@@ -13,8 +13,9 @@
 
 namespace imunoise::study {
 
-/// Reads the replicates of a study.
-using ReadInput = std::function<Result<std::vector<recording::Replicate>>(const v1::StudyInput&)>;
+/// Reads the replicates of a study: a channel, and all that was recorded beside it.
+using ReadInput = std::function<Result<std::vector<recording::Replicate>>(
+    const v1::StudyInput& input, const std::string& channel)>;
 
 /// Does what a request asks of a study; `study` is empty for an Open. Nothing changes on an error:
 /// a file, channel or model that cannot be read, a term that does not fit, nothing to undo, an

@@ -100,7 +100,7 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
   Table out{
       "Drift after the bias was averaged as long before: predicted / measured", {"model"}, {}};
   for (const v1::Drift& one : report.ladder(0).drift())
-    out.head.push_back(fmt::format("{} s", number(one.seconds(), 4, digits)));
+    out.head.push_back(fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
     std::vector<std::string> row{rung.added().empty() ? rung.model() : "+ " + rung.added()};
     for (const v1::Drift& one : rung.drift()) {
