@@ -1,0 +1,62 @@
+// Defects of the samples themselves, and none where there are none.
+
+#include "core/diagnosis/integrity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/support/random.h"
+
+namespace imunoise {
+namespace {
+
+constexpr std::size_t kSamples = 20'000;
+
+// Normal numbers, rounded to a step where there is one.
+std::vector<double> noise(double step) {
+  RandomStream rng(5);
+  std::vector<double> out(kSamples);
+  for (double& one : out) {
+    one = rng.normal();
+    if (step > 0.0) one = step * std::round(one / step);
+  }
+  return out;
+}
+
+std::vector<std::string> effects(const std::vector<double>& samples) {
+  std::vector<std::string> out;
+  for (const Defect& one : integrity(Signal(std::span<const double>(samples), Hertz{100.0})))
+    out.push_back(one.effect);
+  return out;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Integrity, SoundSamplesAreLeftAlone) {
+  EXPECT_EQ(effects(noise(0.0)), Names{});
+  EXPECT_EQ(effects(noise(0.01)), Names{});
+  EXPECT_EQ(effects(noise(0.5)), Names{});
+}
+
+TEST(Integrity, EachDefectIsNamed) {
+  std::vector<double> repeated = noise(0.01);
+  for (std::size_t t = 101; t < kSamples; t += 100) repeated[t] = repeated[t - 1];
+  EXPECT_EQ(effects(repeated), Names{"duplicated_samples"});
+
+  std::vector<double> held = noise(0.01);
+  std::fill(held.begin() + 5000, held.begin() + 5020, held[5000]);
+  EXPECT_EQ(effects(held), Names{"stuck"});
+
+  std::vector<double> clipped = noise(0.01);
+  for (double& one : clipped) one = std::min(one, 2.5);
+  EXPECT_EQ(effects(clipped), Names{"saturation"});
+
+  EXPECT_EQ(effects(noise(4.0)), Names{"quantisation"});
+  EXPECT_EQ(effects(std::vector<double>(100, 3.0)), Names{"stuck"});
+}
+
+}  // namespace
+}  // namespace imunoise

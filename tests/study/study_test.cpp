@@ -1,0 +1,107 @@
+// The loop of a study: open, add, undo, branch; and its file.
+
+#include "study/ladder/study.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/model/model.h"
+namespace imunoise::study {
+namespace {
+
+// Three replicates of white noise and a walk, with quantisation noise that the model lacks.
+Result<std::vector<recording::Replicate>> read(const v1::StudyInput&, const std::string&) {
+  constexpr Hertz kRate{50.0};
+  const Model noise = *parse_model("WN(sigma2=1) + RW(gamma2=1e-5) + QN(q2=0.3)", kRate);
+  std::vector<recording::Replicate> out;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    auto samples = std::make_shared<recording::Samples>(simulate(noise, 4096, 21, k));
+    recording::Channel channel{"gyro_x", samples, 0, 4096, 1.0, 0.0, *parse_unit("rad/s"), kRate};
+    out.push_back({"run" + std::to_string(k + 1), "", kRate, {channel}});
+  }
+  return out;
+}
+
+v1::Study opened() {
+  v1::StudyRequest request;
+  request.mutable_open()->set_channel("gyro_x");
+  request.mutable_open()->set_model("WN + RW");
+  const auto study = apply({}, request, read);
+  EXPECT_TRUE(study) << study.error().message;
+  return *study;
+}
+
+v1::StudyRequest adding(const std::string& term) {
+  v1::StudyRequest request;
+  request.mutable_add()->set_term(term);
+  return request;
+}
+
+v1::StudyRequest undoing() {
+  v1::StudyRequest request;
+  request.mutable_undo();
+  return request;
+}
+
+TEST(Study, WhatIsAddedMakesTheErrorFallAndCanBeTakenBack) {
+  const v1::Study first = opened();
+  ASSERT_EQ(first.attempts_size(), 1);
+  EXPECT_EQ(first.attempts(0).rung().log_likelihood(), 0.0);
+
+  v1::StudyRequest seek;
+  seek.mutable_candidates();
+  const auto sought = apply(first, seek, read);
+  ASSERT_TRUE(sought) << sought.error().message;
+  EXPECT_EQ(sought->diagnosis().verdict(), v1::found);
+  EXPECT_EQ(sought->diagnosis().candidates(0).effect(), "quantisation");
+
+  const auto second = apply(*sought, adding(sought->diagnosis().candidates(0).term()), read);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(current_model(*second), "WN + RW + QN");
+  EXPECT_FALSE(second->has_diagnosis());  // it was about another model
+  EXPECT_LT(second->attempts(1).rung().heldout_error(), first.attempts(0).rung().heldout_error());
+  EXPECT_GT(second->attempts(1).rung().log_likelihood(), 10.0);
+
+  const auto back = apply(*second, undoing(), read);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(current_model(*back), "WN + RW");
+  EXPECT_TRUE(back->attempts(1).undone());
+  EXPECT_FALSE(apply(*back, undoing(), read));
+
+  v1::StudyRequest branch = adding("line(f=3)");
+  branch.mutable_add()->set_branch_from(1);
+  const auto other = apply(*back, branch, read);
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_EQ(path_to_current(*other), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(Study, ARequestThatCannotBeDoneChangesNothing) {
+  const v1::Study study = opened();
+  EXPECT_FALSE(apply(study, adding("line(f=99)"), read));
+  EXPECT_FALSE(apply(study, adding("XYZ"), read));
+  EXPECT_FALSE(apply(study, adding("witness(temperature)"), read));
+  EXPECT_FALSE(apply(study, v1::StudyRequest(), read));
+  v1::StudyRequest branch = adding("QN");
+  branch.mutable_add()->set_branch_from(7);
+  EXPECT_FALSE(apply(study, branch, read));
+}
+
+TEST(Study, ItsFileIsReadAsItWasWritten) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "a.study";
+  const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
+  const v1::Study study = opened();
+  write(study_text(study));
+  const auto again = read_study(file);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(study_text(*again), study_text(study));
+  for (const char* broken :
+       {"", "{}", "nonsense", R"({"version":2})", R"({"version":1,"current":3})",
+        R"({"version":1,"attempts":[{"parent":0}]})", R"({"version":1,"attempts":[{}],"no":1})"}) {
+    write(broken);
+    EXPECT_FALSE(read_study(file)) << broken;
+  }
+}
+
+}  // namespace
+}  // namespace imunoise::study
