@@ -25,7 +25,9 @@ if(IMUNOISE_SANITIZE MATCHES "undefined")
   # A check at every pointer makes matrix templates compile a third longer. What is made of them sees no
   # outside bytes, and AddressSanitizer and Eigen's assertions watch its bounds.
   target_compile_options(imunoise_flags INTERFACE
-    "$<$<BOOL:$<TARGET_PROPERTY:IMUNOISE_MATRICES>>:-fno-sanitize=null,object-size,pointer-overflow,alignment>")
+    "$<$<BOOL:$<TARGET_PROPERTY:IMUNOISE_MATRICES>>:-fno-sanitize=null,object-size,pointer-overflow,alignment>"
+    # Rooms that see samples only through Eigen, whose own assertions check every index.
+    "$<$<BOOL:$<TARGET_PROPERTY:IMUNOISE_CHECKED_BY_EIGEN>>:-fno-sanitize=address,undefined>")
 endif()
 
 # imunoise_room(NAME SOURCES ... USES ...): a static library imunoise_NAME, alias imunoise::NAME.
@@ -37,6 +39,9 @@ function(imunoise_room name)
   target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
   if(name MATCHES "^core_")
     set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_MATRICES ON)
+  endif()
+  if(name MATCHES "^core_(inference|array|faults|dynamic|diagnosis)$")
+    set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_CHECKED_BY_EIGEN ON)
   endif()
 endfunction()
 
