@@ -1,0 +1,74 @@
+// `imunoise diagnose` and `imunoise study` as a user runs them.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace imunoise {
+namespace {
+
+using nlohmann::json;
+using testing::Outcome;
+
+// Three replicates of a gyro with quantisation noise that WN + RW lacks: gyro_1.h5 .. gyro_3.h5.
+class Diagnose : public testing::Program {
+ protected:
+  void SetUp() override {
+    const Outcome made =
+        run("simulate --model 'WN(sigma2=1e-6) + RW(gamma2=1e-11) + QN(q2=3e-7)' --rate 50 "
+            "--samples 4096 --replicates 3 --seed 3 --unit rad/s --channel gyro_x --out gyro.h5");
+    ASSERT_EQ(made.status, 0) << made.errors;
+  }
+  static constexpr const char* kFiles = "gyro_1.h5 gyro_2.h5 gyro_3.h5";
+};
+
+TEST_F(Diagnose, NamesWhatIsMissingAndTheErrorFalls) {
+  const Outcome done = run(std::string("diagnose ") + kFiles +
+                           " --channel gyro_x --model 'WN + RW' --auto --json --report out.html");
+  ASSERT_EQ(done.status, 0) << done.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out.html"));
+  const json report = json::parse(done.out);
+  EXPECT_EQ(report.at("verdict"), "found");
+  const json& best = report.at("candidates").at(0);
+  EXPECT_EQ(best.at("effect"), "quantisation");
+  EXPECT_EQ(best.at("term"), "QN");
+  EXPECT_LT(best.at("familywise_p"), 1e-6);
+  EXPECT_LT(best.at("heldout_error_after"), best.at("heldout_error_before"));
+  for (const char* field : {"gain_nats", "parameters", "confused_with", "record_next", "sentence"})
+    EXPECT_TRUE(best.contains(field)) << field;
+  ASSERT_GE(report.at("ladder").size(), 2U);
+  EXPECT_EQ(report.at("ladder").at(1).at("added"), "QN");
+  EXPECT_GT(report.at("ladder").at(1).at("misfit_p"), 1e-3);
+}
+
+TEST_F(Diagnose, SaysWhatIsWrong) {
+  const std::string files = kFiles;
+  EXPECT_NE(run("diagnose " + files + " --channel gyro_y").errors.find("gyro_y"),
+            std::string::npos);
+  EXPECT_NE(run("diagnose " + files + " --witness heat").errors.find("no such channel"),
+            std::string::npos);
+  EXPECT_NE(run("diagnose " + files + " --model 'WN + line'").errors.find("needs f="),
+            std::string::npos);
+}
+
+TEST_F(Diagnose, AStudyIsKeptInItsFile) {
+  const std::string files = kFiles;
+  EXPECT_EQ(run("study new a.study " + files + " --channel gyro_x --model 'WN + RW'").status, 0);
+  EXPECT_EQ(run("study new a.study " + files).status, 1);  // there is one already
+  EXPECT_EQ(run("study add a.study QN").status, 0);
+  const Outcome shown = run("study show a.study --json");
+  ASSERT_EQ(shown.status, 0) << shown.errors;
+  const json study = json::parse(shown.out);
+  EXPECT_EQ(study.at("attempts").size(), 2U);
+  EXPECT_EQ(study.at("attempts").at(1).at("rung").at("model"), "WN + RW + QN");
+  EXPECT_EQ(run("study undo a.study").status, 0);
+  EXPECT_EQ(run("study undo a.study").status, 1);
+  EXPECT_EQ(run("study report a.study page.html").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "page.html"));
+}
+
+}  // namespace
+}  // namespace imunoise
