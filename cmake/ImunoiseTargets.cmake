@@ -21,6 +21,11 @@ if(IMUNOISE_SANITIZE)
     -fsanitize=${IMUNOISE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(imunoise_flags INTERFACE -fsanitize=${IMUNOISE_SANITIZE})
 endif()
+if(IMUNOISE_SANITIZE MATCHES "address")
+  # Eigen allocates in another way where it sees AddressSanitizer; matrices pass between rooms built with
+  # it and without.
+  target_compile_definitions(imunoise_flags INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=0)
+endif()
 if(IMUNOISE_SANITIZE MATCHES "undefined")
   # A check at every pointer makes matrix templates compile a third longer. What is made of them sees no
   # outside bytes, and AddressSanitizer and Eigen's assertions watch its bounds.
