@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <mutex>
 #include <stop_token>
 
 #include "tests/recording/files.h"
@@ -106,8 +108,13 @@ TEST_F(Replicates, RatesMayDifferAsClocksDo) {
 }
 
 TEST_F(Replicates, ProgressReachesTheEndAndAStopIsHeeded) {
-  std::atomic<double> last = 0.0;
-  const Progress progress([&](double fraction) { last = std::max(last.load(), fraction); });
+  // Files are read side by side: what is told comes from several threads, in any order.
+  std::mutex told;
+  double last = 0.0;
+  const Progress progress([&](double fraction) {
+    const std::scoped_lock lock(told);
+    last = std::max(last, fraction);
+  });
   const Paths paths = {numbered("a.csv", 20), numbered("b.csv", 20)};
   ASSERT_TRUE(import_files(paths, at_rate(10), progress));
   EXPECT_NEAR(last, 1.0, 1e-9);
