@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/progress_line.h"
@@ -8,18 +6,14 @@
 namespace imunoise::cli {
 namespace {
 
-// The numbers of the channels to be diagnosed. Error: a name that does not exist.
+// The numbers of the channels to be diagnosed: those named, or all of the first one's quantity.
 Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
                                           const std::vector<std::string>& wanted) {
   std::vector<std::size_t> out;
   for (const std::string& name : wanted) {
-    const auto found = std::find_if(first.channels.begin(), first.channels.end(),
-                                    [&](const recording::Channel& one) {
-                                      return one.name == name || one.name.ends_with("/" + name);
-                                    });
-    if (found == first.channels.end())
-      return fail(fmt::format("channel {}: there is none in {}", name, first.name));
-    out.push_back(static_cast<std::size_t>(found - first.channels.begin()));
+    const auto found = study::channel_called(name, first);
+    if (!found) return tl::unexpected(found.error());
+    out.push_back(*found);
   }
   if (!out.empty()) return out;
   for (std::size_t c = 0; c < first.channels.size(); ++c) {

@@ -4,6 +4,7 @@
 #include "cli/progress_line.h"
 #include "cli/show.h"
 #include "study/ladder/study.h"
+#include "study/ladder/study_file.h"
 
 namespace imunoise::cli {
 namespace {

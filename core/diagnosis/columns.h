@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/diagnosis/effect_term.h"
 #include "core/diagnosis/subject.h"
+#include "core/model/effect_term.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {

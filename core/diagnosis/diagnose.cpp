@@ -58,7 +58,8 @@ void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
   }
 }
 
-// Both the likelihood and, where the wavelet variance can see the effect, the error must be better.
+// Replicates that were not used must become more likely. The error is told but does not judge:
+// where it is at its floor already, chance moves it either way.
 bool proven(const RankedEffect& effect, const std::optional<Errors>& before) {
   if (!effect.heldout || !before) return true;
   return effect.heldout->total_likelihood() > before->total_likelihood();

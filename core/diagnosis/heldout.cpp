@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "core/inference/normal_scores.h"
-#include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -15,8 +14,7 @@ using Index = Eigen::Index;
 
 double wavelet_error(const Regression& regression, const Eigen::VectorXd& coefficients,
                      std::size_t replicate, const Model& noise) {
-  const Eigen::VectorXd left =
-      inverse_cosine_transform(regression.residual_cosines(coefficients, replicate));
+  const Eigen::VectorXd left = regression.residual_samples(coefficients, replicate);
   const auto n = static_cast<std::size_t>(left.size());
   const Signal signal(std::span<const double>(left.data(), n), regression.subject().rate);
   const std::vector<WaveletVariance> measured{wavelet_variance(signal, Scales::for_samples(n))};
@@ -32,17 +30,17 @@ double log_likelihood_of(const Regression& one, const Eigen::VectorXd& coefficie
   return -whittle_objective(noise, one.residual(coefficients));
 }
 
-// Gain of the modulated effects of a fit on one replicate.
-double modulation_gain(const Trial& trial, const Regression& one,
-                       const Eigen::VectorXd& coefficients, const Model& noise,
-                       std::size_t replicate) {
+// What the modulated effects of a fit to others gain on one replicate, whose coefficients are
+// given.
+double modulation_gain(const Regression& one, const JointFit& fit,
+                       const Eigen::VectorXd& coefficients) {
   double out = 0.0;
-  JointFit there{{noise, {}}, {coefficients, {}}, {}, {}, 0.0, Termination::kConverged};
-  for (const EffectTerm& term : trial.regression.effects()) {
+  JointFit there{.model = fit.model, .effects = {coefficients, {}}};
+  std::size_t next = 0;
+  for (const EffectTerm& term : one.effects()) {
     if (term.kind != EffectKind::kModulated) continue;
-    Witness alone = *one.subject().find(term.witness);
-    alone.samples = {alone.samples[replicate]};
-    out += modulation_by(alone, {innovations(one, there, replicate)}).log_likelihood - 0.5;
+    out += predicted_gain(fit.modulation[next++], *one.subject().find(term.witness),
+                          innovations(one, there));
   }
   return out;
 }
@@ -99,11 +97,12 @@ Errors heldout_errors(const Trial& trial) {
     const Model& noise = fit.model.noise;
     const Regression one = all.of({k});
     const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;
-    double own = 0.0;
+    // What the replicate itself gave: each of these numbers costs a nat.
+    const auto& outliers = all.subject().outliers;
+    double own = outliers.empty() ? 0.0 : static_cast<double>(outliers[k]);
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
     out.error[k] = wavelet_error(all, at, k, noise);
-    out.log_likelihood[k] =
-        log_likelihood_of(one, at, noise) - own + modulation_gain(trial, one, at, noise, k);
+    out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
   });
   return out;
 }

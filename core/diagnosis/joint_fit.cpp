@@ -5,6 +5,7 @@
 
 #include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
@@ -40,8 +41,7 @@ void fit_own_powers(JointFit& fit, const Regression& regression) {
 }  // namespace
 
 JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress) {
-  JointFit out{{start, regression.effects()}, {}, {}, {}, 0.0, Termination::kConverged};
-  out.effects = regression.under(start);
+  JointFit out{.model = {start, regression.effects()}, .effects = regression.under(start)};
   for (int round = 0; round < kRounds && !progress.stopped(); ++round) {
     const std::vector<BandedPower> left = pooled(regression.residual(out.effects, out.model.noise));
     const WhittleEstimate found = whittle(out.model.noise, left, progress);
@@ -56,9 +56,7 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
   }
   if (has(regression, EffectKind::kOwnPowers)) fit_own_powers(out, regression);
   if (has(regression, EffectKind::kModulated)) {
-    std::vector<Eigen::VectorXd> white;
-    for (std::size_t k = 0; k < regression.subject().replicates(); ++k)
-      white.push_back(innovations(regression, out, k));
+    const Innovations white = innovations(regression, out);
     for (const EffectTerm& term : regression.effects()) {
       if (term.kind != EffectKind::kModulated) continue;
       out.modulation.push_back(modulation_by(*regression.subject().find(term.witness), white));
@@ -68,56 +66,22 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
   return out;
 }
 
-Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit,
-                            std::size_t replicate) {
-  const Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, replicate);
-  const Model& noise = fit.own_powers.empty() ? fit.model.noise : fit.own_powers[replicate];
-  const Eigen::ArrayXd spectrum = spectrum_of_cosines(noise, left.size() + 1);
-  return inverse_cosine_transform((left.array() / spectrum.sqrt()).matrix());
-}
-
-Modulation modulation_by(const Witness& witness, const std::vector<Eigen::VectorXd>& innovations) {
-  // Sums over short stretches, in which the witness hardly moves, stand for the samples.
-  constexpr Index kStretch = 32;
-  Index stretches = 0;
-  for (const Eigen::VectorXd& y : innovations) stretches += y.size() / kStretch;
-  if (stretches == 0) return {};
-  Eigen::ArrayXd power(stretches);
-  Eigen::ArrayXd covariate(stretches);
-  Index place = 0;
-  for (std::size_t k = 0; k < innovations.size(); ++k) {
-    for (Index i = 0; i + kStretch <= innovations[k].size(); i += kStretch, ++place) {
-      power(place) = innovations[k].segment(i, kStretch).squaredNorm();
-      covariate(place) = witness.samples[k].segment(i, kStretch).mean();
-    }
-  }
-  covariate -= covariate.mean();
-  const double deviation = std::sqrt(covariate.square().mean());
-  if (!(deviation > 0.0)) return {};
-  covariate /= deviation;
-  power *= static_cast<double>(kStretch) / power.mean();  // the mean level is the noise model's
-  const auto count = static_cast<double>(kStretch);
-  const auto gain = [&](double b) {
-    // The level that goes with b, at its best.
-    const double level = ((-b * covariate).exp() * power).mean() / count;
-    return -0.5 * count * static_cast<double>(stretches) * std::log(level);
-  };
-  double b = 0.0;
-  for (int step = 0; step < 20; ++step) {
-    const Eigen::ArrayXd share = (-b * covariate).exp() * power;
-    const double mean = (share * covariate).sum() / share.sum();
-    const double spread = (share * covariate.square()).sum() / share.sum() - mean * mean;
-    const double move = std::clamp(mean / spread, -1.0, 1.0);
-    b += move;
-    if (std::abs(move) < 1e-9) break;
-  }
-  return {b, std::sqrt(2.0 / (count * static_cast<double>(stretches))), gain(b)};
+Innovations innovations(const Regression& regression, const JointFit& fit) {
+  Innovations out{regression.replicates(), {}};
+  out.white.resize(out.replicates.size());
+  for_each_index(out.white.size(), [&](std::size_t i) {
+    const std::size_t k = out.replicates[i];
+    const Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, k);
+    const Model& noise = fit.own_powers.empty() ? fit.model.noise : fit.own_powers[k];
+    const Eigen::ArrayXd spectrum = spectrum_of_cosines(noise, left.size() + 1);
+    out.white[i] = inverse_cosine_transform((left.array() / spectrum.sqrt()).matrix());
+  });
+  return out;
 }
 
 Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Index n) {
   const Bands bands(n);
-  Eigen::ArrayXd level = Eigen::ArrayXd::Zero(bands.size());
-  for (const Term& term : noise.terms) level += spectrum(term.process, bands.frequency);
+  const Eigen::ArrayXd level = spectrum(noise, bands.frequency);
   Eigen::ArrayXd out(n - 1);
   for (Index b = 0; b < bands.size(); ++b) {
     const Index begin = bands.edges[static_cast<std::size_t>(b)];

@@ -2,25 +2,19 @@
 
 #include <optional>
 
+#include "core/diagnosis/modulation.h"
 #include "core/diagnosis/regression.h"
 #include "core/estimate/whittle.h"
 
 namespace imunoise {
 
-/// How the power of the noise follows a witness: variance · exp(b · (c - mean c)/deviation of c).
-struct Modulation {
-  double slope = 0.0;           ///< b, per standard deviation of the witness
-  double error = 0.0;           ///< standard error of b
-  double log_likelihood = 0.0;  ///< nats gained
-};
-
 /// Noise and effects fitted as one model.
 struct JointFit {
-  FullModel model;                     ///< every value of the noise set
-  EffectCoefficients effects;          ///< of the effects that are regressors
-  std::vector<Model> own_powers;       ///< the noise of each replicate, with the effect own_powers
-  std::vector<Modulation> modulation;  ///< a number for each modulated effect
-  double log_likelihood = 0.0;         ///< nats, less what does not depend on the model
+  FullModel model{};                ///< every value of the noise set
+  EffectCoefficients effects{};     ///< of the effects that are regressors
+  std::vector<Model> own_powers{};  ///< the noise of each replicate, with the effect own_powers
+  std::vector<Modulation> modulation{};  ///< a number for each modulated effect
+  double log_likelihood = 0.0;           ///< nats, less what does not depend on the model
   Termination termination = Termination::kConverged;
 };
 
@@ -29,13 +23,9 @@ struct JointFit {
 /// freedom that they took), in turns until neither moves.
 JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress = {});
 
-/// The samples of a replicate as independent numbers of variance 1 (mean zero), were the fit true:
-/// transformed, divided by the root of the spectrum, and transformed back. In the order of time.
-Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit,
-                            std::size_t replicate);
-
-/// What a power does to the innovations: how their variance follows a witness.
-Modulation modulation_by(const Witness& witness, const std::vector<Eigen::VectorXd>& innovations);
+/// What the replicates that count would be, were the fit true: transformed, divided by the root of
+/// the spectrum, and transformed back.
+Innovations innovations(const Regression& regression, const JointFit& fit);
 
 /// Spectrum of a noise model at the coefficients 1 … n-1 of a cosine transform of length n, taken
 /// as straight within each band. Unit² per cycle/sample.

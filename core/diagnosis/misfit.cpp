@@ -6,7 +6,6 @@
 #include "core/diagnosis/normal_power.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/linear_algebra.h"
-#include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
@@ -16,22 +15,17 @@ using Index = Eigen::Index;
 // Bands are put together until they have this many degrees of freedom and span half an octave.
 constexpr double kFewestFreedom = 8.0;
 
-double model_spectrum(const Model& noise, double f) {
-  double out = 0.0;
-  for (const Term& term : noise.terms) out += spectrum(term.process, f);
-  return out;
-}
-
 // Half octaves of one length of replicates, with the directions of the parameters.
 void add_bands(const Current& current, const BandedPower& bands, const std::vector<Index>& interior,
                std::vector<BandMisfit>& out, std::vector<Eigen::VectorXd>& directions) {
   const Model& noise = current.fit.model.noise;
   const Eigen::MatrixXd slopes = whittle_slopes(noise, bands, interior);
+  const Eigen::ArrayXd power = bands.count * bands.power / spectrum(noise, bands.frequency);
   const double rate = bands.rate.value;
   Index begin = 0;
   while (begin < bands.frequency.size()) {
     double freedom = 0.0;
-    double excess = 0.0;
+    double relative = 0.0;
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(static_cast<Index>(interior.size()));
     Index end = begin;
     while (end < bands.frequency.size() &&
@@ -39,13 +33,13 @@ void add_bands(const Current& current, const BandedPower& bands, const std::vect
             bands.frequency(end) < std::sqrt(2.0) * bands.frequency(begin))) {
       const double c = bands.count(end);
       freedom += c;
-      excess += c * bands.power(end) / model_spectrum(noise, bands.frequency(end));
+      relative += power(end);
       direction += std::sqrt(0.5 * c) * slopes.row(end).transpose();
       ++end;
     }
     if (freedom >= kFewestFreedom) {
       BandMisfit one{bands.frequency(begin) * rate, bands.frequency(end - 1) * rate,
-                     excess / freedom, 0.0, 0};
+                     relative / freedom, 0.0, 0};
       one.sigma = normal_score(one.ratio, freedom);
       out.push_back(one);
       directions.push_back(direction / std::sqrt(0.5 * freedom));
@@ -57,16 +51,17 @@ void add_bands(const Current& current, const BandedPower& bands, const std::vect
 void count_replicates(const Current& current, std::vector<BandMisfit>& bands) {
   const Model& noise = current.fit.model.noise;
   for (const BandedPower& one : current.regression.residual(current.fit.effects.value)) {
+    const Eigen::ArrayXd power = one.count * one.power / spectrum(noise, one.frequency);
     for (BandMisfit& band : bands) {
       double freedom = 0.0;
-      double excess = 0.0;
+      double relative = 0.0;
       for (Index b = 0; b < one.frequency.size(); ++b) {
         const double f = one.frequency(b) * one.rate.value;
         if (f < band.from || f > band.to) continue;
         freedom += one.count(b);
-        excess += one.count(b) * one.power(b) / model_spectrum(noise, one.frequency(b));
+        relative += power(b);
       }
-      if (freedom > 0.0 && (excess > freedom) == (band.ratio > 1.0)) ++band.replicates;
+      if (freedom > 0.0 && (relative > freedom) == (band.ratio > 1.0)) ++band.replicates;
     }
   }
 }
@@ -93,9 +88,7 @@ MisfitReport misfit_of(const Current& current) {
 
   constexpr Index kStretches = 16;
   const std::size_t count = current.subject().replicates();
-  std::vector<Eigen::VectorXd> white(count);
-  for_each_index(
-      count, [&](std::size_t k) { white[k] = innovations(current.regression, current.fit, k); });
+  const std::vector<Eigen::VectorXd> white = innovations(current.regression, current.fit).white;
   double squares = 0.0;
   double fourth = 0.0;
   double samples = 0.0;

@@ -41,8 +41,10 @@ double outlier_threshold(const Subject& subject) {
 
 std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& outliers) {
   auto out = std::make_shared<Subject>(subject);
+  out->outliers.resize(out->samples.size(), 0);
   for_each_index(out->samples.size(), [&](std::size_t k) {
     if (outliers.places[k].empty()) return;
+    out->outliers[k] += outliers.places[k].size();
     for (std::size_t i = 0; i < outliers.places[k].size(); ++i)
       out->samples[k](outliers.places[k][i]) -= outliers.sizes[k][i];
     out->samples[k].array() -= out->samples[k].mean();

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/spectrum/bands.h"
+#include "core/spectrum/cosine_transform.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
@@ -12,15 +13,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-Eigen::ArrayXd spectrum_of(const Model& noise, const Eigen::ArrayXd& frequency) {
-  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(frequency.size());
-  for (const Term& term : noise.terms) out += spectrum(term.process, frequency);
-  return out;
-}
-
 // Weights of bands under a model: coefficients over spectrum.
 Eigen::ArrayXd weights(const BandedPower& bands, const Model& noise) {
-  return bands.count / spectrum_of(noise, bands.frequency);
+  return bands.count / spectrum(noise, bands.frequency);
 }
 
 BandedPower empty_bands(Index n, Hertz rate) {
@@ -212,6 +207,11 @@ Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients
     }
   }
   return out;
+}
+
+Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients,
+                                             std::size_t replicate) const {
+  return inverse_cosine_transform(residual_cosines(coefficients, replicate));
 }
 
 std::vector<BandedPower> pooled(std::span<const BandedPower> replicates) {

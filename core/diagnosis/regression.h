@@ -29,6 +29,8 @@ class Regression {
 
   const Subject& subject() const { return *subject_; }
   const std::shared_ptr<const Subject>& shared_subject() const { return subject_; }
+  /// The replicates that count, by their numbers.
+  const std::vector<std::size_t>& replicates() const { return replicates_; }
   const std::vector<EffectTerm>& effects() const { return effects_; }
   const std::vector<CoefficientName>& coefficients() const { return names_; }
   /// First coefficient of an effect, by its number; effects().size() gives the end.
@@ -42,7 +44,9 @@ class Regression {
   std::vector<BandedPower> residual(const Eigen::VectorXd& coefficients) const;
   /// The same with the degrees of freedom that the coefficients took away: for estimating noise.
   std::vector<BandedPower> residual(const EffectCoefficients& found, const Model& noise) const;
-  /// The transform of what the coefficients leave of a replicate.
+  /// What the coefficients leave of a replicate, and its transform.
+  Eigen::VectorXd residual_samples(const Eigen::VectorXd& coefficients,
+                                   std::size_t replicate) const;
   Eigen::VectorXd residual_cosines(const Eigen::VectorXd& coefficients,
                                    std::size_t replicate) const;
   /// Share of the information on some coefficients that lies in each band, summed over replicates

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 #include "core/wavelet/wavelet_variance.h"
 
@@ -25,8 +24,7 @@ std::vector<RunOff> run_off_of(const Trial& trial) {
   const Scales scales(half_widths);
   std::vector<Eigen::ArrayXd> each(subject.replicates());
   for_each_index(each.size(), [&](std::size_t k) {
-    const Eigen::VectorXd left =
-        inverse_cosine_transform(trial.regression.residual_cosines(trial.fit.effects.value, k));
+    const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
     const std::span<const double> samples(left.data(), static_cast<std::size_t>(left.size()));
     each[k] = wavelet_variance(Signal(samples, subject.rate), scales).variance;
   });

@@ -22,7 +22,7 @@ struct Suggestion {
   double score_nats = 0.0;  ///< log-likelihood that it would gain, to first order
   double dof = 1.0;         ///< coefficients, or powers, that it adds
   bool power = false;       ///< it is a power: one-sided
-  Search search;
+  Search search{};
   /// 1/variance of its coefficient or power under the current noise; 0 where that has no meaning.
   double information = 0.0;
   /// Standard error of its frequency, Hz, or of the logarithm of its time constant; 0 where none.

@@ -100,10 +100,11 @@ Suggestions scan_lines(const Current& current) {
   const double f = peak.at;
   const double rate = subject.rate.value;
 
-  Suggestion line{"line",    EffectTerm{.kind = EffectKind::kLine, .frequency = f * rate},
-                  peak.gain, 2.0 * static_cast<double>(each.size()),
-                  false,     {}};
-  line.shape_error = peak.error * rate;
+  Suggestion line{.effect = "line",
+                  .added = EffectTerm{.kind = EffectKind::kLine, .frequency = f * rate},
+                  .score_nats = peak.gain,
+                  .dof = 2.0 * static_cast<double>(each.size()),
+                  .shape_error = peak.error * rate};
   for (std::size_t k = 0; k < each.size(); ++k)
     line.information += 0.5 * static_cast<double>(subject.length(k)) / level_at(current, k, f);
   // A wave's score turns by π T/√3 rad per Hz: the spread of time within a replicate.
@@ -131,14 +132,13 @@ Suggestions scan_lines(const Current& current) {
       count = h;
     }
     if (seen < 2 || 2 * seen < count) continue;
-    Suggestion harmonics{"harmonics",
-                         EffectTerm{.kind = EffectKind::kLine,
-                                    .frequency = fundamental * rate,
-                                    .harmonics = static_cast<double>(count)},
-                         kept,
-                         line.dof * count,
-                         false,
-                         line.search};
+    Suggestion harmonics{.effect = "harmonics",
+                         .added = EffectTerm{.kind = EffectKind::kLine,
+                                             .frequency = fundamental * rate,
+                                             .harmonics = static_cast<double>(count)},
+                         .score_nats = kept,
+                         .dof = line.dof * count,
+                         .search = line.search};
     harmonics.search.log_places = std::log(4.0 * most);
     out.push_back(std::move(harmonics));
     break;

@@ -22,23 +22,41 @@ class ScoreSpace {
     for (const BandedPower& bands : pooled_) rows += bands.frequency.size();
     root_.resize(rows);
     excess_.resize(rows);
-    Eigen::MatrixXd slopes(rows, static_cast<Index>(interior.size()));
+    slopes_.resize(rows, static_cast<Index>(interior.size()));
     Index begin = 0;
     for (const BandedPower& bands : pooled_) {
       const Index size = bands.frequency.size();
-      Eigen::ArrayXd s = Eigen::ArrayXd::Zero(size);
-      for (const Term& term : noise.terms) s += spectrum(term.process, bands.frequency);
+      const Eigen::ArrayXd s = spectrum(noise, bands.frequency);
       root_.segment(begin, size) = (0.5 * bands.count).sqrt() / s;
       excess_.segment(begin, size) = (root_.segment(begin, size) * (bands.power - s)).matrix();
-      slopes.middleRows(begin, size) = whittle_slopes(noise, bands, interior);
+      slopes_.middleRows(begin, size) = whittle_slopes(noise, bands, interior);
       begin += size;
     }
-    slopes_ = slopes;
-    inverse_ = pseudo_inverse(slopes.transpose() * slopes).matrix;
+    inverse_ = pseudo_inverse(slopes_.transpose() * slopes_).matrix;
   }
 
-  // The direction of a new spectrum of unit power, less what the parameters can do.
+  // The direction of a new spectrum, scaled to length 1, less what the parameters can do.
   Eigen::VectorXd direction(const Process& process) const {
+    const Eigen::VectorXd unit = whitened(process).normalized();
+    return unit - slopes_ * (inverse_ * (slopes_.transpose() * unit));
+  }
+
+  double score(const Eigen::VectorXd& direction) const {
+    const double norm = direction.norm();
+    return norm > kNothingNew ? direction.dot(excess_) / norm : 0.0;
+  }
+
+  // Square root of the information on the power of a process: 1/standard error.
+  double precision(const Process& process) const {
+    return whitened(process).norm() * std::max(direction(process).norm(), kNothingNew);
+  }
+
+ private:
+  // Of a unit vector: what is left of a spectrum that the parameters can make.
+  static constexpr double kNothingNew = 1e-4;
+
+  // A spectrum over that of the model, as its power moves the whitened band powers.
+  Eigen::VectorXd whitened(const Process& process) const {
     Eigen::VectorXd out(root_.size());
     Index begin = 0;
     for (const BandedPower& bands : pooled_) {
@@ -47,29 +65,9 @@ class ScoreSpace {
           (root_.segment(begin, size) * spectrum(process, bands.frequency)).matrix();
       begin += size;
     }
-    out /= out.norm();  // powers may be of any size
-    return out - slopes_ * (inverse_ * (slopes_.transpose() * out));
+    return out;
   }
 
-  double score(const Eigen::VectorXd& direction) const {
-    const double norm = direction.norm();
-    constexpr double kNothingNew = 1e-4;
-    return norm > kNothingNew ? direction.dot(excess_) / norm : 0.0;
-  }
-
-  // Square root of the information on the power of a process: 1/standard error.
-  double precision(const Process& process) const {
-    double norm2 = 0.0;
-    Index begin = 0;
-    for (const BandedPower& bands : pooled_) {
-      const Index size = bands.frequency.size();
-      norm2 += (root_.segment(begin, size) * spectrum(process, bands.frequency)).square().sum();
-      begin += size;
-    }
-    return std::sqrt(norm2) * std::max(direction(process).norm(), 1e-4);
-  }
-
- private:
   const std::vector<BandedPower>& pooled_;
   Eigen::ArrayXd root_;
   Eigen::VectorXd excess_;
@@ -98,10 +96,12 @@ void add_best(const Current& current, const ScoreSpace& space, std::string_view 
   set_values(process, v);
   Model grown = current.fit.model.noise;
   grown.terms.emplace_back(process);
-  Suggestion made{effect, NoiseChange{std::move(grown), process}, 0.5 * most * most, 1.0, true, {}};
-  made.search.path = path_length(directions);
-  made.information = precision * precision;
-  out.push_back(std::move(made));
+  out.push_back({.effect = effect,
+                 .added = NoiseChange{std::move(grown), process},
+                 .score_nats = 0.5 * most * most,
+                 .power = true,
+                 .search = {.path = path_length(directions)},
+                 .information = precision * precision});
 }
 
 template <class P>
@@ -147,8 +147,9 @@ void add_filters(const Current& current, Suggestions& out) {
   const std::vector<int> lengths{2, 3, 4, 6, 8, 12, 16};
   const double before = whittle_objective(noise, current.pooled);
   for (const bool twice : {false, true}) {
-    Suggestion best{"low_pass", NoiseChange{}, 0.0, 1.0, false, {}};
-    best.search.log_places = std::log(static_cast<double>(lengths.size()));
+    Suggestion best{.effect = "low_pass",
+                    .added = NoiseChange{},
+                    .search = {.log_places = std::log(static_cast<double>(lengths.size()))}};
     for (const int n : lengths) {
       Model changed = noise;
       const Process filter =

@@ -27,25 +27,21 @@ Suggestions scan_samples(const Current& current) {
     for (const Eigen::VectorXd& x : subject.samples) samples += static_cast<double>(x.size());
     const auto count = static_cast<double>(found.count);
     // So many places out of all samples: about log(samples^count / count!).
-    out.push_back({"outliers",
-                   EffectTerm{.kind = EffectKind::kOutliers, .above = above},
-                   found.gain_nats,
-                   count,
-                   false,
-                   {0.0, count * std::log(samples) - std::lgamma(count + 1.0)}});
+    out.push_back({.effect = "outliers",
+                   .added = EffectTerm{.kind = EffectKind::kOutliers, .above = above},
+                   .score_nats = found.gain_nats,
+                   .dof = count,
+                   .search = {.log_places = count * std::log(samples) - std::lgamma(count + 1.0)}});
   }
   if (subject.replicates() > 1 && current.fit.own_powers.empty()) {
     const double dof =
         (static_cast<double>(subject.replicates()) - 1.0) * free_powers(current.fit.model.noise);
-    out.push_back({"replicate_change",
-                   EffectTerm{.kind = EffectKind::kOwnPowers},
-                   joint_fit(current.regression.with({.kind = EffectKind::kOwnPowers}),
-                             current.fit.model.noise)
-                           .log_likelihood -
-                       current.fit.log_likelihood,
-                   dof,
-                   false,
-                   {}});
+    const EffectTerm own{.kind = EffectKind::kOwnPowers};
+    const JointFit apart = joint_fit(current.regression.with(own), current.fit.model.noise);
+    out.push_back({.effect = "replicate_change",
+                   .added = own,
+                   .score_nats = apart.log_likelihood - current.fit.log_likelihood,
+                   .dof = dof});
   }
   return out;
 }

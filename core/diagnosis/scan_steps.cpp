@@ -56,7 +56,7 @@ Suggestions scan_steps(const Current& current) {
   for_each_index(each.size(), [&](std::size_t k) {
     each[k] = step_scores(current.weighted[k], current.spectrum[k]);
   });
-  Suggestion best{"step", EffectTerm{.kind = EffectKind::kStep}, 0.0, 1.0, false, {}};
+  Suggestion best{.effect = "step", .added = EffectTerm{.kind = EffectKind::kStep}};
   for (std::size_t k = 0; k < each.size(); ++k) {
     best.search.path += each[k].path;
     Index at = 0;

@@ -37,14 +37,11 @@ Suggestions scan_trends(const Current& current) {
     const double dof = own ? replicates : 1.0;
     const Eigen::VectorXd ramp =
         view.whitened(over_time(current, view, [](double t) { return t; }));
-    Suggestion straight{"rate_ramp",
-                        EffectTerm{.kind = EffectKind::kRamp, .own = own},
-                        view.gain(ramp, own),
-                        dof,
-                        false,
-                        {}};
-    straight.information = ramp.squaredNorm();
-    out.push_back(std::move(straight));
+    out.push_back({.effect = "rate_ramp",
+                   .added = EffectTerm{.kind = EffectKind::kRamp, .own = own},
+                   .score_nats = view.gain(ramp, own),
+                   .dof = dof,
+                   .information = ramp.squaredNorm()});
 
     // From a few blocks to half a replicate; longer is a ramp.
     const double longest = 0.5 * subject.seconds(0);
@@ -55,13 +52,14 @@ Suggestions scan_trends(const Current& current) {
       return over_time(current, view, [&](double t) { return std::exp(-t / tau); });
     });
     if (!(best.gain > 0.0)) continue;
-    Suggestion settling{
-        "warm_up", EffectTerm{.kind = EffectKind::kWarmUp, .tau = best.seconds, .own = own},
-        best.gain, dof,
-        false,     {best.path, 0.0}};
-    settling.information = best.information;
-    settling.shape_error = best.log_error;
-    out.push_back(std::move(settling));
+    out.push_back(
+        {.effect = "warm_up",
+         .added = EffectTerm{.kind = EffectKind::kWarmUp, .tau = best.seconds, .own = own},
+         .score_nats = best.gain,
+         .dof = dof,
+         .search = {.path = best.path},
+         .information = best.information,
+         .shape_error = best.log_error});
   }
   return out;
 }

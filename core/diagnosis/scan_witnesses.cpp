@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/diagnosis/catalogue.h"
@@ -55,18 +54,16 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
   const Cumulated sums = cumulated(current, witness);
   const Index last = sums.product.size() - 1;
   const EffectTerm whole{.kind = EffectKind::kWitness, .witness = witness.name};
-  out.push_back({coupling_effect(current.subject().quantity, witness),
-                 whole,
-                 sums.gain(0, last),
-                 1.0,
-                 false,
-                 {}});
+  out.push_back({.effect = coupling_effect(current.subject().quantity, witness),
+                 .added = whole,
+                 .score_nats = sums.gain(0, last),
+                 .information = sums.square(last)});
   if (!may_share_motion(current.subject().quantity, witness)) return;
   // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
   constexpr Index kFirst = 4;
   const double per_octave = 0.5 / current.subject().seconds(0);
-  Suggestion slow{"", whole, 0.0, 1.0, false, {}};
-  Suggestion fast{"common_vibration", whole, 0.0, 1.0, false, {}};
+  Suggestion slow{.effect = "tilt", .added = whole};
+  Suggestion fast{.effect = "common_vibration", .added = whole};
   slow.search.log_places = fast.search.log_places = std::log(static_cast<double>(last - kFirst));
   for (Index i = kFirst; i < last; ++i) {
     const double edge = std::exp2(static_cast<double>(i)) * per_octave;
@@ -81,7 +78,7 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
   }
   // A bench tilts over minutes; what is faster is vibration.
   constexpr double kFastestTilt = 0.1;  // Hz
-  slow.effect = std::get<EffectTerm>(slow.added).to <= kFastestTilt ? "tilt" : "common_vibration";
+  if (std::get<EffectTerm>(slow.added).to > kFastestTilt) slow.effect = fast.effect;
   if (slow.score_nats > 0.0) out.push_back(std::move(slow));
   if (fast.score_nats > 0.0) out.push_back(std::move(fast));
 }
@@ -93,26 +90,23 @@ void add_rocking(const Current& current, const Witness& witness, Suggestions& ou
   double product = 0.0;
   double square = 0.0;
   for (std::size_t k = 0; k < subject.replicates(); ++k) {
-    const Eigen::ArrayXd rate =
+    const Eigen::ArrayXd turning =
         cosine_transform(rate_of_change(witness.samples[k], subject.rate.value));
-    product += (rate * current.cosines[k].array() / current.spectrum[k]).sum();
-    square += (rate.square() / current.spectrum[k]).sum();
+    product += (turning * current.cosines[k].array() / current.spectrum[k]).sum();
+    square += (turning.square() / current.spectrum[k]).sum();
   }
   if (!(square > 0.0)) return;
-  Suggestion rocking{
-      "tilt",
-      EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .derivative = true},
-      0.5 * product * product / square,
-      1.0,
-      false,
-      {}};
-  rocking.information = square;
-  out.push_back(std::move(rocking));
+  const EffectTerm rate{.kind = EffectKind::kWitness, .witness = witness.name, .derivative = true};
+  out.push_back({.effect = "tilt",
+                 .added = rate,
+                 .score_nats = 0.5 * product * product / square,
+                 .information = square});
 }
 
 void add_lagged(const Current& current, const SlowView& view, const Witness& witness,
                 Suggestions& out) {
   const Subject& subject = current.subject();
+  const std::string_view effect = coupling_effect(subject.quantity, witness);
   SlowView::Means means;
   for (std::size_t k = 0; k < subject.replicates(); ++k)
     means.push_back(view.means(witness.samples[k], k));
@@ -133,55 +127,48 @@ void add_lagged(const Current& current, const SlowView& view, const Witness& wit
   if (shortest < longest) {
     const SlowView::BestTime best = view.best_time(shortest, longest, false, late);
     const SlowView::BestTime backwards = view.best_time(shortest, longest, false, early);
-    Suggestion behind{
-        coupling_effect(subject.quantity, witness),
-        EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .lag = best.seconds},
-        best.gain,
-        1.0,
-        false,
-        {best.path, 0.0}};
-    behind.information = best.information;
-    behind.shape_error = best.log_error;
     constexpr double kClearly = 3.0;  // nats
-    behind.backwards = backwards.gain > best.gain + kClearly;
-    if (best.gain > 0.0) out.push_back(std::move(behind));
+    if (best.gain > 0.0) {
+      out.push_back({.effect = effect,
+                     .added = EffectTerm{.kind = EffectKind::kWitness,
+                                         .witness = witness.name,
+                                         .lag = best.seconds},
+                     .score_nats = best.gain,
+                     .search = {best.path, 0.0},
+                     .information = best.information,
+                     .shape_error = best.log_error,
+                     .backwards = backwards.gain > best.gain + kClearly});
+    }
   }
 
   std::vector<Eigen::VectorXd> squares;
   for (std::size_t k = 0; k < subject.replicates(); ++k)
     squares.push_back(view.means(witness.samples[k].array().square().matrix(), k));
+  const Eigen::VectorXd squared = view.whitened(squares);
   out.push_back(
-      {coupling_effect(subject.quantity, witness),
-       EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .quadratic = true},
-       view.gain(view.whitened(squares), false),
-       1.0,
-       false,
-       {}});
+      {.effect = effect,
+       .added =
+           EffectTerm{.kind = EffectKind::kWitness, .witness = witness.name, .quadratic = true},
+       .score_nats = view.gain(squared, false),
+       .information = squared.squaredNorm()});
 }
 
 }  // namespace
 
 Suggestions scan_witnesses(const Current& current) {
   const Subject& subject = current.subject();
+  if (subject.witnesses.empty()) return {};
   const SlowView view(current);
-  std::vector<Eigen::VectorXd> white(subject.replicates());
-  if (!subject.witnesses.empty()) {
-    for_each_index(white.size(), [&](std::size_t k) {
-      white[k] = innovations(current.regression, current.fit, k);
-    });
-  }
+  const Innovations white = innovations(current.regression, current.fit);
   std::vector<Suggestions> each(subject.witnesses.size());
   for_each_index(each.size(), [&](std::size_t w) {
     const Witness& witness = subject.witnesses[w];
     add_static(current, witness, each[w]);
     add_lagged(current, view, witness, each[w]);
     add_rocking(current, witness, each[w]);
-    each[w].push_back({"modulated_variance",
-                       EffectTerm{.kind = EffectKind::kModulated, .witness = witness.name},
-                       modulation_by(witness, white).log_likelihood,
-                       1.0,
-                       false,
-                       {}});
+    each[w].push_back({.effect = "modulated_variance",
+                       .added = EffectTerm{.kind = EffectKind::kModulated, .witness = witness.name},
+                       .score_nats = modulation_by(witness, white).log_likelihood});
   });
   Suggestions out;
   for (const Suggestions& some : each) out.insert(out.end(), some.begin(), some.end());

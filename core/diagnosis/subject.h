@@ -27,6 +27,7 @@ struct Subject {
   std::vector<Eigen::VectorXd> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
   std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
   std::vector<Witness> witnesses;
+  std::vector<std::size_t> outliers{};  ///< how many samples were taken out of each replicate
 
   std::size_t replicates() const { return samples.size(); }
   /// Samples in a replicate.

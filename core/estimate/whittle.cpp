@@ -10,12 +10,6 @@
 namespace imunoise {
 namespace {
 
-Eigen::ArrayXd spectrum_over(const Model& model, const Eigen::ArrayXd& frequency) {
-  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(frequency.size());
-  for (const Term& term : model.terms) out += spectrum(term.process, frequency);
-  return out;
-}
-
 // ω² of the model's ramps: one of them is enough, several are one.
 double ramp_power(const Model& model) {
   double out = 0.0;
@@ -78,12 +72,12 @@ Eigen::ArrayXd slope_over(const Model& model, const Coordinate& c,
   const Coordinate there{0, c.parameter, c.info};
   if (c.power()) {
     set(moved, there, 1.0);
-    return spectrum_over(moved, frequency);
+    return spectrum(moved, frequency);
   }
   const double at = get(moved, there);
   const auto side = [&](double to) {
     set(moved, there, to);
-    return spectrum_over(moved, frequency);
+    return spectrum(moved, frequency);
   };
   return (side(at + kStep) - side(at - kStep)) / (2.0 * kStep);
 }
@@ -97,7 +91,7 @@ void fit_ramp(Model& model, std::span<const BandedPower> replicates) {
   double cross = 0.0;
   double power = 0.0;
   for (const BandedPower& bands : replicates) {
-    const Eigen::ArrayXd weight = bands.count / spectrum_over(model, bands.frequency);
+    const Eigen::ArrayXd weight = bands.count / spectrum(model, bands.frequency);
     cross += std::abs((weight * bands.ramp_cross).sum());
     power += (weight * bands.ramp_power).sum();
   }
@@ -110,7 +104,7 @@ Curvature curvature_at(const Model& model, const std::vector<Coordinate>& coordi
   const auto n = static_cast<Eigen::Index>(coordinates.size());
   Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   for (const BandedPower& bands : replicates) {
-    const Eigen::ArrayXd s = spectrum_over(model, bands.frequency);
+    const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     const Eigen::ArrayXd root = (0.5 * bands.count).sqrt() / s;
     Eigen::MatrixXd slopes(bands.frequency.size(), n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -145,7 +139,7 @@ double whittle_objective(const Model& model, std::span<const BandedPower> replic
   double out = 0.0;
   const double ramp2 = ramp_power(model);
   for (const BandedPower& bands : replicates) {
-    const Eigen::ArrayXd s = spectrum_over(model, bands.frequency);
+    const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     if (!(s.minCoeff() > 0.0)) return std::numeric_limits<double>::infinity();
     out += (0.5 * bands.count * (s.log() + residual_power(bands, s, ramp2) / s)).sum();
   }
@@ -154,7 +148,7 @@ double whittle_objective(const Model& model, std::span<const BandedPower> replic
 
 Eigen::MatrixXd whittle_slopes(const Model& model, const BandedPower& bands,
                                const std::vector<Eigen::Index>& columns) {
-  const Eigen::ArrayXd root = (0.5 * bands.count).sqrt() / spectrum_over(model, bands.frequency);
+  const Eigen::ArrayXd root = (0.5 * bands.count).sqrt() / spectrum(model, bands.frequency);
   Eigen::MatrixXd out =
       Eigen::MatrixXd::Zero(bands.frequency.size(), static_cast<Eigen::Index>(columns.size()));
   for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
@@ -173,7 +167,7 @@ Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPo
   for (const BandedPower& bands : replicates) {
     const Eigen::MatrixXd slopes = whittle_slopes(model, bands, columns);
     out += slopes.transpose() * slopes;
-    const Eigen::ArrayXd s = spectrum_over(model, bands.frequency);
+    const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
       const auto* drift = std::get_if<Drift>(&model.terms[c.term].process);
       if (drift == nullptr) return;

@@ -50,6 +50,12 @@ Eigen::ArrayXd variance(const Model& model, HalfWidths m) {
   return out;
 }
 
+Eigen::ArrayXd spectrum(const Model& model, const Eigen::ArrayXd& frequency) {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(frequency.size());
+  for (const Term& term : model.terms) out += spectrum(term.process, frequency);
+  return out;
+}
+
 Eigen::MatrixXd jacobian(const Model& model, HalfWidths m) {
   Eigen::MatrixXd out(m.size(), static_cast<Eigen::Index>(parameter_count(model)));
   Eigen::Index column = 0;

@@ -83,6 +83,9 @@ bool complete(const Model& model);
 Eigen::ArrayXd variance(const Model& model, HalfWidths m);
 /// dν / d(every parameter in order of the terms): scales × parameters.
 Eigen::MatrixXd jacobian(const Model& model, HalfWidths m);
+/// Two-sided spectrum of the sum at frequencies in cycles per sample, unit² per cycle/sample. A
+/// ramp has none.
+Eigen::ArrayXd spectrum(const Model& model, const Eigen::ArrayXd& frequency);
 /// Covariance of the prefix sums of the whole model.
 SumCovariance sum_covariance(const Model& model);
 

@@ -173,7 +173,6 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   out.set_channel(series.channel);
   out.set_unit(std::string(si_symbol(subject->quantity)));
   out.set_rate_hz(subject->rate.value);
-  out.set_seed(options.seed);
   for (const Witness& one : subject->witnesses) out.add_witnesses(one.name);
   if (!start->note.empty()) out.add_notes(start->note);
   if (subject->replicates() == 1)

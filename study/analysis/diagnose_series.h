@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +18,6 @@ struct DiagnoseOptions {
   bool automatic = false;              ///< add what is found, and go on
   bool search = true;                  ///< false: fit the model and judge it, seek nothing
   double level = 0.05;                 ///< chance of a false alarm over all candidates
-  std::uint64_t seed = 1;
 };
 
 /// Which effect the model of a channel lacks. Error: no such channel or witness, a model that

@@ -8,10 +8,10 @@
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/run_off.h"
 #include "core/inference/normal_scores.h"
-#include "core/spectrum/cosine_transform.h"
 #include "core/support/distributions.h"
+#include "core/support/parallel.h"
 #include "study/analysis/effect_parameters.h"
-#include "study/analysis/measure.h"
+#include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
@@ -261,42 +261,20 @@ v1::Rung rung_of(const Trial& trial, const std::string& added, double first, dou
 
 v1::NoiseBudget budget_of(const Trial& trial) {
   const Subject& subject = trial.regression.subject();
-  std::vector<WaveletVariance> measured;
-  for (std::size_t k = 0; k < subject.replicates(); ++k) {
-    const Eigen::VectorXd left =
-        inverse_cosine_transform(trial.regression.residual_cosines(trial.fit.effects.value, k));
-    const auto n = static_cast<std::size_t>(left.size());
-    measured.push_back(wavelet_variance(
-        Signal(std::span<const double>(left.data(), n), subject.rate, subject.quantity),
-        Scales::for_samples(n)));
-  }
   const Model& noise = trial.fit.model.noise;
+  std::vector<WaveletVariance> measured(subject.replicates());
+  for_each_index(measured.size(), [&](std::size_t k) {
+    const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
+    const auto n = static_cast<std::size_t>(left.size());
+    measured[k] = wavelet_variance(
+        Signal(std::span<const double>(left.data(), n), subject.rate, subject.quantity),
+        Scales::for_samples(n));
+  });
   const MomentCovariances covariances = moment_covariances(noise, measured);
-  const WaveletVariance total = pooled(measured);
-  const Eigen::ArrayXd m = total.scales.half_widths();
-  const Eigen::ArrayXd nu = variance(noise, m);
-  v1::NoiseBudget out;
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    double weights = 0.0;
-    double spread = 0.0;
-    for (std::size_t k = 0; k < measured.size(); ++k) {
-      if (i >= measured[k].variance.size()) continue;
-      const double weight = static_cast<double>(measured[k].samples) - 2.0 * m(i) + 1.0;
-      weights += weight;
-      spread += weight * weight * covariances[k](i, i);
-    }
-    spread /= weights * weights;
-    const double edof = 2.0 * nu(i) * nu(i) / spread;
-    out.add_scales(2.0 * m(i));
-    out.add_scales_s(2.0 * m(i) / subject.rate.value);
-    out.add_measured(total.variance(i));
-    out.add_lower(total.variance(i) * edof / chi_square_quantile(0.975, edof));
-    out.add_upper(total.variance(i) * edof / chi_square_quantile(0.025, edof));
-    out.add_model(nu(i));
-    out.add_residual((total.variance(i) - nu(i)) / std::sqrt(spread));
-    out.add_tested(edof >= 5.0 * static_cast<double>(measured.size()));
-  }
-  return out;
+  const PerReplicate<NormalScores> scores = normal_scores(noise, measured, covariances);
+  std::vector<std::vector<bool>> tested;
+  for (std::size_t k = 0; k < measured.size(); ++k) tested.push_back(scores[k].used());
+  return noise_budget(noise, measured, covariances, tested, 0.95);
 }
 
 }  // namespace imunoise::study

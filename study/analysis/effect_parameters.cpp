@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/estimate/whittle.h"
 #include "core/inference/parameter_covariance.h"
@@ -119,8 +120,8 @@ void add_noise(const TriedEffect& effect, const Subject& subject,
     if (const auto* markov = std::get_if<Ar1>(&term.process); markov != nullptr && markov->phi > 0)
       out.push_back(parameter("tau_s", -1.0 / (subject.rate.value * std::log(markov->phi)), "s"));
     if (const auto* ringing = std::get_if<Resonance>(&term.process))
-      out.push_back(
-          parameter("frequency_hz", ringing->omega / 6.283185307179586 * subject.rate.value, "Hz"));
+      out.push_back(parameter("frequency_hz",
+                              0.5 * ringing->omega / std::numbers::pi * subject.rate.value, "Hz"));
   }
 }
 

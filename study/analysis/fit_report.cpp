@@ -5,6 +5,7 @@
 
 #include "core/support/distributions.h"
 #include "study/analysis/fit_series.h"
+#include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
@@ -82,42 +83,6 @@ void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured,
   }
 }
 
-// The pooled curve against the model. Its spread follows from the exact covariance of each
-// replicate.
-void add_budget(const Fit& fit, const std::vector<WaveletVariance>& measured,
-                const WaveletVariance& total, v1::FitReport& out) {
-  const Eigen::ArrayXd m = total.scales.half_widths();
-  const Eigen::ArrayXd nu = variance(fit.estimate.model, m);
-  v1::NoiseBudget& budget = *out.mutable_budget();
-  const double tail = 0.5 * (1.0 - fit.confidence);
-  for (std::size_t i = 0; i < total.scales.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    double weights = 0.0;
-    double spread = 0.0;
-    bool tested = false;
-    for (std::size_t k = 0; k < measured.size(); ++k) {
-      const auto& scales = measured[k].scales;
-      const auto found = std::find(scales.begin(), scales.end(), total.scales[i]);
-      if (found == scales.end()) continue;
-      const auto own = found - scales.begin();
-      const double weight = static_cast<double>(measured[k].samples) - 2.0 * m(at) + 1.0;
-      weights += weight;
-      spread += weight * weight * fit.covariances[k](own, own);
-      tested = tested || fit.tested[k][static_cast<std::size_t>(own)];
-    }
-    spread /= weights * weights;
-    const double edof = spread > 0.0 ? 2.0 * nu(at) * nu(at) / spread : 1.0;
-    budget.add_scales(2.0 * m(at));
-    budget.add_scales_s(2.0 * m(at) / total.rate.value);
-    budget.add_measured(total.variance(at));
-    budget.add_lower(total.variance(at) * edof / chi_square_quantile(1.0 - tail, edof));
-    budget.add_upper(total.variance(at) * edof / chi_square_quantile(tail, edof));
-    budget.add_model(nu(at));
-    budget.add_residual(spread > 0.0 ? (total.variance(at) - nu(at)) / std::sqrt(spread) : 0.0);
-    budget.add_tested(tested);
-  }
-}
-
 void add_replicates(const Fit& fit, const Series& series,
                     const std::vector<WaveletVariance>& measured, v1::FitReport& out) {
   for (std::size_t k = 0; k < measured.size(); ++k) {
@@ -190,7 +155,8 @@ v1::FitReport fit_report(const Fit& fit, const Series& series,
   out.set_termination(std::string(describe(fit.estimate.termination)));
   out.set_confidence(fit.confidence);
   add_terms(fit, measured, total.scales.half_widths(), out);
-  add_budget(fit, measured, total, out);
+  *out.mutable_budget() =
+      noise_budget(fit.estimate.model, measured, fit.covariances, fit.tested, fit.confidence);
   add_replicates(fit, series, measured, out);
   out.set_summary(summary_of(out));
   if (total.quantity == Quantity::kUnknown) {

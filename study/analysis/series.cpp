@@ -1,5 +1,9 @@
 #include "study/analysis/series.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace imunoise::study {
 
 Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel) {
@@ -10,6 +14,17 @@ Series series_of(std::span<const recording::Replicate> replicates, std::size_t c
     out.replicates.push_back(replicate.channels[channel].signal());
   }
   return out;
+}
+
+Result<std::size_t> channel_called(const std::string& name, const recording::Replicate& in) {
+  const auto& channels = in.channels;
+  if (name.empty() && channels.size() == 1) return std::size_t{0};
+  const auto found = std::find_if(channels.begin(), channels.end(),
+                                  [&](const recording::Channel& one) { return one.name == name; });
+  if (found != channels.end()) return static_cast<std::size_t>(found - channels.begin());
+  std::string known;
+  for (const recording::Channel& one : channels) known += (known.empty() ? "" : ", ") + one.name;
+  return fail(fmt::format("channel '{}': there is none in {}; there are {}", name, in.name, known));
 }
 
 }  // namespace imunoise::study

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/signal/signal.h"
+#include "core/support/result.h"
 #include "recording/import/channel.h"
 
 namespace imunoise::study {
@@ -20,5 +21,9 @@ struct Series {
 
 /// Channel number `channel` of every replicate. Precondition: each has that many channels.
 Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel);
+
+/// The number of a channel; a nameless one is the only one. Error: there is none of that name; says
+/// which there are.
+Result<std::size_t> channel_called(const std::string& name, const recording::Replicate& in);
 
 }  // namespace imunoise::study

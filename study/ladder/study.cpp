@@ -5,29 +5,16 @@
 #include <algorithm>
 
 #include "study/analysis/diagnose_series.h"
+#include "study/analysis/series.h"
 
 namespace imunoise::study {
 namespace {
-
-Result<std::size_t> channel_of(const std::vector<recording::Replicate>& recordings,
-                               const std::string& name) {
-  const auto& channels = recordings.front().channels;
-  if (name.empty() && channels.size() == 1) return std::size_t{0};
-  const auto found =
-      std::find_if(channels.begin(), channels.end(), [&](const recording::Channel& one) {
-        return one.name == name || one.name.ends_with("/" + name);
-      });
-  if (found != channels.end()) return static_cast<std::size_t>(found - channels.begin());
-  std::string known;
-  for (const recording::Channel& one : channels) known += (known.empty() ? "" : ", ") + one.name;
-  return fail(fmt::format("channel '{}': there is none; there are {}", name, known));
-}
 
 Result<v1::DiagnosisReport> report_of(const v1::Study& study, const std::string& model, bool search,
                                       const ReadInput& read, const Progress& progress) {
   const auto recordings = read(study.input(), study.channel());
   if (!recordings) return tl::unexpected(recordings.error());
-  const auto channel = channel_of(*recordings, study.channel());
+  const auto channel = channel_called(study.channel(), recordings->front());
   if (!channel) return tl::unexpected(channel.error());
   DiagnoseOptions options;
   if (!model.empty()) options.model = model;
@@ -119,19 +106,6 @@ Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
 
 const std::string& current_model(const v1::Study& study) {
   return study.attempts(static_cast<int>(study.current())).rung().model();
-}
-
-std::vector<int> path_to_current(const v1::Study& study) {
-  std::vector<int> out;
-  int at = static_cast<int>(study.current());
-  for (;;) {
-    out.push_back(at);
-    const v1::StudyAttempt& attempt = study.attempts(at);
-    if (!attempt.has_parent()) break;
-    at = static_cast<int>(attempt.parent());
-  }
-  std::reverse(out.begin(), out.end());
-  return out;
 }
 
 }  // namespace imunoise::study

@@ -3,7 +3,6 @@
 // The loop of a study: look at a model, learn what it lacks, add it, watch the error fall, take it
 // back.
 
-#include <filesystem>
 #include <functional>
 
 #include "core/support/progress.h"
@@ -25,12 +24,5 @@ Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
 
 /// The current model, in the grammar.
 const std::string& current_model(const v1::Study& study);
-
-/// The attempts from the first to the current one, by their places.
-std::vector<int> path_to_current(const v1::Study& study);
-
-/// A study in its file (JSON). Error: what is wrong with the file.
-Result<v1::Study> read_study(const std::filesystem::path& file);
-std::string study_text(const v1::Study& study);
 
 }  // namespace imunoise::study

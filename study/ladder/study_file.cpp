@@ -1,10 +1,10 @@
+#include "study/ladder/study_file.h"
+
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <fstream>
 #include <iterator>
-
-#include "study/ladder/study.h"
 
 namespace imunoise::study {
 namespace {
@@ -24,20 +24,25 @@ bool sound(const v1::Study& study) {
 
 }  // namespace
 
-Result<v1::Study> read_study(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad()) return fail(file.string() + ": cannot be read; is it there?");
+Result<v1::Study> parse_study(const std::string& text) {
   v1::Study out;
   google::protobuf::util::JsonParseOptions strict;
   strict.ignore_unknown_fields = false;
   const auto status = google::protobuf::util::JsonStringToMessage(text, &out, strict);
-  if (!status.ok())
-    return fail(fmt::format("{}: not a study: {}", file.string(), std::string(status.message())));
+  if (!status.ok()) return fail("not a study: " + std::string(status.message()));
   if (out.version() != kVersion)
-    return fail(fmt::format("{}: version {} of a study's file; this program reads {}",
-                            file.string(), out.version(), kVersion));
-  if (!sound(out)) return fail(file.string() + ": its attempts do not hang together");
+    return fail(fmt::format("version {} of a study's file; this program reads {}", out.version(),
+                            kVersion));
+  if (!sound(out)) return fail("its attempts do not hang together");
+  return out;
+}
+
+Result<v1::Study> read_study(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in.is_open() || in.bad()) return fail(file.string() + ": cannot be read; is it there?");
+  auto out = parse_study(text);
+  if (!out) return fail(file.string() + ": " + out.error().message);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/model/effect_term.h"
 #include "core/model/model.h"
 
 namespace {
@@ -56,6 +57,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else {
       require(!model.has_value());
     }
+  }
+  // Effects are words besides those of noise.
+  if (const auto whole = imunoise::parse_full_model(text, rate)) {
+    const std::string printed = imunoise::print(*whole);
+    const auto again = imunoise::parse_full_model(printed, rate);
+    require(again.has_value() && *again == *whole);
   }
   return 0;
 }

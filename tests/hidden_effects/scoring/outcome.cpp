@@ -29,7 +29,6 @@ Result<v1::DiagnosisReport> ask(const std::vector<Recording>& recordings, const 
   study::DiagnoseOptions options;
   options.model = made.base.model;
   options.automatic = automatic;
-  options.seed = made.spec.seed;
   const auto replicates = to_replicates(recordings, made.rate_hz);
   const auto& channels = replicates.front().channels;
   const auto subject = std::find_if(channels.begin(), channels.end(),

@@ -1,4 +1,4 @@
-#include "core/diagnosis/effect_term.h"
+#include "core/model/effect_term.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/subject.h"
+
+namespace imunoise {
+
+/// Samples of some replicates as independent numbers of variance 1 (mean zero), in the order of
+/// time.
+struct Innovations {
+  std::vector<std::size_t> replicates;  ///< by their numbers in the subject
+  std::vector<Eigen::VectorXd> white;   ///< one each
+};
+
+/// How the power of the noise follows a witness c: variance · level · exp(b · (c -
+/// mean)/deviation).
+struct Modulation {
+  double slope = 0.0;           ///< b, per standard deviation of the witness
+  double error = 0.0;           ///< standard error of b
+  double level = 1.0;           ///< at the witness's mean
+  double mean = 0.0;            ///< of the witness, in its unit
+  double deviation = 1.0;       ///< of the witness, in its unit
+  double log_likelihood = 0.0;  ///< nats gained where it was estimated
+};
+
+/// The modulation that explains some innovations best.
+Modulation modulation_by(const Witness& witness, const Innovations& innovations);
+
+/// What a modulation gains on innovations that it was not estimated from, nats.
+double predicted_gain(const Modulation& modulation, const Witness& witness,
+                      const Innovations& innovations);
+
+}  // namespace imunoise
