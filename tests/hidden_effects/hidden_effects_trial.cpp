@@ -15,7 +15,8 @@ namespace {
 
 TEST(HiddenEffectsTrial, Nothing) {
   const TrialPlan plan = trial_plan();
-  if (!plan.only.empty()) GTEST_SKIP();
+  if (!plan.only.empty())
+    GTEST_SKIP() << "IMUNOISE_TRIAL_ONLY asks for some effects of the catalogue alone";
   std::vector<CaseSpec> specs;
   for (std::size_t i = 0; i < 30 * plan.repeats; ++i) {
     CaseSpec spec;
@@ -270,7 +271,8 @@ TEST(HiddenEffectsTrial, EffectsOutsideTheCatalogue) {
 
 TEST(HiddenEffectsTrial, TwoEffectsAtOnce) {
   const TrialPlan plan = trial_plan();
-  if (!plan.only.empty()) GTEST_SKIP();
+  if (!plan.only.empty())
+    GTEST_SKIP() << "IMUNOISE_TRIAL_ONLY asks for some effects of the catalogue alone";
   std::vector<CaseSpec> specs;
   for (const auto& pair :
        std::vector<std::vector<std::string>>{{"line", "temperature/static"},

@@ -1,6 +1,6 @@
 // The grammar of models with effects.
 
-#include "core/diagnosis/effect_term.h"
+#include "core/model/effect_term.h"
 
 #include <gtest/gtest.h>
 
