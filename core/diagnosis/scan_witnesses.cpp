@@ -24,13 +24,14 @@ struct Cumulated {
   }
 };
 
-// At the octaves of frequency: entry i holds all below 2^i/2T.
-Cumulated cumulated(const Current& current, const Witness& witness) {
+// At the octaves of frequency: entry i holds all below 2^i/2T. `regressor`: one transform a
+// replicate.
+Cumulated cumulated(const Current& current, const std::vector<Eigen::VectorXd>& regressor) {
   const auto octaves =
       static_cast<Index>(std::ceil(std::log2(static_cast<double>(current.subject().length(0)))));
   Cumulated out{Eigen::ArrayXd::Zero(octaves + 1), Eigen::ArrayXd::Zero(octaves + 1)};
   for (std::size_t k = 0; k < current.cosines.size(); ++k) {
-    const Eigen::ArrayXd weighted = witness.cosines[k].array() / current.spectrum[k];
+    const Eigen::ArrayXd weighted = regressor[k].array() / current.spectrum[k];
     Index begin = 0;
     double product = 0.0;
     double square = 0.0;
@@ -41,7 +42,7 @@ Cumulated cumulated(const Current& current, const Witness& witness) {
                      .dot(current.cosines[k].segment(begin, end - begin));
       square += weighted.segment(begin, end - begin)
                     .matrix()
-                    .dot(witness.cosines[k].segment(begin, end - begin));
+                    .dot(regressor[k].segment(begin, end - begin));
       out.product(i) += product;
       out.square(i) += square;
       begin = end;
@@ -50,8 +51,15 @@ Cumulated cumulated(const Current& current, const Witness& witness) {
   return out;
 }
 
+// Parts of the frequencies are tried from here on; below there is too little to tell.
+constexpr Index kFirstOctave = 4;
+
+double edge_of(const Current& current, Index octave) {
+  return std::exp2(static_cast<double>(octave)) * 0.5 / current.subject().seconds(0);
+}
+
 void add_static(const Current& current, const Witness& witness, Suggestions& out) {
-  const Cumulated sums = cumulated(current, witness);
+  const Cumulated sums = cumulated(current, witness.cosines);
   const Index last = sums.product.size() - 1;
   const EffectTerm whole{.kind = EffectKind::kWitness, .witness = witness.name};
   out.push_back({.effect = coupling_effect(current.subject().quantity, witness),
@@ -60,13 +68,12 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
                  .information = sums.square(last)});
   if (!may_share_motion(current.subject().quantity, witness)) return;
   // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
-  constexpr Index kFirst = 4;
-  const double per_octave = 0.5 / current.subject().seconds(0);
   Suggestion slow{.effect = "tilt", .added = whole};
   Suggestion fast{.effect = "common_vibration", .added = whole};
-  slow.search.log_places = fast.search.log_places = std::log(static_cast<double>(last - kFirst));
-  for (Index i = kFirst; i < last; ++i) {
-    const double edge = std::exp2(static_cast<double>(i)) * per_octave;
+  slow.search.log_places = fast.search.log_places =
+      std::log(static_cast<double>(last - kFirstOctave));
+  for (Index i = kFirstOctave; i < last; ++i) {
+    const double edge = edge_of(current, i);
     if (const double gain = sums.gain(0, i); gain > slow.score_nats) {
       slow.score_nats = gain;
       std::get<EffectTerm>(slow.added).to = edge;
@@ -83,24 +90,31 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
   if (fast.score_nats > 0.0) out.push_back(std::move(fast));
 }
 
-// A gyroscope on a bench that rocks feels how fast the accelerometers' view of gravity turns.
+// A gyroscope on a bench that rocks feels how fast the accelerometers' view of gravity turns: at
+// the frequencies where that view is more than the accelerometers' own noise, which are the low
+// ones.
 void add_rocking(const Current& current, const Witness& witness, Suggestions& out) {
   const Subject& subject = current.subject();
   if (!feels_rocking(subject.quantity, witness)) return;
-  double product = 0.0;
-  double square = 0.0;
-  for (std::size_t k = 0; k < subject.replicates(); ++k) {
-    const Eigen::ArrayXd turning =
-        cosine_transform(rate_of_change(witness.samples[k], subject.rate.value));
-    product += (turning * current.cosines[k].array() / current.spectrum[k]).sum();
-    square += (turning.square() / current.spectrum[k]).sum();
-  }
-  if (!(square > 0.0)) return;
+  std::vector<Eigen::VectorXd> turning;
+  for (const Eigen::VectorXd& x : witness.samples)
+    turning.push_back(cosine_transform(rate_of_change(x, subject.rate.value)));
+  const Cumulated sums = cumulated(current, turning);
+  const Index last = sums.product.size() - 1;
   const EffectTerm rate{.kind = EffectKind::kWitness, .witness = witness.name, .derivative = true};
-  out.push_back({.effect = "tilt",
-                 .added = rate,
-                 .score_nats = 0.5 * product * product / square,
-                 .information = square});
+  Suggestion best{.effect = "tilt",
+                  .added = rate,
+                  .score_nats = sums.gain(0, last),
+                  .search = {.log_places = std::log(static_cast<double>(last - kFirstOctave + 1))},
+                  .information = sums.square(last)};
+  for (Index i = kFirstOctave; i < last; ++i) {
+    const double gain = sums.gain(0, i);
+    if (!(gain > best.score_nats)) continue;
+    best.score_nats = gain;
+    best.information = sums.square(i);
+    std::get<EffectTerm>(best.added).to = edge_of(current, i);
+  }
+  if (best.score_nats > 0.0) out.push_back(std::move(best));
 }
 
 void add_lagged(const Current& current, const SlowView& view, const Witness& witness,
