@@ -7,6 +7,7 @@
 #include "core/diagnosis/outliers.h"
 #include "core/diagnosis/steadiness.h"
 #include "core/diagnosis/telegraph.h"
+#include "core/diagnosis/two_levels.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
@@ -95,6 +96,12 @@ bool is_slow(const TriedEffect& tried, const Current& current) {
   });
 }
 
+double log_places_of_courses(const Trial& trial) {
+  double out = 0.0;
+  for (const TwoLevelCourse& one : trial.regression.subject().courses) out += one.log_places;
+  return out;
+}
+
 void name_better(TriedEffect& tried) {
   if (tried.effect != "gauss_markov") return;
   if (is_bandwidth(tried.trial.fit.model.noise)) {
@@ -114,6 +121,7 @@ Trial try_out(const Current& current, const Suggestion& suggestion) {
   if (const auto* change = std::get_if<NoiseChange>(&suggestion.added))
     return {current.regression, joint_fit(current.regression, change->start)};
   const auto& term = std::get<EffectTerm>(suggestion.added);
+  if (term.kind == EffectKind::kTelegraph) return with_two_levels(current.regression, current.fit);
   Regression grown = current.regression.with(term);
   if (term.kind == EffectKind::kOutliers)
     grown = grown.on(without(current.subject(), find_outliers(current, term.above)));
@@ -135,6 +143,7 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
     Suggestion one = *worth[i];
     if (auto* term = std::get_if<EffectTerm>(&one.added)) *term = rounded(*term, one.shape_error);
     Trial trial = try_out(current, one);
+    if (one.effect == "telegraph") one.search.log_places = log_places_of_courses(trial);
     TriedEffect out{std::string(one.effect), one, std::move(trial)};
     out.likelihood_gain = out.trial.fit.log_likelihood - current.fit.log_likelihood;
     const std::size_t effects = out.trial.regression.effects().size();

@@ -144,6 +144,10 @@ Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
       return in_all(subject, term.own, {term.quadratic ? "quadratic_coefficient" : "coefficient"},
                     [&](std::size_t k) { return witness_cosines(term, witness, k, rate); });
     }
+    case EffectKind::kTelegraph:
+      if (subject.courses.empty()) break;  // not sought yet
+      return in_all(subject, false, {"height"},
+                    [&](std::size_t k) { return subject.courses[k].cosines; });
     case EffectKind::kModulated:
     case EffectKind::kOutliers:
     case EffectKind::kOwnPowers:

@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/outliers.h"
+#include "core/diagnosis/two_levels.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
@@ -164,7 +165,14 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
 Trial fit_full_model(std::shared_ptr<const Subject> subject, const FullModel& start,
                      const Progress& progress) {
   Regression regression(std::move(subject));
-  for (const EffectTerm& term : start.effects) regression = regression.with(term);
+  bool telegraph = false;
+  for (const EffectTerm& term : start.effects) {
+    if (term.kind == EffectKind::kTelegraph) {
+      telegraph = true;
+    } else {
+      regression = regression.with(term);
+    }
+  }
   JointFit fit = joint_fit(regression, start.noise, progress);
   for (const EffectTerm& term : start.effects) {
     if (term.kind != EffectKind::kOutliers) continue;
@@ -172,6 +180,7 @@ Trial fit_full_model(std::shared_ptr<const Subject> subject, const FullModel& st
     regression = regression.on(without(regression.subject(), find_outliers(current, term.above)));
     fit = joint_fit(regression, fit.model.noise, progress);
   }
+  if (telegraph) return with_two_levels(regression, fit);
   return {std::move(regression), std::move(fit)};
 }
 

@@ -97,9 +97,9 @@ Errors heldout_errors(const Trial& trial) {
     const Model& noise = fit.model.noise;
     const Regression one = all.of({k});
     const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;
-    // What the replicate itself gave: each of these numbers costs a nat.
-    const auto& outliers = all.subject().outliers;
-    double own = outliers.empty() ? 0.0 : static_cast<double>(outliers[k]);
+    // What the replicate itself gave: a coefficient costs a nat.
+    const auto& own_nats = all.subject().own_nats;
+    double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
     out.error[k] = wavelet_error(all, at, k, noise);
     out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);

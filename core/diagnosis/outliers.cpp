@@ -12,7 +12,8 @@ using Index = Eigen::Index;
 
 Outliers find_outliers(const Current& current, double above) {
   const std::size_t count = current.weighted.size();
-  Outliers out{std::vector<std::vector<Index>>(count), std::vector<std::vector<double>>(count)};
+  Outliers out{std::vector<std::vector<Index>>(count), std::vector<std::vector<double>>(count),
+               above};
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::VectorXd& u = current.weighted[k];
     const double information = (1.0 / current.spectrum[k]).mean();
@@ -41,10 +42,11 @@ double outlier_threshold(const Subject& subject) {
 
 std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& outliers) {
   auto out = std::make_shared<Subject>(subject);
-  out->outliers.resize(out->samples.size(), 0);
+  out->own_nats.resize(out->samples.size(), 0.0);
   for_each_index(out->samples.size(), [&](std::size_t k) {
     if (outliers.places[k].empty()) return;
-    out->outliers[k] += outliers.places[k].size();
+    out->own_nats[k] +=
+        0.5 * outliers.above * outliers.above * static_cast<double>(outliers.places[k].size());
     for (std::size_t i = 0; i < outliers.places[k].size(); ++i)
       out->samples[k](outliers.places[k][i]) -= outliers.sizes[k][i];
     out->samples[k].array() -= out->samples[k].mean();

@@ -8,6 +8,7 @@ namespace imunoise {
 struct Outliers {
   std::vector<std::vector<Eigen::Index>> places;  ///< of each replicate
   std::vector<std::vector<double>> sizes;         ///< unit
+  double above = 0.0;                             ///< the threshold
   double gain_nats = 0.0;                         ///< log-likelihood that taking them out gains
   std::size_t count = 0;
 };

@@ -51,7 +51,7 @@ using Suggestions = std::vector<Suggestion>;
 Suggestions scan_noise(const Current& current);
 /// Sine waves of any frequency, their multiples, and the folded mains.
 Suggestions scan_lines(const Current& current);
-/// A step at any time of any replicate.
+/// A step at any time of any replicate, and jumps between two levels.
 Suggestions scan_steps(const Current& current);
 /// Ramps and warm-ups.
 Suggestions scan_trends(const Current& current);

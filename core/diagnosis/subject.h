@@ -19,6 +19,14 @@ struct Witness {
   std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
 };
 
+/// A replicate that jumps between two levels, -½ and ½.
+struct TwoLevelCourse {
+  double start = -0.5;                ///< the first level
+  std::vector<Eigen::Index> jumps{};  ///< samples before which it jumps, rising
+  double log_places = 0.0;            ///< logarithm of how many courses have as many jumps
+  Eigen::VectorXd cosines{};          ///< its cosine_transform()
+};
+
 /// The channel whose model is doubted: replicates and witnesses, and all their transforms, made
 /// once.
 struct Subject {
@@ -27,7 +35,10 @@ struct Subject {
   std::vector<Eigen::VectorXd> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
   std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
   std::vector<Witness> witnesses;
-  std::vector<std::size_t> outliers{};  ///< how many samples were taken out of each replicate
+  std::vector<TwoLevelCourse> courses{};  ///< a replicate each, once found; see with_two_levels()
+  /// Nats that numbers found in a replicate itself (outliers, jumps) would gain by chance; empty:
+  /// none were sought.
+  std::vector<double> own_nats{};
 
   std::size_t replicates() const { return samples.size(); }
   /// Samples in a replicate.

@@ -48,6 +48,7 @@ const std::vector<Spelling>& spellings() {
        {{"lag", &T::lag, false}, {"from", &T::from, false}, {"to", &T::to, false}},
        {{"quadratic", &T::quadratic}, {"derivative", &T::derivative}, {"own", &T::own}}},
       {EffectKind::kModulated, "modulated", true, {}, {}},
+      {EffectKind::kTelegraph, "telegraph", false, {}, {}},
       {EffectKind::kOutliers, "outliers", false, {{"above", &T::above, true}}, {}},
       {EffectKind::kOwnPowers, "own_powers", false, {}, {}},
   };

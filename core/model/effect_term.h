@@ -18,6 +18,7 @@ enum class EffectKind {
   kStep,       ///< step(replicate=2, t=1234.5)
   kWitness,    ///< witness(temperature): proportional to another channel
   kModulated,  ///< modulated(temperature): the noise's power follows another channel
+  kTelegraph,  ///< telegraph: jumps between two levels, the same in all replicates
   kOutliers,   ///< outliers(above=6): single samples beyond so many standard deviations
   kOwnPowers,  ///< own_powers: every replicate has powers of its own
 };

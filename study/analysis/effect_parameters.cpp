@@ -172,6 +172,19 @@ std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
       out.push_back(with_error(parameter("log_variance_slope", last.slope, "1"), last.error));
       break;
     }
+    case EffectKind::kTelegraph: {
+      const Subject& found = effect.trial.regression.subject();
+      double jumps = 0.0;
+      double seconds = 0.0;
+      for (std::size_t k = 0; k < found.replicates(); ++k) {
+        jumps += static_cast<double>(found.courses[k].jumps.size());
+        seconds += found.seconds(k);
+      }
+      add_shared(effect, unit, out);
+      out.push_back(parameter("jumps", jumps, "1"));
+      out.push_back(parameter("dwell_s", seconds / jumps, "s"));
+      break;
+    }
     case EffectKind::kOutliers:
       out.push_back(parameter("count", effect.suggestion.dof, "1"));
       break;

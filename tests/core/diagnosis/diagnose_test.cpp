@@ -97,6 +97,19 @@ TEST(Diagnose, OutliersAreTakenOut) {
   EXPECT_LE(diagnosis.effects[0].tried.suggestion.dof, 5.0);
 }
 
+TEST(Diagnose, JumpsBetweenTwoLevels) {
+  const auto up = [](std::size_t k, double s) {
+    return std::fmod(s + 11.0 * static_cast<double>(k), 53.0) < 20.0 ? 0.4 : 0.0;
+  };
+  const Diagnosis diagnosis = of({.seed = 13, .added = up});
+  expect_found(diagnosis, "telegraph");
+  const FullModel& model = diagnosis.effects[0].tried.trial.fit.model;
+  EXPECT_EQ(print(model), "WN + RW + telegraph");
+  // A model that is given finds the same again.
+  const Trial again = fitted(subject_of({.seed = 13, .added = up}), "WN + RW + telegraph");
+  EXPECT_NEAR(again.fit.effects.value(0), 0.4, 4.0 * std::sqrt(again.fit.effects.covariance(0, 0)));
+}
+
 TEST(Diagnose, ASlowRampMayBeATemperatureThatNobodyRecorded) {
   const Diagnosis diagnosis = of({.model = "WN(sigma2=1)",
                                   .seed = 12,

@@ -16,7 +16,8 @@ TEST(EffectTerm, EveryKindIsReadAsItIsPrinted) {
         "WN + step(replicate=2, t=1234.5)", "WN + RW + witness(temperature)",
         "WN + witness(acc x, lag=300)", "WN + witness(gyro_y, from=0.1, to=10)",
         "WN + witness(temperature, quadratic)", "WN + witness(temperature, lag=2, own)",
-        "WN + modulated(temperature)", "WN + outliers(above=6)", "AR1 + WN + own_powers"}) {
+        "WN + modulated(temperature)", "WN + RW + telegraph", "WN + outliers(above=6)",
+        "AR1 + WN + own_powers"}) {
     const Result<FullModel> read = parse_full_model(text, kRate);
     ASSERT_TRUE(read) << text << ": " << read.error().message;
     EXPECT_EQ(print(*read), text);
