@@ -2,47 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "core/diagnosis/shapes.h"
 #include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
 
 using Index = Eigen::Index;
-
-Eigen::VectorXd ramp(Index n, double rate) {
-  return Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / rate);
-}
-
-Eigen::VectorXd warm_up(Index n, double tau_samples) {
-  return (-Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / tau_samples).exp();
-}
-
-Eigen::VectorXd step(Index n, Index at) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
-  if (at < n) out.tail(n - at).setOnes();
-  return out;
-}
-
-// The cosine and sine of each multiple of a frequency, side by side.
-Eigen::MatrixXd waves(Index n, double cycles_per_sample, int harmonics) {
-  Eigen::MatrixXd out(n, 2 * harmonics);
-  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
-  for (int h = 0; h < harmonics; ++h) {
-    const Eigen::ArrayXd angle = (2.0 * std::numbers::pi * (h + 1) * cycles_per_sample) * t;
-    out.col(2 * h) = angle.cos();
-    out.col(2 * h + 1) = angle.sin();
-  }
-  return out;
-}
-
-Eigen::MatrixXd transformed(const Eigen::MatrixXd& samples) {
-  Eigen::MatrixXd out(samples.rows() - 1, samples.cols());
-  for (Index i = 0; i < samples.cols(); ++i) out.col(i) = cosine_transform(samples.col(i));
-  return out;
-}
 
 // The movements of a transformed series between two frequencies, in Hz.
 void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate) {
@@ -54,18 +24,45 @@ void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate)
   cosines.tail(cosines.size() - last).setZero();
 }
 
-Eigen::MatrixXd witness_cosines(const EffectTerm& term, const Witness& witness, std::size_t k,
+// The witness as the term takes it: behind its lag, squared, its change.
+Eigen::VectorXd witness_samples(const EffectTerm& term, const Witness& witness, std::size_t k,
                                 double rate) {
-  Eigen::VectorXd cosines = witness.cosines[k];
-  if (term.quadratic || term.derivative || term.lag > 0.0) {
-    Eigen::VectorXd x = witness.samples[k];
-    if (term.lag > 0.0) x = lagged(x, term.lag * rate);
-    if (term.quadratic) x = x.array().square();
-    if (term.derivative) x = rate_of_change(x, rate);
-    cosines = cosine_transform(x);
+  Eigen::VectorXd x = witness.samples[k];
+  if (term.lag > 0.0) x = lagged(x, term.lag * rate);
+  if (term.quadratic) x = x.array().square();
+  if (term.derivative) x = rate_of_change(x, rate);
+  return x;
+}
+
+bool as_it_is(const EffectTerm& term) {
+  return !term.quadratic && !term.derivative && !(term.lag > 0.0);
+}
+
+bool in_part_of_the_frequencies(const EffectTerm& term) {
+  return term.from > 0.0 || std::isfinite(term.to);
+}
+
+Eigen::VectorXd witness_cosines(const EffectTerm& term, const Witness& witness, std::size_t k,
+                                double rate) {
+  Eigen::VectorXd out = as_it_is(term) ? witness.cosines[k]
+                                       : cosine_transform(witness_samples(term, witness, k, rate));
+  keep_between(out, term.from, term.to, rate);
+  return out;
+}
+
+// The form of an effect that is the same in every replicate, or is that of one of them.
+Shape shape_of(const EffectTerm& term, double rate) {
+  switch (term.kind) {
+    case EffectKind::kRamp:
+      return ramp(rate);
+    case EffectKind::kWarmUp:
+      return warm_up(term.tau * rate);
+    case EffectKind::kLine:
+      return waves(term.frequency / rate, static_cast<int>(term.harmonics));
+    default:
+      assert(term.kind == EffectKind::kStep);
+      return step(std::lround(term.time * rate));
   }
-  keep_between(cosines, term.from, term.to, rate);
-  return cosines;
 }
 
 // Regressors that every replicate has: one set of coefficients, or one a replicate.
@@ -74,10 +71,12 @@ Regressors in_all(const Subject& subject, bool own, const std::vector<std::strin
                   const CosinesOf& cosines_of) {
   Regressors out;
   const auto q = static_cast<Index>(names.size());
+  out.replicates.resize(subject.replicates());
+  for_each_index(subject.replicates(),
+                 [&](std::size_t k) { out.replicates[k].cosines = cosines_of(k); });
   for (std::size_t k = 0; k < subject.replicates(); ++k) {
-    Columns one{cosines_of(k), {}};
-    for (Index i = 0; i < q; ++i) one.places.push_back(i + (own ? static_cast<Index>(k) * q : 0));
-    out.replicates.push_back(std::move(one));
+    for (Index i = 0; i < q; ++i)
+      out.replicates[k].places.push_back(i + (own ? static_cast<Index>(k) * q : 0));
     if (k > 0 && !own) continue;
     for (const std::string& name : names)
       out.coefficients.push_back({name, own ? k : CoefficientName::kAll});
@@ -115,27 +114,24 @@ Eigen::VectorXd rate_of_change(const VectorRef& x, double rate) {
 
 Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
   const double rate = subject.rate.value;
+  const auto shaped = [&](bool own, const std::vector<std::string>& names) {
+    const Shape shape = shape_of(term, rate);
+    return in_all(subject, own, names,
+                  [&](std::size_t k) { return shape.cosines(subject.length(k)); });
+  };
   switch (term.kind) {
     case EffectKind::kRamp:
-      return in_all(subject, term.own, {"slope"},
-                    [&](std::size_t k) { return transformed(ramp(subject.length(k), rate)); });
+      return shaped(term.own, {"slope"});
     case EffectKind::kWarmUp:
-      return in_all(subject, term.own, {"amplitude"}, [&](std::size_t k) {
-        return transformed(warm_up(subject.length(k), term.tau * rate));
-      });
-    case EffectKind::kLine: {
-      const auto harmonics = static_cast<int>(term.harmonics);
-      return in_all(subject, true, wave_names(harmonics), [&](std::size_t k) {
-        return transformed(waves(subject.length(k), term.frequency / rate, harmonics));
-      });
-    }
+      return shaped(term.own, {"amplitude"});
+    case EffectKind::kLine:
+      return shaped(true, wave_names(static_cast<int>(term.harmonics)));
     case EffectKind::kStep: {
       Regressors out{std::vector<Columns>(subject.replicates()), {}};
       const auto k = static_cast<std::size_t>(term.replicate) - 1;
       for (std::size_t i = 0; i < subject.replicates(); ++i)
         out.replicates[i].cosines.resize(subject.length(i) - 1, 0);
-      const auto at = static_cast<Index>(std::lround(term.time * rate));
-      out.replicates[k] = {transformed(step(subject.length(k), at)), {0}};
+      out.replicates[k] = {shape_of(term, rate).cosines(subject.length(k)), {0}};
       out.coefficients.push_back({"height", k});
       return out;
     }
@@ -157,6 +153,34 @@ Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
   for (std::size_t i = 0; i < subject.replicates(); ++i)
     none.replicates[i].cosines.resize(subject.length(i) - 1, 0);
   return none;
+}
+
+Eigen::MatrixXd samples_of_regressor(const EffectTerm& term, const Subject& subject,
+                                     std::size_t replicate) {
+  const double rate = subject.rate.value;
+  const Index n = subject.length(replicate);
+  switch (term.kind) {
+    case EffectKind::kRamp:
+    case EffectKind::kWarmUp:
+    case EffectKind::kLine:
+      return shape_of(term, rate).samples(n);
+    case EffectKind::kStep:
+      if (static_cast<std::size_t>(term.replicate) != replicate + 1) break;
+      return shape_of(term, rate).samples(n);
+    case EffectKind::kWitness: {
+      const Witness& witness = *subject.find(term.witness);
+      if (!in_part_of_the_frequencies(term)) return witness_samples(term, witness, replicate, rate);
+      return inverse_cosine_transform(witness_cosines(term, witness, replicate, rate));
+    }
+    case EffectKind::kTelegraph:
+      if (subject.courses.empty()) break;
+      return inverse_cosine_transform(subject.courses[replicate].cosines);
+    case EffectKind::kModulated:
+    case EffectKind::kOutliers:
+    case EffectKind::kOwnPowers:
+      break;
+  }
+  return Eigen::MatrixXd(n, 0);
 }
 
 Result<void> check(const EffectTerm& term, const Subject& subject) {

@@ -34,6 +34,11 @@ struct Regressors {
 /// Precondition: the effect's witness exists and its replicate too, see check().
 Regressors regressors_of(const EffectTerm& term, const Subject& subject);
 
+/// The columns of an effect in one replicate as samples, up to a constant each; none where it has
+/// no coefficient there.
+Eigen::MatrixXd samples_of_regressor(const EffectTerm& term, const Subject& subject,
+                                     std::size_t replicate);
+
 /// Error: a witness or replicate that the subject does not have, or a frequency that it cannot
 /// show.
 Result<void> check(const EffectTerm& term, const Subject& subject);

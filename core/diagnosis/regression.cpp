@@ -211,7 +211,15 @@ Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients
 
 Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients,
                                              std::size_t replicate) const {
-  return inverse_cosine_transform(residual_cosines(coefficients, replicate));
+  Eigen::VectorXd out = subject_->samples[replicate];
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Columns& columns = columns_[e]->replicates[replicate];
+    if (columns.places.empty()) continue;
+    const Eigen::MatrixXd samples = samples_of_regressor(effects_[e], *subject_, replicate);
+    for (std::size_t i = 0; i < columns.places.size(); ++i)
+      out -= coefficients(first_[e] + columns.places[i]) * samples.col(static_cast<Index>(i));
+  }
+  return out;
 }
 
 std::vector<BandedPower> pooled(std::span<const BandedPower> replicates) {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace imunoise {
+
+/// A course of known form over n samples, and its cosine_transform() in closed form (sums of
+/// geometric series): it costs no Fourier transform. A column a coefficient.
+struct Shape {
+  std::function<Eigen::MatrixXd(Eigen::Index n)> samples;
+  std::function<Eigen::MatrixXd(Eigen::Index n)> cosines;  ///< (n - 1) × columns
+};
+
+/// t/rate, in s at a rate in Hz.
+Shape ramp(double rate);
+/// exp(-t/τ), τ > 0 in samples.
+Shape warm_up(double tau);
+/// 0 before sample `at`, 1 from it on.
+Shape step(Eigen::Index at);
+/// The cosine and sine of each multiple of a frequency in cycles per sample, side by side.
+Shape waves(double frequency, int harmonics);
+
+}  // namespace imunoise
