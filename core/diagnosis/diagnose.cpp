@@ -126,7 +126,7 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
   }
   const double level = (1.0 - kMisfitShare) * options.level;
   fill_confusions(out.effects, subject, level);
-  out.misfit = misfit_of(current);
+  out.misfit = misfit_of(model);
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);
   if (can_hold_out(model)) {
@@ -147,7 +147,7 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
   if (out.worth_adding) {
     const Trial& best = out.effects[0].tried.trial;
     // What remains after the best effect must be small against what it took away, or it is not it.
-    const MisfitReport after = misfit_of(current_of(best.regression, best.fit));
+    const MisfitReport after = misfit_of(best);
     const bool explains = !(after.spectrum.p_value < 1e-6) ||
                           after.spectrum.statistic < 0.5 * out.misfit.spectrum.statistic;
     if (!explains || !out.effects[0].tried.steady) {

@@ -12,16 +12,18 @@ namespace {
 
 using Index = Eigen::Index;
 
-double wavelet_error(const Regression& regression, const Eigen::VectorXd& coefficients,
-                     std::size_t replicate, const Model& noise) {
-  const Eigen::VectorXd left = regression.residual_samples(coefficients, replicate);
-  const auto n = static_cast<std::size_t>(left.size());
-  const Signal signal(std::span<const double>(left.data(), n), regression.subject().rate);
-  const std::vector<WaveletVariance> measured{wavelet_variance(signal, Scales::for_samples(n))};
+WaveletVariance variance_of(const Eigen::VectorXd& samples, const Subject& subject) {
+  const auto n = static_cast<std::size_t>(samples.size());
+  const std::span<const double> all(samples.data(), n);
+  return wavelet_variance(Signal(all, subject.rate, subject.quantity), Scales::for_samples(n));
+}
+
+double wavelet_error(const WaveletVariance& left, const Model& noise) {
+  const std::vector<WaveletVariance> measured{left};
   const MomentCovariances covariances = moment_covariances(noise, measured);
   const auto scores = normal_scores(noise, measured, covariances);
   const Eigen::VectorXd z =
-      scores[0].residual(measured[0].variance, variance(noise, measured[0].scales.half_widths()));
+      scores[0].residual(left.variance, variance(noise, left.scales.half_widths()));
   return z.size() > 0 ? z.squaredNorm() / static_cast<double>(z.size()) : 1.0;
 }
 
@@ -71,14 +73,25 @@ double Errors::total_likelihood() const {
   return std::accumulate(log_likelihood.begin(), log_likelihood.end(), 0.0);
 }
 
-Errors training_errors(const Trial& trial) {
+LeftOver left_over(const Trial& trial) {
+  const Subject& subject = trial.regression.subject();
+  LeftOver out{std::vector<Eigen::VectorXd>(subject.replicates()),
+               std::vector<WaveletVariance>(subject.replicates())};
+  for_each_index(subject.replicates(), [&](std::size_t k) {
+    out.samples[k] = trial.regression.residual_samples(trial.fit.effects.value, k);
+    out.variances[k] = variance_of(out.samples[k], subject);
+  });
+  return out;
+}
+
+Errors training_errors(const Trial& trial, const LeftOver& left) {
   const std::size_t count = trial.regression.subject().replicates();
   Errors out{std::vector<double>(count), std::vector<double>(count)};
   for_each_index(count, [&](std::size_t k) {
     const Model& noise =
         trial.fit.own_powers.empty() ? trial.fit.model.noise : trial.fit.own_powers[k];
     const Eigen::VectorXd& at = trial.fit.effects.value;
-    out.error[k] = wavelet_error(trial.regression, at, k, noise);
+    out.error[k] = wavelet_error(left.variances[k], noise);
     out.log_likelihood[k] = log_likelihood_of(trial.regression.of({k}), at, noise);
   });
   return out;
@@ -101,7 +114,7 @@ Errors heldout_errors(const Trial& trial) {
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
-    out.error[k] = wavelet_error(all, at, k, noise);
+    out.error[k] = wavelet_error(variance_of(all.residual_samples(at, k), all.subject()), noise);
     out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
   });
   return out;

@@ -20,11 +20,18 @@ struct Errors {
   double total_likelihood() const;
 };
 
+/// What the effects of a model leave of each replicate, and its wavelet variance.
+struct LeftOver {
+  std::vector<Eigen::VectorXd> samples;
+  std::vector<WaveletVariance> variances;
+};
+LeftOver left_over(const Trial& trial);
+
 /// True where replicates can be held out: two of them, and no parameters of their own.
 bool can_hold_out(const Trial& trial);
 
-/// On the replicates that the model was fitted to.
-Errors training_errors(const Trial& trial);
+/// On the replicates that the model was fitted to. `left`: left_over() of it.
+Errors training_errors(const Trial& trial, const LeftOver& left);
 
 /// On each replicate by a fit to the others. Coefficients that belong to the held-out replicate
 /// alone (phases, steps) are estimated there, and each costs a nat. Precondition: at least two

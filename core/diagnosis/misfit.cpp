@@ -16,9 +16,8 @@ using Index = Eigen::Index;
 constexpr double kFewestFreedom = 8.0;
 
 // Half octaves of one length of replicates, with the directions of the parameters.
-void add_bands(const Current& current, const BandedPower& bands, const std::vector<Index>& interior,
+void add_bands(const Model& noise, const BandedPower& bands, const std::vector<Index>& interior,
                std::vector<BandMisfit>& out, std::vector<Eigen::VectorXd>& directions) {
-  const Model& noise = current.fit.model.noise;
   const Eigen::MatrixXd slopes = whittle_slopes(noise, bands, interior);
   const Eigen::ArrayXd power = bands.count * bands.power / spectrum(noise, bands.frequency);
   const double rate = bands.rate.value;
@@ -48,9 +47,9 @@ void add_bands(const Current& current, const BandedPower& bands, const std::vect
   }
 }
 
-void count_replicates(const Current& current, std::vector<BandMisfit>& bands) {
-  const Model& noise = current.fit.model.noise;
-  for (const BandedPower& one : current.regression.residual(current.fit.effects.value)) {
+void count_replicates(const Model& noise, const std::vector<BandedPower>& left,
+                      std::vector<BandMisfit>& bands) {
+  for (const BandedPower& one : left) {
     const Eigen::ArrayXd power = one.count * one.power / spectrum(noise, one.frequency);
     for (BandMisfit& band : bands) {
       double freedom = 0.0;
@@ -68,13 +67,16 @@ void count_replicates(const Current& current, std::vector<BandMisfit>& bands) {
 
 }  // namespace
 
-MisfitReport misfit_of(const Current& current) {
+MisfitReport misfit_of(const Trial& trial) {
   MisfitReport out;
-  const std::vector<Index> interior = parameter_sets(current.fit.model.noise).interior;
+  const Model& noise = trial.fit.model.noise;
+  const Subject& subject = trial.regression.subject();
+  const std::vector<BandedPower> remaining = trial.regression.residual(trial.fit.effects.value);
+  const std::vector<Index> interior = parameter_sets(noise).interior;
   std::vector<Eigen::VectorXd> directions;
-  for (const BandedPower& bands : current.pooled)
-    add_bands(current, bands, interior, out.bands, directions);
-  count_replicates(current, out.bands);
+  for (const BandedPower& bands : pooled(remaining))
+    add_bands(noise, bands, interior, out.bands, directions);
+  count_replicates(noise, remaining, out.bands);
   const auto n = static_cast<Index>(out.bands.size());
   Eigen::VectorXd z(n);
   Eigen::MatrixXd a(n, static_cast<Index>(interior.size()));
@@ -87,8 +89,8 @@ MisfitReport misfit_of(const Current& current) {
   out.spectrum = chi_square_test(left.squaredNorm(), std::max<Index>(0, n - inverse.rank));
 
   constexpr Index kStretches = 16;
-  const std::size_t count = current.subject().replicates();
-  const std::vector<Eigen::VectorXd> white = innovations(current.regression, current.fit).white;
+  const std::size_t count = subject.replicates();
+  const std::vector<Eigen::VectorXd> white = innovations(trial.regression, trial.fit).white;
   double squares = 0.0;
   double fourth = 0.0;
   double samples = 0.0;
@@ -97,7 +99,7 @@ MisfitReport misfit_of(const Current& current) {
     const Index length = white[k].size() / kStretches;
     // Each replicate against its own level: that is another question.
     const double level = white[k].squaredNorm() / static_cast<double>(white[k].size());
-    const double seconds = static_cast<double>(length) / current.subject().rate.value;
+    const double seconds = static_cast<double>(length) / subject.rate.value;
     for (Index i = 0; i < kStretches; ++i) {
       const double ratio = white[k].segment(i * length, length).squaredNorm() /
                            (level * static_cast<double>(length));

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/diagnosis/scan.h"
+#include "core/diagnosis/candidates.h"
 #include "core/inference/goodness.h"
 
 namespace imunoise {
@@ -34,7 +34,7 @@ struct MisfitReport {
   std::vector<BandMisfit> bands;  ///< half octaves, lowest first
   std::vector<TimeMisfit> times;
 };
-MisfitReport misfit_of(const Current& current);
+MisfitReport misfit_of(const Trial& trial);
 
 /// Chance that a true model fits as badly as the worst of the three.
 double misfit_p_value(const MisfitReport& misfit);

@@ -7,7 +7,7 @@
 
 namespace imunoise {
 
-std::vector<RunOff> run_off_of(const Trial& trial) {
+std::vector<RunOff> run_off_of(const Trial& trial, const LeftOver& left) {
   const Subject& subject = trial.regression.subject();
   Eigen::Index shortest = subject.length(0);
   for (std::size_t k = 1; k < subject.replicates(); ++k)
@@ -24,8 +24,8 @@ std::vector<RunOff> run_off_of(const Trial& trial) {
   const Scales scales(half_widths);
   std::vector<Eigen::ArrayXd> each(subject.replicates());
   for_each_index(each.size(), [&](std::size_t k) {
-    const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
-    const std::span<const double> samples(left.data(), static_cast<std::size_t>(left.size()));
+    const Eigen::VectorXd& one = left.samples[k];
+    const std::span<const double> samples(one.data(), static_cast<std::size_t>(one.size()));
     each[k] = wavelet_variance(Signal(samples, subject.rate), scales).variance;
   });
   const Eigen::ArrayXd model = variance(trial.fit.model.noise, scales.half_widths());

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/diagnosis/candidates.h"
+#include "core/diagnosis/heldout.h"
 
 namespace imunoise {
 
@@ -15,6 +15,7 @@ struct RunOff {
 };
 
 /// After 1, 10, 100 and 1000 s, as far as the replicates are long enough.
-std::vector<RunOff> run_off_of(const Trial& trial);
+/// `left`: left_over() of the model.
+std::vector<RunOff> run_off_of(const Trial& trial, const LeftOver& left);
 
 }  // namespace imunoise

@@ -108,6 +108,21 @@ void wave_cosines(Index n, double omega, Eigen::Ref<Eigen::MatrixXd> out) {
   });
 }
 
+// cos ωt and sin ωt: each stretch is the first one, turned.
+void wave_samples(double omega, Eigen::Ref<Eigen::MatrixXd> out) {
+  constexpr Index kStretch = 512;
+  const Eigen::ArrayXd angle = omega * times(std::min(kStretch, out.rows()));
+  const Eigen::ArrayXd cosine = angle.cos();
+  const Eigen::ArrayXd sine = angle.sin();
+  for (Index begin = 0; begin < out.rows(); begin += kStretch) {
+    const Index size = std::min(kStretch, out.rows() - begin);
+    const double c = std::cos(omega * static_cast<double>(begin));
+    const double s = std::sin(omega * static_cast<double>(begin));
+    out.col(0).segment(begin, size) = c * cosine.head(size) - s * sine.head(size);
+    out.col(1).segment(begin, size) = s * cosine.head(size) + c * sine.head(size);
+  }
+}
+
 }  // namespace
 
 Shape ramp(double rate) {
@@ -133,11 +148,7 @@ Shape waves(double frequency, int harmonics) {
   const auto omega = [=](int h) { return 2.0 * std::numbers::pi * (h + 1) * frequency; };
   return {[=](Index n) {
             Eigen::MatrixXd out(n, 2 * harmonics);
-            for (int h = 0; h < harmonics; ++h) {
-              const Eigen::ArrayXd angle = omega(h) * times(n);
-              out.col(2 * h) = angle.cos();
-              out.col(2 * h + 1) = angle.sin();
-            }
+            for (int h = 0; h < harmonics; ++h) wave_samples(omega(h), out.middleCols(2 * h, 2));
             return out;
           },
           [=](Index n) {

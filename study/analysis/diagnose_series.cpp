@@ -139,13 +139,30 @@ void put_defects_first(v1::DiagnosisReport& to) {
 }
 
 // A model that somebody wants to know the error of.
-v1::Rung judged(const Trial& model, const Progress& progress) {
-  const double misfit = misfit_p_value(misfit_of(current_of(model.regression, model.fit)));
+void judge(const Trial& model, const Progress& progress, v1::DiagnosisReport& out) {
+  const LeftOver left = left_over(model);
   progress.report(0.3);
   std::optional<Errors> heldout;
   if (can_hold_out(model)) heldout = heldout_errors(model);
-  progress.report(0.9);
-  return rung_of(model, "", 0.0, misfit, heldout, "");
+  progress.report(0.8);
+  *out.add_ladder() = rung_of(model, left, "", 0.0, misfit_p_value(misfit_of(model)), heldout, "");
+  *out.mutable_before() = budget_of(model, left);
+  *out.mutable_after() = out.before();
+}
+
+// Of the channels beside the one under study, those that a model names; all, if it names one that
+// there is not, so that it can be said which there are.
+std::vector<NamedChannel> named_by(const FullModel& model, std::vector<NamedChannel> channels) {
+  std::vector<NamedChannel> out;
+  for (const EffectTerm& term : model.effects) {
+    if (term.witness.empty()) continue;
+    const auto is_it = [&](const NamedChannel& one) { return one.name == term.witness; };
+    if (std::any_of(out.begin(), out.end(), is_it)) continue;
+    const auto found = std::find_if(channels.begin(), channels.end(), is_it);
+    if (found == channels.end()) return channels;
+    out.push_back(*found);
+  }
+  return out;
 }
 
 }  // namespace
@@ -159,10 +176,12 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
       return fail(
           fmt::format("{}: {} samples are too few", series.names[k], series.replicates[k].size()));
   }
-  const auto channels = witnesses_of(recordings, channel, options.witnesses);
+  auto channels = witnesses_of(recordings, channel, options.witnesses);
   if (!channels) return tl::unexpected(channels.error());
   const Result<Chosen> start = current_model(series, options, progress.part(0.0, 0.2));
   if (!start) return tl::unexpected(start.error());
+  // What is not searched needs no witnesses but those of its terms.
+  if (!options.search) *channels = named_by(start->model, std::move(*channels));
   auto subject = std::make_shared<const Subject>(
       make_subject(series.replicates, *channels, progress.part(0.2, 0.3)));
   for (const EffectTerm& term : start->model.effects) {
@@ -180,26 +199,27 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
         "One replicate: nothing can be held out, so that no effect is proven on data it "
         "was not fitted to.");
 
-  add_integrity(series, out);
   Trial model = fit_full_model(subject, start->model, progress.part(0.3, 0.35));
   out.set_model(print(model.fit.model));
   out.set_fitted_model(print_with_values(model.fit.model));
-  *out.mutable_before() = budget_of(model);
+  if (!options.search) {
+    judge(model, progress.part(0.4, 1.0), out);
+    return out;
+  }
+  add_integrity(series, out);
+  LeftOver left = left_over(model);
+  *out.mutable_before() = budget_of(model, left);
   const double first = model.fit.log_likelihood;
   std::string added;
   std::string why = "The model as it was given.";
-  if (!options.search) {
-    *out.add_ladder() = judged(model, progress.part(0.4, 1.0));
-    *out.mutable_after() = out.before();
-    return out;
-  }
   const int most = options.automatic ? kMostRungs : 1;
   for (int rung = 0; rung < most; ++rung) {
     const double begin = 0.35 + 0.6 * rung / most;
     Diagnosis diagnosis =
         diagnose(model, {options.level}, progress.part(begin, begin + 0.6 / most));
     if (progress.stopped()) return fail("stopped");
-    *out.add_ladder() = rung_of(model, added, first, diagnosis.misfit_p, diagnosis.heldout, why);
+    *out.add_ladder() =
+        rung_of(model, left, added, first, diagnosis.misfit_p, diagnosis.heldout, why);
     // The verdict is about the model that was asked for; later rounds only climb.
     if (rung == 0) {
       add_diagnosis(diagnosis, *subject, series.names, out);
@@ -211,12 +231,12 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
     why = fmt::format("{} explains {:.1f} nats ({:.1f} more than chance).", best.tried.effect,
                       best.tried.likelihood_gain, best.tried.gain);
     model = std::move(best.tried.trial);
+    left = left_over(model);
     if (rung + 1 < most) continue;
-    const Current after = current_of(model.regression, model.fit);
     *out.add_ladder() =
-        rung_of(model, added, first, misfit_p_value(misfit_of(after)), best.heldout, why);
+        rung_of(model, left, added, first, misfit_p_value(misfit_of(model)), best.heldout, why);
   }
-  *out.mutable_after() = budget_of(model);
+  *out.mutable_after() = budget_of(model, left);
   return out;
 }
 

@@ -9,7 +9,6 @@
 #include "core/diagnosis/run_off.h"
 #include "core/inference/normal_scores.h"
 #include "core/support/distributions.h"
-#include "core/support/parallel.h"
 #include "study/analysis/effect_parameters.h"
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
@@ -232,12 +231,12 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
   }
 }
 
-v1::Rung rung_of(const Trial& trial, const std::string& added, double first, double misfit_p,
-                 const std::optional<Errors>& heldout, const std::string& why) {
+v1::Rung rung_of(const Trial& trial, const LeftOver& left, const std::string& added, double first,
+                 double misfit_p, const std::optional<Errors>& heldout, const std::string& why) {
   v1::Rung out;
   out.set_model(print(trial.fit.model));
   out.set_added(added);
-  out.set_training_error(training_errors(trial).mean_error());
+  out.set_training_error(training_errors(trial, left).mean_error());
   if (heldout) {
     out.set_heldout_error(heldout->mean_error());
     const double dof = static_cast<double>(heldout->error.size()) - 1.0;
@@ -249,7 +248,7 @@ v1::Rung rung_of(const Trial& trial, const std::string& added, double first, dou
   out.set_misfit_p(misfit_p);
   out.set_why(why);
   const std::string unit = integral_unit(trial.regression.subject().quantity);
-  for (const RunOff& from : run_off_of(trial)) {
+  for (const RunOff& from : run_off_of(trial, left)) {
     v1::Drift& drift = *out.add_drift();
     drift.set_seconds(from.seconds);
     drift.set_predicted(from.predicted);
@@ -259,17 +258,9 @@ v1::Rung rung_of(const Trial& trial, const std::string& added, double first, dou
   return out;
 }
 
-v1::NoiseBudget budget_of(const Trial& trial) {
-  const Subject& subject = trial.regression.subject();
+v1::NoiseBudget budget_of(const Trial& trial, const LeftOver& left) {
   const Model& noise = trial.fit.model.noise;
-  std::vector<WaveletVariance> measured(subject.replicates());
-  for_each_index(measured.size(), [&](std::size_t k) {
-    const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
-    const auto n = static_cast<std::size_t>(left.size());
-    measured[k] = wavelet_variance(
-        Signal(std::span<const double>(left.data(), n), subject.rate, subject.quantity),
-        Scales::for_samples(n));
-  });
+  const std::vector<WaveletVariance>& measured = left.variances;
   const MomentCovariances covariances = moment_covariances(noise, measured);
   const PerReplicate<NormalScores> scores = normal_scores(noise, measured, covariances);
   std::vector<std::vector<bool>> tested;

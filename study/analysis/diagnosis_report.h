@@ -3,6 +3,7 @@
 // A diagnosis as a message.
 
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/heldout.h"
 #include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::study {
@@ -12,11 +13,11 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
                    const std::vector<std::string>& replicates, v1::DiagnosisReport& to);
 
 /// A model that was tried, for the ladder. `first` is the likelihood of the lowest rung.
-v1::Rung rung_of(const Trial& trial, const std::string& added, double first, double misfit_p,
-                 const std::optional<Errors>& heldout, const std::string& why);
+v1::Rung rung_of(const Trial& trial, const LeftOver& left, const std::string& added, double first,
+                 double misfit_p, const std::optional<Errors>& heldout, const std::string& why);
 
 /// The measured wavelet variance, with the effects taken out, against the noise of a fit.
-v1::NoiseBudget budget_of(const Trial& trial);
+v1::NoiseBudget budget_of(const Trial& trial, const LeftOver& left);
 
 /// What an effect adds to the model, in the grammar.
 std::string added_term(const TriedEffect& effect);
