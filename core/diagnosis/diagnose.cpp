@@ -11,9 +11,10 @@
 namespace imunoise {
 namespace {
 
-constexpr double kClearGap = 3.0;     // nats: less cannot tell two effects apart
-constexpr std::size_t kProven = 3;    // effects that are tried on held-out replicates
-constexpr double kMisfitShare = 0.2;  // of the level is spent on misfits of unknown cause
+constexpr double kClearGap = 3.0;      // nats: less cannot tell two effects apart
+constexpr std::size_t kProven = 3;     // effects are proven on held-out replicates,
+constexpr std::size_t kMostTried = 8;  // of at most so many that are tried
+constexpr double kMisfitShare = 0.2;   // of the level is spent on misfits of unknown cause
 
 bool has_witness(const Subject& subject, std::string_view effect) {
   return std::any_of(subject.witnesses.begin(), subject.witnesses.end(), [&](const Witness& one) {
@@ -64,6 +65,24 @@ void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
 bool proven(const RankedEffect& effect, const std::optional<Errors>& before) {
   if (!effect.heldout || !before) return true;
   return effect.heldout->total_likelihood() > before->total_likelihood();
+}
+
+// Holds replicates out for the best effects, until enough of them are proven. The best of those
+// comes first: evidence that other replicates do not bear out is no evidence.
+void prove(Diagnosis& out, double level, const Progress& progress) {
+  std::size_t tried = 0;
+  std::size_t passed = 0;
+  for (; tried < out.effects.size() && passed < kProven && tried < kMostTried; ++tried) {
+    RankedEffect& one = out.effects[tried];
+    if (progress.stopped() || (tried >= kProven && !(one.familywise_p < level))) break;
+    if (can_hold_out(one.tried.trial)) one.heldout = heldout_errors(one.tried.trial);
+    if (proven(one, out.heldout)) ++passed;
+  }
+  const auto end = out.effects.begin() + static_cast<std::ptrdiff_t>(tried);
+  const auto best = std::find_if(out.effects.begin(), end, [&](const RankedEffect& one) {
+    return one.familywise_p < level && proven(one, out.heldout);
+  });
+  if (best != end) std::rotate(out.effects.begin(), best, best + 1);
 }
 
 std::string parameter_of(const Suggestion& one) {
@@ -125,18 +144,15 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
     out.effects.push_back(std::move(one));
   }
   const double level = (1.0 - kMisfitShare) * options.level;
-  fill_confusions(out.effects, subject, level);
   out.misfit = misfit_of(model);
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);
   if (can_hold_out(model)) {
     out.heldout = heldout_errors(model);
-    for (std::size_t i = 0; i < std::min(kProven, out.effects.size()); ++i) {
-      if (progress.stopped()) return {};
-      if (can_hold_out(out.effects[i].tried.trial))
-        out.effects[i].heldout = heldout_errors(out.effects[i].tried.trial);
-    }
+    prove(out, level, progress);
+    if (progress.stopped()) return {};
   }
+  fill_confusions(out.effects, subject, level);
   progress.report(1.0);
   for (const Suggestion& one : all) {
     if (auto limit = limit_of(one, level / static_cast<double>(all.size())))

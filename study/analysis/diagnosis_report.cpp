@@ -106,6 +106,13 @@ std::string summary_of(const Diagnosis& diagnosis) {
           effect_info(best.tried.effect).record_next);
     }
     case DiagnosisVerdict::kUnknown:
+      if (diagnosis.worth_adding) {
+        const RankedEffect& best = diagnosis.effects.front();
+        return fmt::format(
+            "Missing: {} ({}), but it does not explain everything: something unknown remains. Add "
+            "it and look again (--auto does), and see where the model fails.",
+            effect_info(best.tried.effect).title, chance_words(best.familywise_p));
+      }
       return "The model misses something that no known effect explains: look where it fails.";
     case DiagnosisVerdict::kNone:
       break;
