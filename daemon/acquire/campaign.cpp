@@ -33,14 +33,24 @@ class Run {
       const auto state = newest_ ? std::optional(newest_->state) : std::nullopt;
       if (mode_ == RunMode::kOnce && !memory_.once_since) memory_.once_since = only_start(now);
       const Step step = next_step(campaign_, state, memory_, now);
-      // What holds it up was told when it came about.
-      if (step.phase != v1::held_up) tell(step, std::exchange(news_, {}));
+      if (step.new_recording) folder_of_next_ = folder_at(now);
+      if (worth_telling(step.phase)) tell(step, std::exchange(news_, {}));
       if (step.phase == v1::finished) return;
       take(step, now);
     }
   }
 
  private:
+  std::filesystem::path folder_at(Time started) const {
+    return std::filesystem::path(campaign_.folder()) / recording_name(started);
+  }
+
+  // What holds it up was told when it came about.
+  bool worth_telling(v1::CampaignPhase phase) const {
+    return phase != v1::held_up && (phase != v1::calibrating || with_.calibrate) &&
+           (phase != v1::publishing || with_.publish);
+  }
+
   // Of the only recording: the newest, while it is unfinished.
   Time only_start(Time now) const {
     const bool unfinished =
@@ -59,7 +69,7 @@ class Run {
         with_.clock.wait_until(*step.until, stop_);
         break;
       case v1::recording:
-        record(step, now);
+        record(step);
         break;
       case v1::calibrating:
         memory_.calibrated = true;  // what fails is told; the recording is there to try by hand
@@ -77,11 +87,11 @@ class Run {
     }
   }
 
-  void record(const Step& step, Time now) {
+  void record(const Step& step) {
     ReplicateTask task{newest_ ? newest_->folder : std::filesystem::path(), step.attempt,
                        campaign_.replicates() - step.replicate};
     if (step.new_recording) {
-      task.folder = std::filesystem::path(campaign_.folder()) / recording_name(now);
+      task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
     }
     if (auto done = make_root(); !done) return hold_up(done.error().message);
@@ -143,7 +153,11 @@ class Run {
     v1::CampaignStatus status;
     status.set_campaign(campaign_.name());
     status.set_phase(step.phase);
-    if (newest_ && !step.new_recording) status.set_recording(newest_->folder.string());
+    if (step.phase == v1::recording && step.new_recording) {
+      status.set_recording(folder_of_next_.string());
+    } else if (newest_ && !step.new_recording) {
+      status.set_recording(newest_->folder.string());
+    }
     status.set_replicate(step.replicate);
     status.set_replicates(campaign_.replicates());
     status.set_attempt(step.attempt);
@@ -159,6 +173,7 @@ class Run {
   RunMode mode_;
   Memory memory_;
   std::optional<FoundRecording> newest_;
+  std::filesystem::path folder_of_next_;
   std::chrono::seconds pause_ = kFirstPause;
   std::string news_;  // what the next status tells of the step before it
 };

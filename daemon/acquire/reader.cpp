@@ -22,6 +22,7 @@ Reader::Reader(recording::Recorder& recorder, ReaderPlan plan,
       plan_(std::move(plan)),
       stillness_(plan_.device),
       lost_(static_cast<std::size_t>(plan_.device.streams_size()), false),
+      pause_(plan_.reopening.first),
       device_(std::move(device)),
       thread_([this] { run(); }) {}
 
@@ -54,6 +55,7 @@ bool Reader::step(drivers::Block& block) {
   switch (*outcome) {
     case drivers::ReadOutcome::kSamples:
       connected_ = true;
+      pause_ = plan_.reopening.first;
       return push(block);
     case drivers::ReadOutcome::kTimeout:
       return true;
@@ -86,24 +88,22 @@ bool Reader::push(const drivers::Block& block) {
 // Waits, opens, waits longer. False when it was told to stop before.
 bool Reader::open_again() {
   if (connected_) ++disconnections_;
-  connected_ = false;
+  connected_ = false;  // until samples come
   lost_.assign(lost_.size(), true);
-  std::chrono::milliseconds pause = plan_.reopening.first;
   std::unique_lock lock(mutex_);
   device_.reset();
-  while (!stopping_.wait_for(lock, pause, [&] { return stop_; })) {
+  while (!stopping_.wait_for(lock, pause_, [&] { return stop_; })) {
+    pause_ = std::min(2 * pause_, plan_.reopening.longest);
     lock.unlock();
     auto opened = same_device();
     lock.lock();
     if (stop_) return false;
     if (opened) {
       device_ = std::move(*opened);
-      failure_.reset();
-      connected_ = true;
+      disconnection_ = std::exchange(failure_, std::nullopt)->message;
       return true;
     }
     failure_ = opened.error();
-    pause = std::min(2 * pause, plan_.reopening.longest);
   }
   return false;
 }

@@ -70,7 +70,8 @@ class Reader {
   recording::Recorder& recorder_;
   ReaderPlan plan_;
   StillnessWatch stillness_;
-  std::vector<bool> lost_;  // of each stream: samples are missing before its next row
+  std::vector<bool> lost_;           // of each stream: samples are missing before its next row
+  std::chrono::milliseconds pause_;  // before it is opened the next time
   bool connected_ = true;
   std::uint64_t disconnections_ = 0;
   std::string disconnection_;
