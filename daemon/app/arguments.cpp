@@ -27,6 +27,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   program.add_option("CONFIG", campaigns, "Campaigns: TOML files, or folders of them")->required();
   program.add_flag("--check-config", out.check_config,
                    "Say what is wrong with the campaigns, and where; record nothing");
+  program.add_flag("--print-timer", out.print_timer,
+                   "Print the timer's drop-in for a campaign with a calendar; record nothing");
   program.add_flag("--once", out.once,
                    "Make one recording of each campaign: the unfinished one, or else a new one");
   program

@@ -10,6 +10,7 @@ struct Arguments {
   std::vector<std::filesystem::path> campaigns;  ///< Files, and folders of files.
   std::vector<std::filesystem::path> driver_folders;
   bool check_config = false;
+  bool print_timer = false;
   bool once = false;
 };
 

@@ -34,6 +34,23 @@ int check_config(const CampaignFiles& files, const drivers::Drivers& drivers) {
   return files.problems.empty() ? 0 : 1;
 }
 
+// What makes imunoise-campaign@NAME.timer follow the calendars of these campaigns.
+int print_timer(const CampaignFiles& files) {
+  for (const std::string& problem : files.problems) fmt::print(stderr, "{}\n", problem);
+  bool good = files.problems.empty();
+  for (const CampaignFile& one : files.found) {
+    const std::string& calendar = one.campaign.schedule().calendar();
+    if (calendar.empty()) {
+      fmt::print(stderr, "{}: has no calendar; give it [schedule] calendar = \"...\"\n",
+                 one.file.string());
+      good = false;
+      continue;
+    }
+    fmt::print("[Timer]\nOnCalendar=\nOnCalendar={}\n", calendar);
+  }
+  return good ? 0 : 1;
+}
+
 // A campaign with a calendar is started by its timer, which asks for one recording.
 std::vector<CampaignFile> to_run(const CampaignFiles& files, bool once, Log& log) {
   std::vector<CampaignFile> out;
@@ -87,6 +104,7 @@ int run(int argc, const char* const* argv) {
       drivers::load_drivers(drivers::driver_folders(arguments.driver_folders));
   const CampaignFiles files = read_campaigns(arguments.campaigns, drivers);
   if (arguments.check_config) return check_config(files, drivers);
+  if (arguments.print_timer) return print_timer(files);
   return record(files, drivers, arguments.once, signals);
 }
 

@@ -287,6 +287,15 @@ TEST_F(Imunoised, WaitsForTheScheduleAndTellsSystemd) {
   EXPECT_NE(told.find("STOPPING=1\n"), std::string::npos) << told;
 }
 
+TEST_F(Imunoised, PrintsTheTimerOfACalendar) {
+  campaign("bench", "length = \"1 s\"\nschedule = { calendar = \"Mon 02:00\" }\n" + device("a"));
+  EXPECT_EQ(run({"--print-timer", "bench.toml"}), 0);
+  EXPECT_EQ(read("out"), "[Timer]\nOnCalendar=\nOnCalendar=Mon 02:00\n");
+  campaign("other", "length = \"1 s\"\n" + device("a"));
+  EXPECT_EQ(run({"--print-timer", "other.toml"}), 1);
+  EXPECT_NE(read("errors").find("has no calendar"), std::string::npos);
+}
+
 TEST_F(Imunoised, ACalendarIsLeftToItsTimer) {
   campaign("bench", "length = \"1 s\"\nschedule = { calendar = \"Mon 02:00\" }\n" + device("a"));
   EXPECT_EQ(run({"bench.toml"}), 0);
