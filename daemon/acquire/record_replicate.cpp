@@ -28,9 +28,9 @@ std::int64_t now_ns() {
 // One replicate, from its plan to its outcome; functions in the order in which they are called.
 class Replicate {
  public:
-  Replicate(recording::FileSystem& files, const ReplicatePlan& plan, const DeviceNote& note,
+  Replicate(recording::FileSystem& files, const ReplicatePlan& plan, const DeviceNote& tell,
             const Progress& progress)
-      : files_(files), plan_(plan), note_(note), progress_(progress) {
+      : files_(files), plan_(plan), tell_(tell), progress_(progress) {
     for (std::size_t i = 0; plan.wire && i < plan.devices.size(); ++i) {
       wires_.push_back(std::make_unique<WireFile>());
     }
@@ -47,7 +47,7 @@ class Replicate {
     open_wires();
     read(**recorder, *opened);
     conclude();
-    (*recorder)->annotate(recorded_.note);
+    (*recorder)->annotate(note_);
     const auto closed = (*recorder)->close();
     for (const auto& reader : readers_) {
       if (reader->disk_failure()) return tl::make_unexpected(*reader->disk_failure());
@@ -61,7 +61,7 @@ class Replicate {
   Result<std::unique_ptr<drivers::Device>> open(std::size_t i) {
     drivers::WireHandler wire;
     if (!wires_.empty()) wire = [file = wires_[i].get()](auto bytes) { file->take(bytes); };
-    return open_device(plan_.devices[i], note_, std::move(wire));
+    return open_device(plan_.devices[i], tell_, std::move(wire));
   }
 
   void describe(const OpenDevices& opened) {
@@ -74,7 +74,8 @@ class Replicate {
       recorded_.devices.push_back(
           recorded_device(device.name, device.driver.info.name, opened.devices[i]->info()));
     }
-    recorded_.note.mutable_missing()->Add(opened.missing.begin(), opened.missing.end());
+    note_.mutable_missing()->Add(opened.missing.begin(), opened.missing.end());
+    recorded_.note = note_;
   }
 
   // With an end in sight, everything that is to come must fit.
@@ -146,7 +147,6 @@ class Replicate {
 
   // What the manifest will say.
   void conclude() {
-    v1::ReplicateNote& note = recorded_.note;
     std::vector<v1::Disturbance> disturbances;
     std::size_t failed = 0;
     for (std::size_t i = 0; i < readers_.size(); ++i) {
@@ -155,21 +155,21 @@ class Replicate {
       disturbances.insert(disturbances.end(), seen.begin(), seen.end());
       if (!reader.failure() && reader.connected()) continue;
       if (reader.failure()) ++failed;
-      v1::MissingDevice& missing = *note.add_missing();
+      v1::MissingDevice& missing = *note_.add_missing();
       missing.set_device(recorded_.devices[i].name());
       missing.set_reason(reader.failure() ? reader.failure()->message : reader.disconnection());
     }
     for (const v1::Disturbance& one : merge_disturbances(std::move(disturbances))) {
-      *note.add_disturbances() = one;
+      *note_.add_disturbances() = one;
     }
     if (interruption_.empty() && failed == readers_.size()) {
-      interruption_ = note.missing(note.missing_size() - 1).reason();
+      interruption_ = note_.missing(note_.missing_size() - 1).reason();
     }
-    note.set_replicate(plan_.replicate);
-    note.set_started_ns(recorded_.started_ns);
-    note.set_ended_ns(now_ns());
-    note.set_state(interruption_.empty() ? v1::complete : v1::interrupted);
-    note.set_reason(interruption_);
+    note_.set_replicate(plan_.replicate);
+    note_.set_started_ns(recorded_.started_ns);
+    note_.set_ended_ns(now_ns());
+    note_.set_state(interruption_.empty() ? v1::complete : v1::interrupted);
+    note_.set_reason(interruption_);
   }
 
   Result<void> close_wires() {
@@ -180,7 +180,7 @@ class Replicate {
   }
 
   ReplicateOutcome outcome(const recording::RecorderState& state) const {
-    ReplicateOutcome out{{}, recorded_.note};
+    ReplicateOutcome out{{}, note_};
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       out.devices.push_back({recorded_.devices[i], state.counts[i], readers_[i]->disconnections(),
                              readers_[i]->failure()});
@@ -190,10 +190,11 @@ class Replicate {
 
   recording::FileSystem& files_;
   const ReplicatePlan& plan_;
-  const DeviceNote& note_;
+  const DeviceNote& tell_;
   const Progress& progress_;
   std::vector<std::unique_ptr<WireFile>> wires_;  // by device; they outlive those, which write
   recording::RecordingPlan recorded_;
+  v1::ReplicateNote note_;  // what the manifest will say
   std::vector<std::unique_ptr<Reader>> readers_;
   std::string interruption_;
 };

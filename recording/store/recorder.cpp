@@ -34,11 +34,13 @@ Result<v1::Manifest> open_manifest(FileSystem& files, const std::filesystem::pat
   if (manifest.campaign().empty()) manifest.set_campaign(plan.campaign);
   for (const v1::RecordedDevice& device : plan.devices) add_device(manifest, device);
   end_open_replicates(manifest);
-  v1::ReplicateNote note = plan.note;
-  note.set_replicate(plan.replicate);
-  note.set_state(v1::open);
-  note.set_started_ns(plan.started_ns);
-  set_note(manifest, note);
+  if (plan.note) {
+    v1::ReplicateNote note = *plan.note;
+    note.set_replicate(plan.replicate);
+    note.set_state(v1::open);
+    note.set_started_ns(plan.started_ns);
+    set_note(manifest, note);
+  }
   manifest.set_closed(false);
   return manifest;
 }

@@ -21,8 +21,9 @@ struct RecordingPlan {
   std::uint32_t replicate = 1;
   std::int64_t started_ns = 0;  ///< ns since 1970-01-01 UTC, for the manifest.
   std::vector<v1::RecordedDevice> devices;
-  /// How the replicate comes about, for the manifest; its number and state are set.
-  v1::ReplicateNote note;
+  /// Set: how the replicate comes about, for the manifest; its number, start and state are filled
+  /// in.
+  std::optional<v1::ReplicateNote> note = {};
 };
 
 struct RecorderOptions {
