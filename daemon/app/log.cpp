@@ -4,6 +4,8 @@
 #include <spdlog/logger.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/sinks/systemd_sink.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -13,9 +15,18 @@ namespace {
 constexpr std::size_t kLines = 20;
 constexpr std::chrono::seconds kWindow{60};
 
-spdlog::sink_ptr make_sink() {
+// Whether standard error is the journal: systemd names its device and inode, and what it started
+// may have put another file in its place.
+bool in_journal() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing of ours changes the environment.
-  if (std::getenv("JOURNAL_STREAM") != nullptr) {
+  const char* const stream = std::getenv("JOURNAL_STREAM");
+  struct stat errors {};
+  return stream != nullptr && ::fstat(STDERR_FILENO, &errors) == 0 &&
+         fmt::format("{}:{}", errors.st_dev, errors.st_ino) == stream;
+}
+
+spdlog::sink_ptr make_sink() {
+  if (in_journal()) {
     return std::make_shared<spdlog::sinks::systemd_sink_mt>("imunoised");
   }
   auto out = std::make_shared<spdlog::sinks::stderr_sink_mt>();

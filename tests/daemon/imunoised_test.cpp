@@ -287,6 +287,13 @@ TEST_F(Imunoised, WaitsForTheScheduleAndTellsSystemd) {
   EXPECT_NE(told.find("STOPPING=1\n"), std::string::npos) << told;
 }
 
+TEST_F(Imunoised, AJournalThatIsNotItsOwnDoesNotSilenceIt) {
+  campaign("bench", "length = \"1 s\"\n" + device("a"));
+  start({"bench.toml"}, {{"JOURNAL_STREAM", "1:2"}});
+  EXPECT_TRUE(comes("records replicate 1 of 1"));
+  EXPECT_EQ(wait(), 0);
+}
+
 TEST_F(Imunoised, PrintsTheTimerOfACalendar) {
   campaign("bench", "length = \"1 s\"\nschedule = { calendar = \"Mon 02:00\" }\n" + device("a"));
   EXPECT_EQ(run({"--print-timer", "bench.toml"}), 0);
