@@ -106,12 +106,16 @@ int run(const RecordArguments& arguments) {
   bool failed = false;
   for (std::uint32_t k = 0; k < arguments.replicates && !interrupt.token().stop_requested(); ++k) {
     ProgressLine line(fmt::format("replicate {}", first + k));
-    const auto outcomes = acquire::record_replicate(
-        recording::posix_file_system(),
-        {arguments.folder, first + k, *devices, arguments.duration, arguments.wire}, note,
-        line.progress(interrupt.token()));
-    if (!outcomes) return print_error(outcomes.error());
-    for (const acquire::DeviceOutcome& one : *outcomes) {
+    acquire::ReplicatePlan plan;
+    plan.folder = arguments.folder;
+    plan.replicate = first + k;
+    plan.devices = *devices;
+    plan.duration = arguments.duration;
+    plan.wire = arguments.wire;
+    const auto outcome = acquire::record_replicate(recording::posix_file_system(), plan, note,
+                                                   line.progress(interrupt.token()));
+    if (!outcome) return print_error(outcome.error());
+    for (const acquire::DeviceOutcome& one : outcome->devices) {
       add(one, first + k, report);
       failed = failed || one.failure.has_value();
     }

@@ -16,6 +16,7 @@ build_packages=(
   libprotobuf-dev protobuf-compiler
   libhdf5-dev libdeflate-dev  # recordings
   libcli11-dev     # the command line
+  libtomlplusplus-dev libspdlog-dev libsystemd-dev  # the daemon
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
 )

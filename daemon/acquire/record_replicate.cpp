@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <thread>
 #include <utility>
 
@@ -17,132 +16,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPatience{100};  // of one read, and of whoever watches the readers
-constexpr std::size_t kBlockRows = 1024;
-
-// One device's reader. Its thread is the only one that reads the device.
-class Reader {
- public:
-  Reader(recording::Recorder& recorder, std::size_t index, drivers::Device& device)
-      : recorder_(recorder), index_(index), device_(device), thread_([this] { run(); }) {}
-  ~Reader() { stop(); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-
-  void stop() {
-    device_.cancel();
-    if (thread_.joinable()) thread_.join();
-  }
-  bool ended() const { return ended_; }
-
-  // After stop().
-  std::uint64_t disconnections() const { return disconnections_; }
-  const std::optional<Error>& failure() const { return failure_; }
-  const std::optional<Error>& disk_failure() const { return disk_failure_; }
-
- private:
-  void run() {
-    drivers::Block block = device_.make_block(kBlockRows);
-    while (step(block)) {
-    }
-    ended_ = true;
-  }
-
-  // False when there is nothing more to read.
-  bool step(drivers::Block& block) {
-    const auto outcome = device_.read(kPatience, block);
-    if (!outcome) {
-      failure_ = outcome.error();
-      return false;
-    }
-    switch (*outcome) {
-      case drivers::ReadOutcome::kSamples:
-        if (const auto taken = recorder_.push(index_, recorded_block(block)); !taken) {
-          disk_failure_ = taken.error();
-          return false;
-        }
-        connected_ = true;
-        return true;
-      case drivers::ReadOutcome::kTimeout:
-        return true;
-      case drivers::ReadOutcome::kDisconnected:
-        if (connected_) ++disconnections_;
-        connected_ = false;
-        return true;
-      case drivers::ReadOutcome::kCancelled:
-      case drivers::ReadOutcome::kEnd:
-        break;
-    }
-    return false;
-  }
-
-  recording::Recorder& recorder_;
-  std::size_t index_;
-  drivers::Device& device_;
-  bool connected_ = true;
-  std::uint64_t disconnections_ = 0;
-  std::optional<Error> failure_;
-  std::optional<Error> disk_failure_;
-  std::atomic<bool> ended_ = false;
-  std::thread thread_;  // last: it uses all of the above
-};
-
-// By device; none where wires are not recorded. They outlive the devices, which write into them.
-using WireFiles = std::vector<std::unique_ptr<WireFile>>;
-
-WireFiles make_wire_files(const ReplicatePlan& plan) {
-  WireFiles out;
-  for (std::size_t i = 0; plan.wire && i < plan.devices.size(); ++i) {
-    out.push_back(std::make_unique<WireFile>());
-  }
-  return out;
-}
-
-void open_wire_files(recording::FileSystem& files, const ReplicatePlan& plan,
-                     const WireFiles& wires) {
-  for (std::size_t i = 0; i < wires.size(); ++i) {
-    wires[i]->open(files, plan.folder / recording::replicate_folder(plan.replicate) /
-                              (plan.devices[i].name + ".wire"));
-  }
-}
-
-Result<std::vector<std::unique_ptr<drivers::Device>>> open_devices(const ReplicatePlan& plan,
-                                                                   const DeviceNote& note,
-                                                                   const WireFiles& wires) {
-  std::vector<std::unique_ptr<drivers::Device>> out;
-  for (const DevicePlan& one : plan.devices) {
-    drivers::WireHandler wire;
-    if (!wires.empty()) {
-      wire = [file = wires[out.size()].get()](auto bytes) { file->take(bytes); };
-    }
-    auto device = drivers::Device::open(
-        one.driver, one.options,
-        [note, name = one.name](std::string_view text) {
-          if (note) note(name, text);
-        },
-        std::move(wire));
-    if (!device) return fail(fmt::format("{}: {}", one.name, device.error().message));
-    out.push_back(std::move(*device));
-  }
-  return out;
-}
-
-// Waits for the end of the plan, of all readers, or of the caller's patience.
-void wait(const ReplicatePlan& plan, const std::vector<std::unique_ptr<Reader>>& readers,
-          const Progress& progress) {
-  const Clock::time_point begin = Clock::now();
-  const auto over = [&] {
-    if (progress.stopped()) return true;
-    if (std::all_of(readers.begin(), readers.end(), [](const auto& r) { return r->ended(); })) {
-      return true;
-    }
-    if (!plan.duration) return false;
-    const std::chrono::duration<double> passed = Clock::now() - begin;
-    progress.report(std::min(1.0, passed / *plan.duration));
-    return passed >= *plan.duration;
-  };
-  while (!over()) std::this_thread::sleep_for(kPatience / 10);
-}
+constexpr milliseconds kWatchEvery{10};   // readers and the caller's wish to stop
+constexpr milliseconds kLookEvery{1000};  // at the disk
 
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -150,48 +25,185 @@ std::int64_t now_ns() {
       .count();
 }
 
+// One replicate, from its plan to its outcome; functions in the order in which they are called.
+class Replicate {
+ public:
+  Replicate(recording::FileSystem& files, const ReplicatePlan& plan, const DeviceNote& tell,
+            const Progress& progress)
+      : files_(files), plan_(plan), tell_(tell), progress_(progress) {
+    for (std::size_t i = 0; plan.wire && i < plan.devices.size(); ++i) {
+      wires_.push_back(std::make_unique<WireFile>());
+    }
+  }
+
+  Result<ReplicateOutcome> run() {
+    auto opened = open_devices(
+        plan_.devices, [this](std::size_t i) { return open(i); }, plan_.patience, progress_);
+    if (!opened) return tl::make_unexpected(opened.error());
+    describe(*opened);
+    if (auto room = check_disk(); !room) return tl::make_unexpected(room.error());
+    auto recorder = recording::Recorder::start(files_, plan_.folder, recorded_);
+    if (!recorder) return tl::make_unexpected(recorder.error());
+    open_wires();
+    read(**recorder, *opened);
+    conclude();
+    (*recorder)->annotate(note_);
+    const auto closed = (*recorder)->close();
+    for (const auto& reader : readers_) {
+      if (reader->disk_failure()) return tl::make_unexpected(*reader->disk_failure());
+    }
+    if (!closed) return tl::make_unexpected(closed.error());
+    if (auto done = close_wires(); !done) return tl::make_unexpected(done.error());
+    return outcome((*recorder)->state());
+  }
+
+ private:
+  Result<std::unique_ptr<drivers::Device>> open(std::size_t i) {
+    drivers::WireHandler wire;
+    if (!wires_.empty()) wire = [file = wires_[i].get()](auto bytes) { file->take(bytes); };
+    return open_device(plan_.devices[i], tell_, std::move(wire));
+  }
+
+  void describe(const OpenDevices& opened) {
+    recorded_.campaign = plan_.campaign;
+    recorded_.replicate = plan_.replicate;
+    recorded_.started_ns = now_ns();
+    for (std::size_t i = 0; i < opened.devices.size(); ++i) {
+      if (!opened.devices[i]) continue;
+      const DevicePlan& device = plan_.devices[i];
+      recorded_.devices.push_back(
+          recorded_device(device.name, device.driver.info.name, opened.devices[i]->info()));
+    }
+    note_.mutable_missing()->Add(opened.missing.begin(), opened.missing.end());
+    recorded_.note = note_;
+  }
+
+  // With an end in sight, everything that is to come must fit.
+  Result<void> check_disk() const {
+    if (!plan_.duration) return {};
+    const auto free = plan_.free_space(plan_.folder);
+    if (!free) return tl::make_unexpected(free.error());
+    const double replicates = 1.0 + plan_.replicates_to_come;
+    return check_room(
+        {recorded_.devices, plan_.duration->count() * replicates, plan_.reserve_bytes}, *free);
+  }
+
+  void open_wires() {
+    for (std::size_t i = 0; i < wires_.size(); ++i) {
+      wires_[i]->open(files_, plan_.folder / recording::replicate_folder(plan_.replicate) /
+                                  (plan_.devices[i].name + ".wire"));
+    }
+  }
+
+  void read(recording::Recorder& recorder, OpenDevices& opened) {
+    for (std::size_t i = 0; i < opened.devices.size(); ++i) {
+      if (!opened.devices[i]) continue;
+      ReaderPlan one{readers_.size(),
+                     recorded_.devices[readers_.size()],
+                     plan_.devices[i].driver.info.name,
+                     {},
+                     {}};
+      if (plan_.reopening) {
+        one.open = [this, i] { return open(i); };
+        one.reopening = *plan_.reopening;
+      }
+      readers_.push_back(
+          std::make_unique<Reader>(recorder, std::move(one), std::move(opened.devices[i])));
+    }
+    wait();
+    for (const auto& reader : readers_) reader->stop();
+  }
+
+  // Until the plan's end, the readers', the disk's, or that of the caller's patience.
+  void wait() {
+    const Clock::time_point begin = Clock::now();
+    Clock::time_point looked = begin;
+    const auto over = [&] {
+      if (progress_.stopped()) {
+        if (plan_.duration) interruption_ = "it was stopped";
+        return true;
+      }
+      if (std::all_of(readers_.begin(), readers_.end(), [](const auto& r) { return r->ended(); })) {
+        return true;
+      }
+      if (Clock::now() - looked >= kLookEvery) {
+        looked = Clock::now();
+        if (reserve_is_reached()) return true;
+      }
+      if (!plan_.duration) return false;
+      const std::chrono::duration<double> passed = Clock::now() - begin;
+      progress_.report(std::min(1.0, passed / *plan_.duration));
+      return passed >= *plan_.duration;
+    };
+    while (!over()) std::this_thread::sleep_for(kWatchEvery);
+  }
+
+  bool reserve_is_reached() {
+    const auto free = plan_.free_space(plan_.folder);
+    if (!free || *free >= plan_.reserve_bytes) return false;
+    interruption_ = "the disk's reserve was reached; make room";
+    return true;
+  }
+
+  // What the manifest will say.
+  void conclude() {
+    std::vector<v1::Disturbance> disturbances;
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < readers_.size(); ++i) {
+      const Reader& reader = *readers_[i];
+      const auto& seen = reader.disturbances();
+      disturbances.insert(disturbances.end(), seen.begin(), seen.end());
+      if (!reader.failure() && reader.connected()) continue;
+      if (reader.failure()) ++failed;
+      v1::MissingDevice& missing = *note_.add_missing();
+      missing.set_device(recorded_.devices[i].name());
+      missing.set_reason(reader.failure() ? reader.failure()->message : reader.disconnection());
+    }
+    for (const v1::Disturbance& one : merge_disturbances(std::move(disturbances))) {
+      *note_.add_disturbances() = one;
+    }
+    if (interruption_.empty() && failed == readers_.size()) {
+      interruption_ = note_.missing(note_.missing_size() - 1).reason();
+    }
+    note_.set_replicate(plan_.replicate);
+    note_.set_started_ns(recorded_.started_ns);
+    note_.set_ended_ns(now_ns());
+    note_.set_state(interruption_.empty() ? v1::complete : v1::interrupted);
+    note_.set_reason(interruption_);
+  }
+
+  Result<void> close_wires() {
+    for (const auto& wire : wires_) {
+      if (auto done = wire->close(); !done) return done;
+    }
+    return {};
+  }
+
+  ReplicateOutcome outcome(const recording::RecorderState& state) const {
+    ReplicateOutcome out{{}, note_};
+    for (std::size_t i = 0; i < readers_.size(); ++i) {
+      out.devices.push_back({recorded_.devices[i], state.counts[i], readers_[i]->disconnections(),
+                             readers_[i]->failure()});
+    }
+    return out;
+  }
+
+  recording::FileSystem& files_;
+  const ReplicatePlan& plan_;
+  const DeviceNote& tell_;
+  const Progress& progress_;
+  std::vector<std::unique_ptr<WireFile>> wires_;  // by device; they outlive those, which write
+  recording::RecordingPlan recorded_;
+  v1::ReplicateNote note_;  // what the manifest will say
+  std::vector<std::unique_ptr<Reader>> readers_;
+  std::string interruption_;
+};
+
 }  // namespace
 
-Result<std::vector<DeviceOutcome>> record_replicate(recording::FileSystem& files,
-                                                    const ReplicatePlan& plan,
-                                                    const DeviceNote& note,
-                                                    const Progress& progress) {
-  const WireFiles wires = make_wire_files(plan);
-  const auto devices = open_devices(plan, note, wires);
-  if (!devices) return tl::make_unexpected(devices.error());
-  recording::RecordingPlan recorded;
-  recorded.replicate = plan.replicate;
-  recorded.started_ns = now_ns();
-  for (std::size_t i = 0; i < devices->size(); ++i) {
-    recorded.devices.push_back(recorded_device(
-        plan.devices[i].name, plan.devices[i].driver.info.name, (*devices)[i]->info()));
-  }
-  const auto recorder = recording::Recorder::start(files, plan.folder, recorded);
-  if (!recorder) return tl::make_unexpected(recorder.error());
-  open_wire_files(files, plan, wires);
-
-  std::vector<std::unique_ptr<Reader>> readers;
-  for (std::size_t i = 0; i < devices->size(); ++i) {
-    readers.push_back(std::make_unique<Reader>(**recorder, i, *(*devices)[i]));
-  }
-  wait(plan, readers, progress);
-  for (const auto& reader : readers) reader->stop();
-  const auto closed = (*recorder)->close();
-
-  for (const auto& reader : readers) {
-    if (reader->disk_failure()) return tl::make_unexpected(*reader->disk_failure());
-  }
-  if (!closed) return tl::make_unexpected(closed.error());
-  for (const auto& wire : wires) {
-    if (const auto done = wire->close(); !done) return tl::make_unexpected(done.error());
-  }
-  const recording::RecorderState state = (*recorder)->state();
-  std::vector<DeviceOutcome> out;
-  for (std::size_t i = 0; i < readers.size(); ++i) {
-    out.push_back({recorded.devices[i], state.counts[i], readers[i]->disconnections(),
-                   readers[i]->failure()});
-  }
-  return out;
+Result<ReplicateOutcome> record_replicate(recording::FileSystem& files, const ReplicatePlan& plan,
+                                          const DeviceNote& note, const Progress& progress) {
+  return Replicate(files, plan, note, progress).run();
 }
 
 }  // namespace imunoise::acquire

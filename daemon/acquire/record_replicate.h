@@ -9,26 +9,31 @@
 #include <vector>
 
 #include "core/support/progress.h"
-#include "drivers/host/device.h"
+#include "daemon/acquire/disk_space.h"
+#include "daemon/acquire/open_devices.h"
+#include "daemon/acquire/reader.h"
 #include "recording/store/recorder.h"
 
 namespace imunoise::acquire {
-
-/// A device to record.
-struct DevicePlan {
-  std::string name;  ///< In the recording; unique there.
-  drivers::Driver driver;
-  std::vector<drivers::OptionText> options;
-};
 
 struct ReplicatePlan {
   std::filesystem::path folder;  ///< Of the recording; made when missing.
   std::uint32_t replicate = 1;
   std::vector<DevicePlan> devices;
-  /// How long to record once all devices are open; unset: until every device has ended.
+  /// How long to record once the devices are open; unset: until every device has ended.
   std::optional<std::chrono::duration<double>> duration;
   /// Keeps what comes over each device's wire, where its driver tells, in "replicate-1/imu0.wire".
   bool wire = false;
+  std::string campaign;  ///< For the manifest.
+  /// Set: a device that has not opened by then is missing, unless all are. Unset: it is an error.
+  std::optional<std::chrono::duration<double>> patience;
+  /// Set: a device that fails is opened again. Unset: it is given up.
+  std::optional<Reopening> reopening;
+  /// Of the disk. With a duration, recording does not begin unless this replicate and
+  /// `replicates_to_come` like it fit beside it; it ends when it is reached.
+  std::uint64_t reserve_bytes = 0;
+  std::uint32_t replicates_to_come = 0;
+  FreeSpace free_space = acquire::free_space;
 };
 
 /// What became of a device.
@@ -39,16 +44,18 @@ struct DeviceOutcome {
   std::optional<Error> failure;  ///< Why it was given up before the end; its samples are kept.
 };
 
-/// Told from any thread: which device, and what its driver says.
-using DeviceNote = std::function<void(const std::string& device, std::string_view text)>;
+struct ReplicateOutcome {
+  std::vector<DeviceOutcome> devices;  ///< Without those that are missing from the beginning.
+  v1::ReplicateNote note;              ///< As the manifest has it.
+};
 
 /// Opens the devices, records them, each from a thread of its own, and closes the recording: at the
-/// end of the plan's duration, when every device has ended or failed, or when the caller stops it,
-/// which is no error. A device that is unplugged is waited for. Error: a device that does not open,
-/// the disk's; samples that were acknowledged stay in the recording.
-Result<std::vector<DeviceOutcome>> record_replicate(recording::FileSystem& files,
-                                                    const ReplicatePlan& plan,
-                                                    const DeviceNote& note = {},
-                                                    const Progress& progress = {});
+/// end of the plan's duration, when every device has ended or failed, when the disk's reserve is
+/// reached, or when the caller stops it, which is no error. A device that is unplugged is waited
+/// for. Error: a device that does not open, the disk's, no room; samples that were acknowledged
+/// stay in the recording.
+Result<ReplicateOutcome> record_replicate(recording::FileSystem& files, const ReplicatePlan& plan,
+                                          const DeviceNote& note = {},
+                                          const Progress& progress = {});
 
 }  // namespace imunoise::acquire

@@ -1,5 +1,6 @@
 #include "recording/hdf5/memory_file.h"
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -10,8 +11,12 @@ namespace {
 
 constexpr std::size_t kIncrement = std::size_t{4} << 20U;  // bytes by which a file in memory grows
 
-// The name is not looked up anywhere.
-constexpr const char* kName = "memory.h5";
+// The name is not looked up on any disk, but HDF5 takes two open files in memory of one name for
+// one file: it refuses to make the second, and opens the first instead of it.
+std::string unique_name() {
+  static std::atomic<std::uint64_t> made = 0;
+  return "memory-" + std::to_string(++made) + ".h5";
+}
 
 Hdf5Handle memory_access() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -62,7 +67,7 @@ NewMemoryFile::NewMemoryFile() : memory_(std::make_unique<Memory>()) {
                                            Memory::release,  Memory::share, Memory::forget,
                                            memory_.get()};
   if (access && H5Pset_file_image_callbacks(access.get(), &callbacks) >= 0) {
-    file_ = {H5Fcreate(kName, H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
+    file_ = {H5Fcreate(unique_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
   }
 }
 
@@ -88,7 +93,7 @@ Hdf5Handle open_memory_file(std::string_view bytes) {
       H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()) < 0) {
     return {};
   }
-  return {H5Fopen(kName, H5F_ACC_RDONLY, access.get()), H5Fclose};
+  return {H5Fopen(unique_name().c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
 }
 
 }  // namespace imunoise::recording

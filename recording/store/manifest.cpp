@@ -97,6 +97,29 @@ void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device) {
   }
 }
 
+void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note) {
+  auto& notes = *manifest.mutable_replicates();
+  const auto same = std::find_if(notes.begin(), notes.end(), [&](const v1::ReplicateNote& one) {
+    return one.replicate() == note.replicate();
+  });
+  if (same != notes.end()) {
+    *same = note;
+    return;
+  }
+  *notes.Add() = note;
+  std::sort(notes.begin(), notes.end(), [](const v1::ReplicateNote& a, const v1::ReplicateNote& b) {
+    return a.replicate() < b.replicate();
+  });
+}
+
+void end_open_replicates(v1::Manifest& manifest) {
+  for (v1::ReplicateNote& note : *manifest.mutable_replicates()) {
+    if (note.state() != v1::open) continue;
+    note.set_state(v1::interrupted);
+    note.set_reason("the program, the machine or its power ended while it was recorded");
+  }
+}
+
 Checksums checksums(const v1::Manifest& manifest) {
   Checksums out;
   for (const v1::ChunkEntry& chunk : manifest.chunks()) out[chunk.file()] = chunk.crc32c();

@@ -30,6 +30,11 @@ Result<void> write_manifest(FileSystem& files, const std::filesystem::path& root
 /// Adds the device unless it is listed; what is listed stays.
 void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device);
 
+/// Replaces the note of its replicate, or adds it, in order.
+void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note);
+/// Replicates that are open while nobody records them were interrupted.
+void end_open_replicates(v1::Manifest& manifest);
+
 Checksums checksums(const v1::Manifest& manifest);
 
 }  // namespace imunoise::recording

@@ -33,6 +33,14 @@ Result<v1::Manifest> open_manifest(FileSystem& files, const std::filesystem::pat
   if (manifest.started_ns() == 0) manifest.set_started_ns(plan.started_ns);
   if (manifest.campaign().empty()) manifest.set_campaign(plan.campaign);
   for (const v1::RecordedDevice& device : plan.devices) add_device(manifest, device);
+  end_open_replicates(manifest);
+  if (plan.note) {
+    v1::ReplicateNote note = *plan.note;
+    note.set_replicate(plan.replicate);
+    note.set_state(v1::open);
+    note.set_started_ns(plan.started_ns);
+    set_note(manifest, note);
+  }
   manifest.set_closed(false);
   return manifest;
 }
@@ -141,6 +149,8 @@ class Recorder::Threads {
     out.trouble = trouble_;
     return out;
   }
+
+  void annotate(const v1::ReplicateNote& note) { set_note(manifest_, note); }
 
   Result<void> close() {
     if (!journal_thread_.joinable()) return outcome_;
@@ -334,6 +344,8 @@ Result<void> Recorder::push(std::size_t device, const Block& block) {
 }
 
 RecorderState Recorder::state() const { return threads_->state(); }
+
+void Recorder::annotate(const v1::ReplicateNote& note) { threads_->annotate(note); }
 
 Result<void> Recorder::close() { return threads_->close(); }
 

@@ -21,6 +21,9 @@ struct RecordingPlan {
   std::uint32_t replicate = 1;
   std::int64_t started_ns = 0;  ///< ns since 1970-01-01 UTC, for the manifest.
   std::vector<v1::RecordedDevice> devices;
+  /// Set: how the replicate comes about, for the manifest; its number, start and state are filled
+  /// in.
+  std::optional<v1::ReplicateNote> note = {};
 };
 
 struct RecorderOptions {
@@ -66,6 +69,10 @@ class Recorder {
   Result<void> push(std::size_t device, const Block& block);
 
   RecorderState state() const;
+
+  /// What the manifest will say of the replicate once it is closed. Not while another function
+  /// runs.
+  void annotate(const v1::ReplicateNote& note);
 
   /// Writes everything out, makes the last chunks, closes the manifest. Rows that no disk took are
   /// not_written in the state that follows (should a failing disk hold them after all, a recovery

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "recording/store/chunk_file.h"
 #include "recording/store/crc32c.h"
@@ -107,6 +108,24 @@ TEST(Chunk, EveryNumberTypeComesBack) {
   ASSERT_EQ(back->streams.size(), 2U);
   expect_same(back->streams[0], chunk.streams[0]);
   expect_same(back->streams[1], chunk.streams[1]);
+}
+
+// Several recordings of one process make and read chunks at the same time.
+TEST(Chunk, ThreadsDoNotMixTheirFiles) {
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < 4; ++k) {
+    threads.emplace_back([k] {
+      const Chunk chunk = every_type(1000 + 100 * k);
+      for (int turn = 0; turn < 20; ++turn) {
+        const auto bytes = encode_chunk(chunk);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        const auto back = decode_chunk(*bytes);
+        ASSERT_TRUE(back) << back.error().message;
+        expect_same(back->streams[0], chunk.streams[0]);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
 }
 
 // A bit in every third byte of a small chunk or so: the number, name or count it belongs to is

@@ -1,0 +1,188 @@
+#include "daemon/acquire/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/acquire/recordings.h"
+
+namespace imunoise::acquire {
+namespace {
+
+constexpr std::chrono::seconds kFirstPause{5};  // after something went wrong
+constexpr std::chrono::seconds kLongestPause{300};
+
+std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
+
+class Run {
+ public:
+  Run(const v1::Campaign& campaign, RunMode mode, const CampaignSurroundings& with,
+      const std::stop_token& stop)
+      : campaign_(campaign), with_(with), stop_(stop), mode_(mode) {}
+
+  void run() {
+    while (!stop_.stop_requested()) {
+      auto found = newest_recording(with_.files, campaign_);
+      if (!found) {
+        hold_up(found.error().message);
+        continue;
+      }
+      newest_ = std::move(*found);
+      const Time now = with_.clock.now();
+      const auto state = newest_ ? std::optional(newest_->state) : std::nullopt;
+      if (mode_ == RunMode::kOnce && !memory_.once_since) memory_.once_since = only_start(now);
+      const Step step = next_step(campaign_, state, memory_, now);
+      if (step.new_recording) folder_of_next_ = folder_at(now);
+      if (worth_telling(step.phase)) tell(step, std::exchange(news_, {}));
+      if (step.phase == v1::finished) return;
+      take(step, now);
+    }
+  }
+
+ private:
+  std::filesystem::path folder_at(Time started) const {
+    return std::filesystem::path(campaign_.folder()) / recording_name(started);
+  }
+
+  // What holds it up was told when it came about.
+  bool worth_telling(v1::CampaignPhase phase) const {
+    return phase != v1::held_up && (phase != v1::calibrating || with_.calibrate) &&
+           (phase != v1::publishing || with_.publish);
+  }
+
+  // Of the only recording: the newest, while it is unfinished.
+  Time only_start(Time now) const {
+    const bool unfinished =
+        newest_ && good_replicates(campaign_, newest_->state.notes) < campaign_.replicates();
+    return unfinished ? newest_->state.started : std::chrono::floor<std::chrono::seconds>(now);
+  }
+
+  void take(const Step& step, Time now) {
+    switch (step.phase) {
+      case v1::settling:
+        if (!memory_.at_rest_since) memory_.at_rest_since = now;
+        [[fallthrough]];
+      case v1::pausing:
+      case v1::waiting:
+      case v1::held_up:
+        with_.clock.wait_until(*step.until, stop_);
+        break;
+      case v1::recording:
+        record(step);
+        break;
+      case v1::calibrating:
+        memory_.calibrated = true;  // what fails is told; the recording is there to try by hand
+        call(with_.calibrate, "calibration");
+        break;
+      case v1::publishing:
+        memory_.published = true;
+        memory_.at_rest_since.reset();
+        memory_.replicate_ended.reset();
+        call(with_.publish, "publishing");
+        tidy();
+        break;
+      default:
+        break;
+    }
+  }
+
+  void record(const Step& step) {
+    ReplicateTask task{newest_ ? newest_->folder : std::filesystem::path(), step.attempt,
+                       campaign_.replicates() - step.replicate};
+    if (step.new_recording) {
+      task.folder = folder_of_next_;
+      memory_.calibrated = memory_.published = false;
+    }
+    if (auto done = make_root(); !done) return hold_up(done.error().message);
+    const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
+    if (stop_.stop_requested()) return;
+    if (!note) return hold_up(note.error().message);
+    memory_.replicate_ended = with_.clock.now();
+    if (note->state() != v1::complete) return hold_up(note->reason());
+    pause_ = kFirstPause;
+    news_ = describe(*note);
+  }
+
+  Result<void> make_root() {
+    std::error_code trouble;
+    std::filesystem::create_directories(campaign_.folder(), trouble);
+    if (!trouble) return {};
+    return fail(fmt::format("{}: cannot be made: {}", campaign_.folder(), trouble.message()));
+  }
+
+  static std::string describe(const v1::ReplicateNote& note) {
+    std::string out;
+    for (const v1::MissingDevice& one : note.missing()) {
+      out +=
+          fmt::format("{}{} is missing ({})", out.empty() ? "" : "; ", one.device(), one.reason());
+    }
+    if (note.disturbances_size() > 0) {
+      out += fmt::format(
+          "{}the bench did not lie still: {} times, first at {}", out.empty() ? "" : "; ",
+          note.disturbances_size(),
+          recording_name(Time(std::chrono::nanoseconds(note.disturbances(0).begin_ns()))));
+    }
+    return out;
+  }
+
+  void call(const RecordingHook& hook, std::string_view what) {
+    if (!hook) return;
+    const auto done = hook(campaign_, newest_->folder, Progress({}, stop_));
+    if (!done) news_ = fmt::format("{}: {}", what, done.error().message);
+  }
+
+  void tidy() {
+    const auto removed = tidy_recordings(with_.files, campaign_, with_.clock.now());
+    if (!removed) {
+      news_ = removed.error().message;
+    } else if (!removed->empty()) {
+      news_ = fmt::format("{} recordings are no longer kept", removed->size());
+    }
+  }
+
+  void hold_up(const std::string& reason) {
+    memory_.held_up_until = with_.clock.now() + pause_;
+    pause_ = std::min(2 * pause_, kLongestPause);
+    tell({.phase = v1::held_up, .until = memory_.held_up_until}, reason);
+    with_.clock.wait_until(*memory_.held_up_until, stop_);
+  }
+
+  void tell(const Step& step, const std::string& reason) const {
+    if (!with_.tell) return;
+    v1::CampaignStatus status;
+    status.set_campaign(campaign_.name());
+    status.set_phase(step.phase);
+    if (step.phase == v1::recording && step.new_recording) {
+      status.set_recording(folder_of_next_.string());
+    } else if (newest_ && !step.new_recording) {
+      status.set_recording(newest_->folder.string());
+    }
+    status.set_replicate(step.replicate);
+    status.set_replicates(campaign_.replicates());
+    status.set_attempt(step.attempt);
+    status.set_since_ns(ns(with_.clock.now()));
+    if (step.until) status.set_until_ns(ns(*step.until));
+    status.set_reason(reason);
+    with_.tell(status);
+  }
+
+  const v1::Campaign& campaign_;
+  const CampaignSurroundings& with_;
+  const std::stop_token& stop_;
+  RunMode mode_;
+  Memory memory_;
+  std::optional<FoundRecording> newest_;
+  std::filesystem::path folder_of_next_;
+  std::chrono::seconds pause_ = kFirstPause;
+  std::string news_;  // what the next status tells of the step before it
+};
+
+}  // namespace
+
+void run_campaign(const v1::Campaign& campaign, RunMode mode,
+                  const CampaignSurroundings& surroundings, const std::stop_token& stop) {
+  Run(campaign, mode, surroundings, stop).run();
+}
+
+}  // namespace imunoise::acquire

@@ -1,0 +1,27 @@
+#pragma once
+
+// Records the replicates of campaigns from real devices.
+
+#include "daemon/acquire/campaign.h"
+#include "daemon/acquire/record_replicate.h"
+#include "drivers/host/load.h"
+
+namespace imunoise::acquire {
+
+/// Devices that fail are opened again while a replicate lasts; those that do not come are missing
+/// in it. Thread-safe.
+class DeviceRecorder : public ReplicateRecorder {
+ public:
+  DeviceRecorder(recording::FileSystem& files, const drivers::Drivers& drivers, DeviceNote note)
+      : files_(files), drivers_(drivers), note_(std::move(note)) {}
+
+  Result<v1::ReplicateNote> record(const v1::Campaign& campaign, const ReplicateTask& task,
+                                   const Progress& progress) override;
+
+ private:
+  recording::FileSystem& files_;
+  const drivers::Drivers& drivers_;
+  DeviceNote note_;
+};
+
+}  // namespace imunoise::acquire

@@ -1,0 +1,125 @@
+#include "daemon/acquire/reader.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/message_differencer.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/acquire/recorded_device.h"
+
+namespace imunoise::acquire {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{100};  // of one read
+constexpr std::size_t kBlockRows = 1024;
+
+}  // namespace
+
+Reader::Reader(recording::Recorder& recorder, ReaderPlan plan,
+               std::unique_ptr<drivers::Device> device)
+    : recorder_(recorder),
+      plan_(std::move(plan)),
+      stillness_(plan_.device),
+      lost_(static_cast<std::size_t>(plan_.device.streams_size()), false),
+      pause_(plan_.reopening.first),
+      device_(std::move(device)),
+      thread_([this] { run(); }) {}
+
+void Reader::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    if (device_) device_->cancel();
+  }
+  stopping_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Reader::run() {
+  do {
+    drivers::Block block = device_->make_block(kBlockRows);
+    while (step(block)) {
+    }
+  } while (failure_ && plan_.open && open_again());
+  ended_ = true;
+}
+
+// False when there is nothing more to read.
+bool Reader::step(drivers::Block& block) {
+  const auto outcome = device_->read(kPatience, block);
+  if (!outcome) {
+    failure_ = outcome.error();
+    return false;
+  }
+  switch (*outcome) {
+    case drivers::ReadOutcome::kSamples:
+      connected_ = true;
+      pause_ = plan_.reopening.first;
+      return push(block);
+    case drivers::ReadOutcome::kTimeout:
+      return true;
+    case drivers::ReadOutcome::kDisconnected:
+      if (connected_) ++disconnections_;
+      connected_ = false;
+      disconnection_ = device_->disconnection();
+      return true;
+    case drivers::ReadOutcome::kCancelled:
+    case drivers::ReadOutcome::kEnd:
+      break;
+  }
+  return false;
+}
+
+bool Reader::push(const drivers::Block& block) {
+  recording::Block taken = recorded_block(block);
+  if (lost_[taken.stream] && !taken.rows.flags.empty()) {
+    taken.rows.flags.front() |= recording::kLostBefore;
+    lost_[taken.stream] = false;
+  }
+  stillness_.take(taken);
+  if (const auto done = recorder_.push(plan_.index, taken); !done) {
+    disk_failure_ = done.error();
+    return false;
+  }
+  return true;
+}
+
+// Waits, opens, waits longer. False when it was told to stop before.
+bool Reader::open_again() {
+  if (connected_) ++disconnections_;
+  connected_ = false;  // until samples come
+  lost_.assign(lost_.size(), true);
+  std::unique_lock lock(mutex_);
+  device_.reset();
+  while (!stopping_.wait_for(lock, pause_, [&] { return stop_; })) {
+    pause_ = std::min(2 * pause_, plan_.reopening.longest);
+    lock.unlock();
+    auto opened = same_device();
+    lock.lock();
+    if (stop_) return false;
+    if (opened) {
+      device_ = std::move(*opened);
+      disconnection_ = std::exchange(failure_, std::nullopt)->message;
+      return true;
+    }
+    failure_ = opened.error();
+  }
+  return false;
+}
+
+// Error: it does not open, or is another device now.
+Result<std::unique_ptr<drivers::Device>> Reader::same_device() const {
+  auto device = plan_.open();
+  if (!device) return device;
+  const v1::RecordedDevice now =
+      recorded_device(plan_.device.name(), plan_.driver, (*device)->info());
+  if (google::protobuf::util::MessageDifferencer::Equals(now, plan_.device)) return device;
+  return fail(fmt::format(
+      "{} (serial {}) stands where {} (serial {}) was, or it is set up in another way; "
+      "it takes part again from the next replicate on",
+      now.driver(), now.serial().empty() ? "unknown" : now.serial(), plan_.device.driver(),
+      plan_.device.serial().empty() ? "unknown" : plan_.device.serial()));
+}
+
+}  // namespace imunoise::acquire

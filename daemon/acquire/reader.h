@@ -1,0 +1,90 @@
+#pragma once
+
+// Reads one device into a recording, from a thread of its own.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/acquire/stillness.h"
+#include "drivers/host/device.h"
+#include "recording/store/recorder.h"
+
+namespace imunoise::acquire {
+
+/// A device that failed is opened again: after `first`, then after twice as long each time, up to
+/// `longest`.
+struct Reopening {
+  std::chrono::milliseconds first{1000};
+  std::chrono::milliseconds longest{30000};
+};
+
+/// Where a reader's samples come from and go to.
+struct ReaderPlan {
+  std::size_t index = 0;  ///< Of the device in the recording.
+  v1::RecordedDevice device;
+  std::string driver;
+  /// Opens the device once more; without it a failure ends the reader.
+  std::function<Result<std::unique_ptr<drivers::Device>>()> open;
+  Reopening reopening;
+};
+
+/// Its thread is the only one that reads the device.
+class Reader {
+ public:
+  Reader(recording::Recorder& recorder, ReaderPlan plan, std::unique_ptr<drivers::Device> device);
+  ~Reader() { stop(); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  /// From any thread; waits for the reader's end: for the driver's answer to cancel(), or for an
+  /// attempt to open it that is under way.
+  void stop();
+  /// Nothing will come any more.
+  bool ended() const { return ended_; }
+
+  // After stop().
+  std::uint64_t disconnections() const { return disconnections_; }
+  /// Why nothing comes from the device: its failure, or why it was gone last.
+  const std::optional<Error>& failure() const { return failure_; }
+  const std::optional<Error>& disk_failure() const { return disk_failure_; }
+  /// It was there to the end, or had nothing more to say.
+  bool connected() const { return connected_; }
+  const std::string& disconnection() const { return disconnection_; }
+  const std::vector<v1::Disturbance>& disturbances() const { return stillness_.disturbances(); }
+
+ private:
+  void run();
+  bool step(drivers::Block& block);
+  bool push(const drivers::Block& block);
+  bool open_again();
+  Result<std::unique_ptr<drivers::Device>> same_device() const;
+
+  recording::Recorder& recorder_;
+  ReaderPlan plan_;
+  StillnessWatch stillness_;
+  std::vector<bool> lost_;           // of each stream: samples are missing before its next row
+  std::chrono::milliseconds pause_;  // before it is opened the next time
+  bool connected_ = true;
+  std::uint64_t disconnections_ = 0;
+  std::string disconnection_;
+  std::optional<Error> failure_;
+  std::optional<Error> disk_failure_;
+  std::atomic<bool> ended_ = false;
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable stopping_;
+  bool stop_ = false;
+  std::unique_ptr<drivers::Device> device_;
+
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace imunoise::acquire

@@ -1,0 +1,121 @@
+// imunoised: composes configuration, drivers and campaigns; no logic of its own.
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+
+#include "daemon/app/arguments.h"
+#include "daemon/app/campaign_files.h"
+#include "daemon/app/log.h"
+#include "daemon/app/service_manager.h"
+#include "daemon/app/supervisor.h"
+#include "drivers/host/load.h"
+
+namespace imunoise::app {
+namespace {
+
+// SIGINT and SIGTERM wait to be fetched. To be made before any thread, which inherits that.
+sigset_t block_signals() {
+  sigset_t out{};
+  sigemptyset(&out);
+  sigaddset(&out, SIGINT);
+  sigaddset(&out, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &out, nullptr);
+  return out;
+}
+
+int check_config(const CampaignFiles& files, const drivers::Drivers& drivers) {
+  for (const CampaignFile& one : files.found) {
+    fmt::print("{}: sound: {}\n", one.file.string(), summary(one.campaign, drivers));
+  }
+  for (const std::string& problem : files.problems) fmt::print("{}\n", problem);
+  return files.problems.empty() ? 0 : 1;
+}
+
+// What makes imunoise-campaign@NAME.timer follow the calendars of these campaigns.
+int print_timer(const CampaignFiles& files) {
+  for (const std::string& problem : files.problems) fmt::print(stderr, "{}\n", problem);
+  bool good = files.problems.empty();
+  for (const CampaignFile& one : files.found) {
+    const std::string& calendar = one.campaign.schedule().calendar();
+    if (calendar.empty()) {
+      fmt::print(stderr, "{}: has no calendar; give it [schedule] calendar = \"...\"\n",
+                 one.file.string());
+      good = false;
+      continue;
+    }
+    fmt::print("[Timer]\nOnCalendar=\nOnCalendar={}\n", calendar);
+  }
+  return good ? 0 : 1;
+}
+
+// A campaign with a calendar is started by its timer, which asks for one recording.
+std::vector<CampaignFile> to_run(const CampaignFiles& files, bool once, Log& log) {
+  std::vector<CampaignFile> out;
+  for (const CampaignFile& one : files.found) {
+    if (!once && !one.campaign.schedule().calendar().empty()) {
+      log.fact(fmt::format("{}: is left to its timer ({}), which starts imunoised --once",
+                           one.campaign.name(), one.campaign.schedule().calendar()));
+      continue;
+    }
+    out.push_back(one);
+  }
+  return out;
+}
+
+int record(const CampaignFiles& files, const drivers::Drivers& drivers, bool once,
+           const sigset_t& signals) {
+  Log log;
+  if (!files.problems.empty()) {
+    for (const std::string& problem : files.problems) log.error(problem);
+    return 1;
+  }
+  const std::vector<CampaignFile> campaigns = to_run(files, once, log);
+  ServiceManager manager;
+  Supervisor supervisor(campaigns, drivers,
+                        once ? acquire::RunMode::kOnce : acquire::RunMode::kScheduled, log);
+  manager.ready();
+  std::string told;
+  constexpr timespec kPatience{0, 200'000'000};
+  while (!supervisor.ended()) {
+    if (const int signal = sigtimedwait(&signals, nullptr, &kPatience); signal > 0) {
+      log.fact(
+          fmt::format("{}: recordings are being closed", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
+      manager.stopping();
+      supervisor.stop();
+    }
+    manager.alive();
+    if (const std::string status = supervisor.status(); status != told) {
+      manager.status(status);
+      told = status;
+    }
+  }
+  return 0;
+}
+
+int run(int argc, const char* const* argv) {
+  const auto parsed = parse_arguments(argc, argv);
+  if (const int* const status = std::get_if<int>(&parsed)) return *status;
+  const auto& arguments = std::get<Arguments>(parsed);
+  const sigset_t signals = block_signals();
+  const drivers::Drivers drivers =
+      drivers::load_drivers(drivers::driver_folders(arguments.driver_folders));
+  const CampaignFiles files = read_campaigns(arguments.campaigns, drivers);
+  if (arguments.check_config) return check_config(files, drivers);
+  if (arguments.print_timer) return print_timer(files);
+  return record(files, drivers, arguments.once, signals);
+}
+
+}  // namespace
+}  // namespace imunoise::app
+
+int main(int argc, char** argv) {
+  try {
+    return imunoise::app::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "imunoised: {}\n", error.what());
+    return 1;
+  }
+}

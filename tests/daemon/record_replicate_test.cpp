@@ -1,0 +1,250 @@
+// Replicates of devices that come and go.
+
+#include "daemon/acquire/record_replicate.h"
+
+#include <chrono>
+#include <thread>
+
+#include "daemon/acquire/device_recorder.h"
+#include "recording/store/manifest.h"
+#include "recording/store/reader.h"
+#include "recording/store/verify.h"
+#include "tests/daemon/whims.h"
+
+namespace imunoise::acquire {
+namespace {
+
+using namespace std::chrono_literals;
+
+class RecordReplicate : public testing::Whims {
+ protected:
+  RecordReplicate() {
+    plan_.folder = folder_ / "recording";
+    plan_.duration = 1.5s;
+    plan_.patience = 300ms;
+    plan_.reopening = Reopening{50ms, 200ms};
+  }
+
+  void add(const std::string& name, const std::string& word = "here") {
+    tell(name, word);
+    plan_.devices.push_back(
+        {name, *drivers().find("whims").value(), {{"file", word_of(name).string()}}});
+  }
+  // Records, while words are told at their times.
+  Result<ReplicateOutcome> record(
+      const std::vector<std::tuple<std::chrono::milliseconds, std::string, std::string>>& told =
+          {}) {
+    const std::jthread teller([&](const std::stop_token&) {
+      const auto begin = std::chrono::steady_clock::now();
+      for (const auto& [at, device, word] : told) {
+        std::this_thread::sleep_until(begin + at);
+        tell(device, word);
+      }
+    });
+    return record_replicate(recording::posix_file_system(), plan_, {},
+                            Progress({}, source_.get_token()));
+  }
+  v1::ReplicateNote note_on_disk(int index = 0) const {
+    return recording::read_manifest(recording::posix_file_system(), plan_.folder)
+        .value()
+        .value()
+        .replicates(index);
+  }
+  std::uint64_t lost_marks(const std::string& device) const {
+    const auto read = recording::read_device(recording::posix_file_system(),
+                                             {plan_.folder, "replicate-1/" + device}, {});
+    std::uint64_t out = 0;
+    for (const std::uint32_t flags : read.value().streams[0].flags) {
+      out += (flags & recording::kLostBefore) != 0 ? 1U : 0U;
+    }
+    return out;
+  }
+
+  ReplicatePlan plan_;
+  std::stop_source source_;
+};
+
+TEST_F(RecordReplicate, IsCompleteWhenItsTimeIsOver) {
+  add("a");
+  add("b");
+  plan_.campaign = "bench";
+  const auto done = record();
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_EQ(done->devices.size(), 2U);
+  EXPECT_GT(done->devices[1].streams[0].stored, 75U);
+  const v1::ReplicateNote note = note_on_disk();
+  EXPECT_EQ(note.state(), v1::complete);
+  EXPECT_EQ(note.missing_size(), 0);
+  EXPECT_NEAR(static_cast<double>(note.ended_ns() - note.started_ns()) * 1e-9, 1.5, 1.0);
+  EXPECT_EQ(
+      recording::read_manifest(recording::posix_file_system(), plan_.folder)->value().campaign(),
+      "bench");
+  EXPECT_TRUE(
+      recording::verify_recording(recording::posix_file_system(), plan_.folder, false)->sound());
+}
+
+TEST_F(RecordReplicate, ADeviceThatIsNotThereStopsNoOther) {
+  add("a", "absent");
+  add("b");
+  const auto done = record();
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  ASSERT_EQ(done->devices.size(), 1U);
+  EXPECT_EQ(done->devices[0].device.name(), "b");
+  const v1::ReplicateNote note = note_on_disk();
+  EXPECT_EQ(note.state(), v1::complete);
+  ASSERT_EQ(note.missing_size(), 1);
+  EXPECT_EQ(note.missing(0).device(), "a");
+  EXPECT_NE(note.missing(0).reason().find("absent"), std::string::npos);
+}
+
+TEST_F(RecordReplicate, ADeviceThatComesInTimeTakesPart) {
+  add("a", "absent");
+  add("b");
+  plan_.patience = 20s;
+  const auto done = record({{500ms, "a", "here"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_EQ(done->devices.size(), 2U);
+  EXPECT_EQ(note_on_disk().missing_size(), 0);
+}
+
+TEST_F(RecordReplicate, WithoutAnyDeviceNothingIsMade) {
+  add("a", "absent");
+  const auto done = record();
+  ASSERT_FALSE(done.has_value());
+  EXPECT_NE(done.error().message.find("no device is there: a: driver whims"), std::string::npos)
+      << done.error().message;
+  EXPECT_FALSE(std::filesystem::exists(plan_.folder));
+}
+
+TEST_F(RecordReplicate, WithoutPatienceEveryDeviceMustOpen) {
+  add("a", "absent");
+  add("b");
+  plan_.patience.reset();
+  EXPECT_FALSE(record().has_value());
+}
+
+TEST_F(RecordReplicate, AnUnpluggedDeviceIsWaitedFor) {
+  add("a");
+  const auto done = record({{400ms, "a", "gone"}, {800ms, "a", "here"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_EQ(done->devices[0].disconnections, 1U);
+  EXPECT_EQ(note_on_disk().missing_size(), 0);
+}
+
+TEST_F(RecordReplicate, ADeviceThatIsGoneAtTheEndIsMissingWithItsReason) {
+  add("a");
+  add("b");
+  const auto done = record({{400ms, "a", "gone"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  const v1::ReplicateNote note = note_on_disk();
+  EXPECT_EQ(note.state(), v1::complete);
+  ASSERT_EQ(note.missing_size(), 1);
+  EXPECT_EQ(note.missing(0).device(), "a");
+  EXPECT_NE(note.missing(0).reason().find("gone"), std::string::npos);
+  EXPECT_GT(done->devices[1].streams[0].stored, 75U) << "the other goes on";
+}
+
+TEST_F(RecordReplicate, ADeviceThatFailedIsOpenedAgain) {
+  add("a");
+  plan_.duration = 2s;
+  const auto done = record({{400ms, "a", "broken"}, {600ms, "a", "absent"}, {900ms, "a", "here"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_FALSE(done->devices[0].failure.has_value());
+  EXPECT_EQ(done->devices[0].disconnections, 1U);
+  EXPECT_GT(done->devices[0].streams[0].stored, 75U);
+  EXPECT_EQ(lost_marks("a"), 1U) << "the gap is marked";
+  EXPECT_EQ(note_on_disk().missing_size(), 0);
+}
+
+TEST_F(RecordReplicate, AnotherDeviceInItsPlaceIsNotTaken) {
+  add("a");
+  add("b");
+  const auto done = record({{400ms, "a", "broken"}, {500ms, "a", "other"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  ASSERT_EQ(note_on_disk().missing_size(), 1);
+  EXPECT_NE(note_on_disk().missing(0).reason().find("serial 2"), std::string::npos)
+      << note_on_disk().missing(0).reason();
+}
+
+TEST_F(RecordReplicate, WhenAllHaveFailedWithoutReopeningItIsInterrupted) {
+  add("a");
+  plan_.reopening.reset();
+  const auto done = record({{300ms, "a", "broken"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_EQ(note_on_disk().state(), v1::interrupted);
+  EXPECT_NE(note_on_disk().reason().find("broken"), std::string::npos);
+}
+
+TEST_F(RecordReplicate, StoppedItIsInterruptedAndClosed) {
+  add("a");
+  plan_.duration = 3600s;
+  const std::jthread stopper([&](const std::stop_token&) {
+    std::this_thread::sleep_for(500ms);
+    source_.request_stop();
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record();
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
+  EXPECT_EQ(note_on_disk().state(), v1::interrupted);
+  EXPECT_EQ(done->devices[0].streams[0].stored, done->devices[0].streams[0].received);
+}
+
+TEST_F(RecordReplicate, DoesNotBeginWithoutRoom) {
+  add("a");
+  plan_.duration = 3600s;
+  plan_.replicates_to_come = 5;
+  plan_.reserve_bytes = 1'000'000;
+  // 100 rows a second of 20 bytes, six hours, and one segment.
+  constexpr std::uint64_t kNeeded = 6 * 3600 * 100 * 20 + (32U << 20U) + 1'000'000;
+  plan_.free_space = [](const auto&) -> Result<std::uint64_t> { return kNeeded - 1; };
+  const auto done = record();
+  ASSERT_FALSE(done.has_value());
+  EXPECT_NE(done.error().message.find("make room"), std::string::npos) << done.error().message;
+  EXPECT_FALSE(std::filesystem::exists(plan_.folder));
+}
+
+TEST_F(RecordReplicate, TheReserveEndsIt) {
+  add("a");
+  plan_.duration = 20s;
+  plan_.reserve_bytes = 1'000'000;
+  const auto begin = std::chrono::steady_clock::now();
+  plan_.free_space = [begin](const auto&) -> Result<std::uint64_t> {
+    return std::chrono::steady_clock::now() - begin < 1500ms ? 1'000'000'000U : 999'999U;
+  };
+  const auto done = record();
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 1500ms) << "not before";
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
+  EXPECT_EQ(note_on_disk().state(), v1::interrupted);
+  EXPECT_NE(note_on_disk().reason().find("reserve"), std::string::npos);
+  EXPECT_TRUE(
+      recording::verify_recording(recording::posix_file_system(), plan_.folder, false)->sound());
+}
+
+TEST_F(RecordReplicate, NotesOfOtherReplicatesStay) {
+  add("a");
+  plan_.duration = 300ms;
+  ASSERT_TRUE(record().has_value());
+  plan_.replicate = 2;
+  ASSERT_TRUE(record().has_value());
+  EXPECT_EQ(note_on_disk(0).replicate(), 1U);
+  EXPECT_EQ(note_on_disk(1).replicate(), 2U);
+}
+
+TEST_F(RecordReplicate, AReplicateThatACrashLeftOpenWasInterrupted) {
+  add("a");
+  plan_.duration = 300ms;
+  ASSERT_TRUE(record().has_value());
+  auto& files = recording::posix_file_system();
+  v1::Manifest manifest = recording::read_manifest(files, plan_.folder).value().value();
+  manifest.mutable_replicates(0)->set_state(v1::open);
+  ASSERT_TRUE(recording::write_manifest(files, plan_.folder, manifest).has_value());
+  plan_.replicate = 2;
+  ASSERT_TRUE(record().has_value());
+  EXPECT_EQ(note_on_disk(0).state(), v1::interrupted);
+  EXPECT_EQ(note_on_disk(1).state(), v1::complete);
+}
+
+}  // namespace
+}  // namespace imunoise::acquire

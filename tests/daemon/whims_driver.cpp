@@ -1,0 +1,90 @@
+// A device that does as a file tells it, for tests: the file's word is looked at whenever the
+// device is opened or read. "here": a sample of noise every 10 ms; "gone": it is unplugged, and
+// found again as soon as the word is another; "broken": it fails for good; "absent": it does not
+// open; "other": as "here", but opened then it is another device; "knock": as "here", a hundred
+// times as loud. With speed=20 twenty samples come instead of one, and its time runs as fast.
+
+#include <chrono>
+#include <fstream>
+#include <string>
+
+#include "core/support/random.h"
+#include "drivers/plugin.h"
+
+namespace imunoise::testing {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kPeriod{10};
+
+std::string word_in(const std::string& file) {
+  std::ifstream stream(file);
+  std::string out;
+  stream >> out;
+  return out;
+}
+
+class Whims : public plugin::Device {
+ public:
+  Whims(std::string file, std::int64_t speed, const plugin::Host& host)
+      : file_(std::move(file)), speed_(speed), time_ns_(host.now_ns()), next_(Clock::now()) {
+    const std::string word = word_in(file_);
+    if (word == "absent") throw plugin::DeviceError(IMUNOISE_NOT_FOUND, "the device is absent");
+    serial_ = word == "other" ? "2" : "1";
+  }
+
+  drivers::DeviceInfo describe() override {
+    drivers::Stream stream{"imu", {{.name = "gyro_x", .units = "rad/s"}}, 100.0};
+    return {{stream}, "Whims", serial_, "1"};
+  }
+
+  void read(plugin::Samples& samples, const plugin::Wait& wait) override {
+    const std::string word = word_in(file_);
+    if (word == "broken") throw plugin::DeviceError(IMUNOISE_FAILED, "the device is broken");
+    if (word == "gone") {
+      wait.until(Clock::now() + kPeriod);
+      next_ = Clock::now();
+      throw plugin::DeviceError(IMUNOISE_DISCONNECTED, "the device is gone");
+    }
+    if (!wait.until(next_)) return;
+    next_ += kPeriod;
+    const double loud = word == "knock" ? 100.0 : 1.0;
+    for (std::int64_t k = 0; k < speed_; ++k) {
+      time_ns_ += std::chrono::nanoseconds(kPeriod).count();
+      samples.add(0, {.host_time_ns = time_ns_}).set(0, loud * random_.normal());
+    }
+  }
+
+ private:
+  std::string file_;
+  std::int64_t speed_;
+  std::int64_t time_ns_;  // of the last sample
+  std::string serial_;
+  RandomStream random_{7};
+  Clock::time_point next_;
+};
+
+drivers::DriverInfo describe_driver() {
+  return {"whims",
+          "A device that does as a file tells it",
+          "1",
+          {{.name = "file",
+            .type = drivers::OptionType::kText,
+            .description = "Holds the word",
+            .required = true},
+           {.name = "speed",
+            .type = drivers::OptionType::kInteger,
+            .description = "Times real time",
+            .by_default = "1",
+            .minimum = 1}}};
+}
+
+std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
+                                            const plugin::Host& host) {
+  return std::make_unique<Whims>(options.text("file"), options.integer("speed"), host);
+}
+
+}  // namespace
+}  // namespace imunoise::testing
+
+IMUNOISE_DRIVER(imunoise::testing::describe_driver, imunoise::testing::open_device)
