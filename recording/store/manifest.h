@@ -32,4 +32,8 @@ void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device);
 
 Checksums checksums(const v1::Manifest& manifest);
 
+/// What changes when a chunk is added, lost or replaced: CRC-32C of all chunks' names and
+/// checksums, 8 hexadecimal digits.
+std::string fingerprint(const v1::Manifest& manifest);
+
 }  // namespace imunoise::recording
