@@ -18,6 +18,7 @@ build_packages=(
   libcli11-dev     # the command line
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
+  libsoci-dev        # the catalogue of recordings
 )
 test_packages=(
   libgtest-dev nlohmann-json3-dev

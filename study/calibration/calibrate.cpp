@@ -72,8 +72,8 @@ void tell_unread(const Task& task, const Error& error, v1::Calibration& to) {
 
 // The channels of each quantity as one array.
 void add_arrays(const Task& task, const std::vector<Replicate>& replicates,
-                const std::vector<std::size_t>& channels, const CalibrateOptions& options,
-                const Progress& progress, v1::Calibration& to) {
+                const std::vector<std::size_t>& channels, const Progress& progress,
+                v1::Calibration& to) {
   for (const Quantity quantity : {Quantity::kAngularRate, Quantity::kAcceleration}) {
     std::vector<Series> sensors;
     for (const std::size_t c : channels) {
@@ -84,9 +84,7 @@ void add_arrays(const Task& task, const std::vector<Replicate>& replicates,
     v1::ArrayCalibration& array = *to.add_arrays();
     name(task, array);
     for (const Series& one : sensors) array.add_channels(one.channel);
-    ArraySeriesOptions asked;
-    asked.confidence = options.confidence;
-    auto report = array_series(sensors, asked, progress);
+    auto report = array_series(sensors, {}, progress);
     if (report) {
       *array.mutable_report() = std::move(*report);
     } else {
@@ -112,7 +110,7 @@ void calibrate_stream(const Task& task, const std::vector<Replicate>& replicates
     *to.add_channels() = std::move(one);
   }
   if (options.array && !progress.stopped())
-    add_arrays(task, replicates, channels, options, progress.part(arrays, 1.0), to);
+    add_arrays(task, replicates, channels, progress.part(arrays, 1.0), to);
 }
 
 v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
@@ -121,7 +119,6 @@ v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
   for (const std::string& channel : options.channels) out.add_channels(channel);
   out.set_diagnose(options.diagnose);
   out.set_array(options.array);
-  out.set_confidence(options.confidence);
   out.set_bootstrap_sets(static_cast<std::uint32_t>(options.bootstrap.sets));
   out.set_seed(options.bootstrap.seed);
   return out;

@@ -19,9 +19,8 @@ struct CalibrateOptions {
   std::optional<std::string> model;
   /// As import_recording() calls them; empty: all angular rates and accelerations.
   std::vector<std::string> channels;
-  bool diagnose = true;  ///< which effect the model lacks
-  bool array = false;    ///< channels of one quantity in a stream as an array, too
-  double confidence = 0.95;
+  bool diagnose = true;        ///< which effect the model lacks
+  bool array = false;          ///< channels of one quantity in a stream as an array, too
   BootstrapOptions bootstrap;  ///< of the test between replicates
   std::int64_t made_ns = 0;    ///< now: ns since 1970-01-01 UTC
 };

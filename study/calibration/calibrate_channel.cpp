@@ -22,9 +22,8 @@ bool keep(Result<Report> done, std::string_view step, v1::ChannelCalibration& to
   return done.has_value();
 }
 
-Result<v1::WaveletVarianceReport> wavelet(const Series& series, const MeasureOptions& options,
-                                          const Progress& progress) {
-  const auto measured = measure(series, options, progress);
+Result<v1::WaveletVarianceReport> wavelet(const Series& series, const Progress& progress) {
+  const auto measured = measure(series, {}, progress);
   if (!measured) return tl::unexpected(measured.error());
   return wavelet_report(series, *measured);
 }
@@ -57,30 +56,22 @@ v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>
   using Calibration = v1::ChannelCalibration;
   Calibration out;
   const Series series = series_of(replicates, channel);
-  MeasureOptions measuring;
-  measuring.confidence = options.confidence;
-  keep(wavelet(series, measuring, progress.part(0.0, 0.1)), "measure", out,
-       &Calibration::mutable_wavelet);
+  keep(wavelet(series, progress.part(0.0, 0.1)), "measure", out, &Calibration::mutable_wavelet);
 
   std::optional<std::string> model = options.model;
   if (!model) {
-    SelectOptions select;
-    select.measure = measuring;
-    if (keep(select_model(series, select, progress.part(0.1, 0.3)), "select", out,
+    if (keep(select_model(series, {}, progress.part(0.1, 0.3)), "select", out,
              &Calibration::mutable_choice)) {
       model = model_to_use(out.choice()).model();
     }
   }
   FitOptions fit;
   fit.model = model;
-  fit.measure = measuring;
-  fit.confidence = options.confidence;
   keep(fit_series(series, fit, progress.part(0.3, 0.4)), "fit", out, &Calibration::mutable_fit);
   if (replicates.size() > 1) {
     TestOptions test;
     test.model = model;
     test.bootstrap = options.bootstrap;
-    test.measure = measuring;
     keep(test_series(series, test, progress.part(0.4, 0.6)), "test", out,
          &Calibration::mutable_stationarity);
   }
