@@ -26,6 +26,7 @@ test_packages=(
   clang-format clang-tidy
   umockdev libumockdev-dev       # USB devices that are not there
   python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
+  postgresql                     # the catalogue of several benches
 )
 bench_packages=(libbenchmark-dev time)
 

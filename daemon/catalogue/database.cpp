@@ -96,6 +96,7 @@ Result<std::unique_ptr<Database>> Database::open(const std::string& where) {
   return session->guarded([&]() -> Result<std::unique_ptr<Database>> {
     if (where.starts_with(kPostgres)) {
       session->soci.open(*soci::factory_postgresql(), where.substr(kPostgres.size()));
+      session->soci << "set client_min_messages to warning";  // else libpq prints
     } else {
       session->soci.open(*soci::factory_sqlite3(),
                          fmt::format("dbname=\"{}\" timeout={}", where, kPatience));

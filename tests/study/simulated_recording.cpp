@@ -35,13 +35,14 @@ void record(const SimulatedRecording& what) {
     to.set_dtype("<f8");
     to.set_units(channel.unit);
   }
-  for (std::uint32_t k = 1; k <= what.replicates; ++k) {
+  for (std::uint32_t i = 0; i < what.replicates; ++i) {
+    const std::uint32_t k = what.first_replicate + i;
     auto recorder = recording::Recorder::start(recording::posix_file_system(), what.folder,
                                                {"simulated", k, what.started_ns, {device}});
     ASSERT_TRUE(recorder) << recorder.error().message;
     recording::Block block{0, recording::empty_rows(stream)};
-    for (std::size_t i = 0; i < what.samples; ++i) {
-      block.rows.host_time.push_back(what.started_ns + static_cast<std::int64_t>(i) * kPeriod);
+    for (std::size_t t = 0; t < what.samples; ++t) {
+      block.rows.host_time.push_back(what.started_ns + static_cast<std::int64_t>(t) * kPeriod);
       block.rows.flags.push_back(0);
     }
     for (std::size_t c = 0; c < what.channels.size(); ++c)

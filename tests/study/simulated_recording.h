@@ -41,6 +41,7 @@ struct SimulatedRecording {
   std::string serial = "0042";
   std::vector<SimulatedChannel> channels;
   std::size_t samples = 4096;  ///< of each replicate, at 100 Hz
+  std::uint32_t first_replicate = 1;
   std::uint32_t replicates = 3;
   std::int64_t started_ns = kSimulatedStart;
   std::uint64_t seed = 1;
