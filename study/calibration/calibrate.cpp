@@ -11,6 +11,7 @@
 #include "study/analysis/prepare.h"
 #include "study/calibration/calibrate_channel.h"
 #include "study/calibration/calibration_file.h"
+#include "study/report/verdict.h"
 
 namespace imunoise::study {
 namespace {
@@ -131,7 +132,7 @@ std::string summary_of(const v1::Calibration& calibration) {
   int troubled = 0;
   for (const v1::ChannelCalibration& one : calibration.channels()) {
     fitted += one.has_fit() ? 1 : 0;
-    misfits += one.fit().has_p_value() && one.fit().p_value() < 0.01 ? 1 : 0;
+    misfits += one.has_fit() && report::verdict(one.fit()) == report::Verdict::kFails ? 1 : 0;
     effects += one.diagnosis().verdict() != v1::none && one.has_diagnosis() ? 1 : 0;
     troubled += one.troubles().empty() ? 0 : 1;
   }
