@@ -131,7 +131,7 @@ std::string summary_of(const v1::History& history, std::size_t testable) {
     return fmt::format("The newest calibration is compatible with those before it ({} parameters).",
                        testable);
   }
-  return fmt::format("Drift: {} differ by more than chance and what this device does by itself.",
+  return fmt::format("Drift: {} changed by more than chance and what this device does by itself.",
                      alarms);
 }
 

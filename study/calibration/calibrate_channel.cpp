@@ -35,7 +35,6 @@ void shorten(v1::DiagnosisReport& report) {
     report.mutable_candidates()->DeleteSubrange(kMostCandidates,
                                                 report.candidates_size() - kMostCandidates);
   }
-  report.clear_limits();
   report.clear_before();
   report.clear_after();
 }

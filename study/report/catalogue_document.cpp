@@ -69,7 +69,7 @@ Document document(const v1::RecordingList& list, Digits digits) {
 Document document(const v1::CalibrationList& list, Digits digits) {
   const bool benches = of_benches(list.calibrations());
   Table table{"Calibrations",
-              {"recorded (UTC)", "folder", "calibrated (UTC)", "model", "channels", "state", ""},
+              {"recorded (UTC)", "folder", "calibrated (UTC)", "model", "channels", "state"},
               {}};
   if (benches) put_bench_first("bench", table.head);
   Section section;
@@ -78,7 +78,7 @@ Document document(const v1::CalibrationList& list, Digits digits) {
         {minute(one.started_ns()), one.folder(), minute(one.made_ns()),
          one.model().empty() ? "chosen" : one.model(),
          fmt::format("{} of {}", count(one.fitted(), digits), count(one.channels(), digits)),
-         state_of(one), one.summary()});
+         state_of(one)});
     if (benches) put_bench_first(one.bench(), table.rows.back());
     if (!one.trouble().empty()) section.notes.push_back(one.trouble());
     if (one.outdated()) {

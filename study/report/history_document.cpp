@@ -31,29 +31,40 @@ std::string verdict_of(const v1::ParameterHistory& one) {
   return one.drift().alarm() ? "DRIFT" : "compatible";
 }
 
+std::string name_of(const v1::ParameterHistory& one) {
+  return fmt::format("{} {} of {}, {}", one.channel(), one.parameter(), one.term(),
+                     shown_unit(one).name);
+}
+
 Table overview(const v1::History& history, Digits digits) {
   Table out{"The newest calibration against those before it",
-            {"channel", "", "newest", "unit", "expected", "change", "p", "trend", "p", "verdict"},
+            {"", "newest", "expected", "change", "p", "verdict"},
             {}};
   for (const v1::ParameterHistory& one : history.parameters()) {
-    const ShownUnit unit = shown_unit(one);
+    const double factor = shown_unit(one).factor;
     const v1::DriftReport& drift = one.drift();
-    std::vector<std::string> row = {one.channel(),
-                                    fmt::format("{} of {}", one.parameter(), one.term()),
-                                    value_of(*one.points().rbegin(), unit, digits), unit.name};
+    std::vector<std::string> row = {name_of(one),
+                                    number(one.points().rbegin()->value() * factor, 3, digits)};
     if (one.has_drift()) {
-      const double from = drift.expected_lower() * unit.factor;
-      const double to = drift.expected_upper() * unit.factor;
-      row.push_back(fmt::format("{} … {}", number(from, 3, digits), number(to, 3, digits)));
+      row.push_back(fmt::format("{} … {}", number(drift.expected_lower() * factor, 3, digits),
+                                number(drift.expected_upper() * factor, 3, digits)));
       row.push_back(change_words(drift.change()));
       row.push_back(chance(drift.p_value(), digits));
     } else {
       row.insert(row.end(), {"–", "–", "–"});
     }
-    row.push_back(drift.has_trend() ? change_words(drift.trend()) : "–");
-    row.push_back(drift.has_trend() ? chance(drift.trend_p_value(), digits) : "–");
     row.push_back(verdict_of(one));
     out.rows.push_back(std::move(row));
+  }
+  return out;
+}
+
+Table trends(const v1::History& history, Digits digits) {
+  Table out{"A straight line through all of them", {"", "from first to newest", "p"}, {}};
+  for (const v1::ParameterHistory& one : history.parameters()) {
+    if (!one.drift().has_trend()) continue;
+    out.rows.push_back({name_of(one), change_words(one.drift().trend()),
+                        chance(one.drift().trend_p_value(), digits)});
   }
   return out;
 }
@@ -91,11 +102,11 @@ Document document(const v1::History& history, Digits digits) {
     for (const v1::HistoryPoint& point : one.points())
       calibrations.emplace(point.bench(), point.folder());
   }
-  section.facts = fmt::format("{} · {} · {} calibrations · false alarms {} of newest calibrations",
-                              history.device().name(), history.device().driver(),
-                              calibrations.size(), percent(history.level()));
+  section.facts =
+      fmt::format("{} · {} · {} calibrations · chance of a false alarm {}", history.device().name(),
+                  history.device().driver(), calibrations.size(), percent(history.level()));
   section.summary = history.summary();
-  section.tables = {overview(history, digits)};
+  section.tables = {overview(history, digits), trends(history, digits)};
   for (const v1::ParameterHistory& one : history.parameters()) {
     if (auto figure = history_chart(one)) section.figures.push_back(std::move(*figure));
     if (history.parameters_size() <= kMostTables) section.tables.push_back(points(one, digits));
