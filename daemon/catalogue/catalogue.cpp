@@ -10,6 +10,7 @@
 #include "daemon/catalogue/entry.h"
 #include "daemon/catalogue/scan.h"
 #include "daemon/catalogue/schema.h"
+#include "recording/store/layout.h"
 
 namespace imunoise::catalogue {
 namespace {
@@ -40,13 +41,19 @@ v1::HistoryPoint point_of(const Row& row) {
 }  // namespace
 
 std::string place_in(const std::filesystem::path& root) {
-  return ::access(root.c_str(), W_OK) == 0 ? (root / "catalogue.sqlite").string() : ":memory:";
+  std::error_code unknown;
+  const bool recording = std::filesystem::exists(root / recording::kManifestName, unknown);
+  return !recording && ::access(root.c_str(), W_OK) == 0 ? (root / "catalogue.sqlite").string()
+                                                         : ":memory:";
 }
 
 Result<Catalogue> Catalogue::open(const std::string& where, std::string bench) {
   auto database = Database::open(where);
   if (!database) return tl::unexpected(database.error());
-  if (auto ready = prepare_schema(**database); !ready) return tl::unexpected(ready.error());
+  if (auto ready = prepare_schema(**database); !ready) {
+    return fail(ready.error().message +
+                "; a catalogue may be deleted: it is made again from the recordings");
+  }
   return Catalogue(std::move(*database), std::move(bench));
 }
 

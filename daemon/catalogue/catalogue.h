@@ -16,7 +16,7 @@
 namespace imunoise::catalogue {
 
 /// Where the catalogue of a folder lies: catalogue.sqlite in it, or in memory where that cannot be
-/// written.
+/// written or is itself a recording.
 std::string place_in(const std::filesystem::path& root);
 
 /// What an update did.

@@ -122,6 +122,9 @@ TEST_F(CatalogueCommands, TheIndexMayBeLostAndLieElsewhere) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bench/catalogue.sqlite"));
   EXPECT_EQ(json_of("recordings bench --catalogue all.sqlite --bench south")["recordings"].size(),
             2U);
+  EXPECT_EQ(json_of("recordings bench/week-0")["recordings"][0]["folder"], ".");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "bench/week-0/catalogue.sqlite"))
+      << "nothing is put into a recording";
 }
 
 TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
@@ -137,6 +140,8 @@ TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
   expect("calibrate bench/week-0 --channel gyro_w", "it has: gyro_x");
   expect("recordings absent", "absent");
   expect("recordings bench --catalogue absent/x.sqlite", "absent/x.sqlite");
+  std::ofstream(folder_ / "junk.sqlite") << "this is no database, whatever its name may say";
+  expect("recordings bench --catalogue junk.sqlite", "may be deleted");
   expect("history bench", "--device");
   expect("history bench --device 7", "there are simulated:0042");
   expect("history bench --device 0042", "imunoise calibrate");
