@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/show.h"
+#include "daemon/catalogue/history.h"
 #include "drivers/emulator/serve.h"
 #include "imunoise/v1/study.pb.h"
 #include "recording/import/import.h"
@@ -22,6 +23,7 @@
 #include "study/analysis/mixed_series.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
+#include "study/calibration/calibrate.h"
 
 namespace imunoise::cli {
 
@@ -154,12 +156,34 @@ struct VerifyArguments {
   bool json = false;
 };
 
+/// The calibration of one recording.
+struct CalibrateArguments {
+  std::filesystem::path folder;
+  study::CalibrateOptions calibrate;
+  ShowArguments show;
+};
+
+/// A folder of recordings and its index.
+struct CatalogueArguments {
+  std::filesystem::path folder;
+  std::optional<std::string> catalogue;  ///< unset: in the folder
+  std::string bench;
+  ShowArguments show;
+};
+struct RecordingsArguments : CatalogueArguments {};
+struct CalibrationsArguments : CatalogueArguments {};
+struct HistoryArguments : CatalogueArguments {
+  std::string device;
+  catalogue::HistoryOptions history;
+};
+
 struct Arguments {
   using Command =
       std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
                    MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
                    StudyArguments, SimulateArguments, RecordArguments, VerifyArguments,
-                   EmulateArguments, DriversArguments, DecodeArguments>;
+                   EmulateArguments, DriversArguments, DecodeArguments, CalibrateArguments,
+                   RecordingsArguments, CalibrationsArguments, HistoryArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/output.h"
+#include "study/report/catalogue_documents.h"
 #include "study/report/document.h"
 #include "study/report/inference_documents.h"
 #include "study/report/json.h"
@@ -21,7 +22,8 @@ template <class Reports>
 int show(const Reports& reports, const ShowArguments& arguments) {
   const auto json = [&] {
     if constexpr (requires { reports.channels_size(); }) {
-      if (reports.channels_size() == 1) return report::to_json(reports.channels(0));
+      const bool list = Reports::descriptor()->field_count() == 1;
+      if (list && reports.channels_size() == 1) return report::to_json(reports.channels(0));
     }
     return report::to_json(reports);
   };

@@ -19,6 +19,7 @@ build_packages=(
   libtomlplusplus-dev libspdlog-dev libsystemd-dev  # the daemon
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
+  libsoci-dev        # the catalogue of recordings
 )
 test_packages=(
   libgtest-dev nlohmann-json3-dev
@@ -26,6 +27,7 @@ test_packages=(
   clang-format clang-tidy
   umockdev libumockdev-dev       # USB devices that are not there
   python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
+  postgresql                     # the catalogue of several benches
 )
 bench_packages=(libbenchmark-dev time)
 

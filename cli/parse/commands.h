@@ -23,5 +23,7 @@ std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate
 std::vector<ParsedCommand> replay_commands(CLI::App& program);     ///< replay
+std::vector<ParsedCommand> catalogue_commands(
+    CLI::App& program);  ///< calibrate, recordings, calibrations, history
 
 }  // namespace imunoise::cli

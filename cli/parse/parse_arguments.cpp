@@ -17,6 +17,8 @@ Examples:
       --samples 360000 --replicates 6 --seed 1 --out run.h5
   imunoise decode --format xbus capture.bin              what a device's bytes say
   imunoise verify recordings/monday                      is the recording intact?
+  imunoise calibrate recordings/monday                   all of its channels at once
+  imunoise history recordings --device 0042              this device over months; does it drift?
   imunoise emulate --device xsens                        a sensor to try imunoise record with
 
 imunoise COMMAND --help says more.)help";
@@ -36,7 +38,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   std::vector<ParsedCommand> commands;
   for (const auto& group :
        {analysis_commands, array_commands, diagnosis_commands, recording_commands, device_commands,
-        emulation_commands, replay_commands}) {
+        emulation_commands, replay_commands, catalogue_commands}) {
     for (ParsedCommand& command : group(program)) commands.push_back(std::move(command));
   }
   try {

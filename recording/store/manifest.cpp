@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "recording/store/crc32c.h"
 #include "recording/store/format_version.h"
 #include "recording/store/layout.h"
 
@@ -124,6 +125,12 @@ Checksums checksums(const v1::Manifest& manifest) {
   Checksums out;
   for (const v1::ChunkEntry& chunk : manifest.chunks()) out[chunk.file()] = chunk.crc32c();
   return out;
+}
+
+std::string fingerprint(const v1::Manifest& manifest) {
+  std::string all;
+  for (const auto& [file, checksum] : checksums(manifest)) all += file + ' ' + checksum + '\n';
+  return crc32c_text(all);
 }
 
 }  // namespace imunoise::recording

@@ -37,4 +37,8 @@ void end_open_replicates(v1::Manifest& manifest);
 
 Checksums checksums(const v1::Manifest& manifest);
 
+/// What changes when a chunk is added, lost or replaced: CRC-32C of all chunks' names and
+/// checksums, 8 hexadecimal digits.
+std::string fingerprint(const v1::Manifest& manifest);
+
 }  // namespace imunoise::recording

@@ -26,19 +26,15 @@ struct Offers {
   std::vector<Place> places;
 };
 
-// The channels of a recording; with device and stream in front where names alone may be ambiguous.
 Offers offers_of(const v1::Manifest& manifest) {
   Offers out;
-  const bool single = manifest.devices_size() == 1 && manifest.devices(0).streams_size() == 1;
-  for (const v1::RecordedDevice& device : manifest.devices()) {
-    for (int s = 0; s < device.streams_size(); ++s) {
-      const v1::RecordedStream& stream = device.streams(s);
-      for (int c = 0; c < stream.channels_size(); ++c) {
-        const std::string& name = stream.channels(c).name();
-        out.names.push_back(
-            {single ? name : fmt::format("{}/{}/{}", device.name(), stream.name(), name)});
-        out.places.push_back({device.name(), s, c});
-      }
+  const std::vector<ImportedStream> streams = imported_streams(manifest);
+  int number = 0;  // of the stream in its device
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    number = s > 0 && streams[s - 1].device == streams[s].device ? number + 1 : 0;
+    for (std::size_t c = 0; c < streams[s].channels.size(); ++c) {
+      out.names.push_back({streams[s].channels[c].name});
+      out.places.push_back({streams[s].device, number, static_cast<int>(c)});
     }
   }
   return out;
@@ -143,6 +139,24 @@ class Importer {
 };
 
 }  // namespace
+
+// With device and stream in front where names alone may be ambiguous.
+std::vector<ImportedStream> imported_streams(const v1::Manifest& manifest) {
+  std::vector<ImportedStream> out;
+  const bool single = manifest.devices_size() == 1 && manifest.devices(0).streams_size() == 1;
+  for (const v1::RecordedDevice& device : manifest.devices()) {
+    for (const v1::RecordedStream& stream : device.streams()) {
+      out.push_back({device.name(), stream.name(), {}});
+      for (const v1::RecordedChannel& channel : stream.channels()) {
+        out.back().channels.push_back(
+            {single ? channel.name()
+                    : fmt::format("{}/{}/{}", device.name(), stream.name(), channel.name()),
+             channel.units()});
+      }
+    }
+  }
+  return out;
+}
 
 Result<std::vector<Replicate>> import_recording(const FileSystem& files,
                                                 const std::filesystem::path& root,

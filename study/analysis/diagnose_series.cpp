@@ -48,6 +48,8 @@ Result<std::vector<NamedChannel>> witnesses_of(const std::vector<recording::Repl
 Result<Model> started(const Model& noise, const Series& series, const Progress& progress) {
   auto measured = measure(series, {}, progress);
   if (!measured) return tl::unexpected(measured.error());
+  if (auto sound = check_replicates(series, *measured); !sound)
+    return tl::unexpected(sound.error());
   if (auto enough = enough_scales(noise, *measured); !enough) return tl::unexpected(enough.error());
   return mugmwm(noise, *measured, Weighting::kFull, progress).model;
 }
@@ -56,19 +58,12 @@ Result<Model> started(const Model& noise, const Series& series, const Progress& 
 Result<Chosen> chosen_model(const Series& series, const Progress& progress) {
   const Result<v1::ChoiceReport> choice = select_model(series, {}, progress);
   if (!choice) return tl::unexpected(choice.error());
-  const v1::CandidateModel* simplest = &choice->candidates(0);
-  for (const v1::CandidateModel& one : choice->candidates()) {
-    // Where every model is bad, "equivalent" means little.
-    if (choice->far_from_floor()) break;
-    if (one.verdict() == v1::equivalent && one.parameters() < simplest->parameters())
-      simplest = &one;
-  }
-  const Result<FullModel> model =
-      parse_full_model(simplest->model(), series.replicates.front().rate());
+  const std::string& named = model_to_use(*choice).model();
+  const Result<FullModel> model = parse_full_model(named, series.replicates.front().rate());
   if (!model) return tl::unexpected(model.error());
   return Chosen{*model, fmt::format("No model was named: {} was chosen by cross-validation among "
                                     "the sub-models of {}.",
-                                    simplest->model(), kDefaultModel)};
+                                    named, kDefaultModel)};
 }
 
 Result<Chosen> current_model(const Series& series, const DiagnoseOptions& options,

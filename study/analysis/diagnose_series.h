@@ -21,7 +21,7 @@ struct DiagnoseOptions {
 };
 
 /// Which effect the model of a channel lacks. Error: no such channel or witness, a model that
-/// cannot be read, replicates that are too short, or the caller stopped it.
+/// cannot be read, replicates that are too short or tell nothing, or the caller stopped it.
 Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recordings,
                                             std::size_t channel, const DiagnoseOptions& options,
                                             const Progress& progress = {});

@@ -5,9 +5,11 @@
 #include <algorithm>
 
 namespace imunoise::study {
-namespace {
 
-// What looks like a replicate but tells nothing new.
+std::string default_model_note(std::string_view done, std::string_view model) {
+  return fmt::format("No model was named: {} {}. Choose one with --model.", model, done);
+}
+
 Result<void> check_replicates(const Series& series, const std::vector<WaveletVariance>& measured) {
   for (std::size_t k = 0; k < measured.size(); ++k) {
     const Eigen::ArrayXd& own = measured[k].variance;
@@ -27,12 +29,6 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
     }
   }
   return {};
-}
-
-}  // namespace
-
-std::string default_model_note(std::string_view done, std::string_view model) {
-  return fmt::format("No model was named: {} {}. Choose one with --model.", model, done);
 }
 
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured) {

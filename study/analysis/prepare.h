@@ -25,6 +25,10 @@ struct Prepared {
 /// than there are scales.
 Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured);
 
+/// Error: what looks like a replicate but tells nothing new: one that never changes, or two with
+/// the same samples. `measured` are those of the series.
+Result<void> check_replicates(const Series& series, const std::vector<WaveletVariance>& measured);
+
 /// Error: more free parameters than the longest replicate has scales.
 Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured);
 

@@ -75,21 +75,25 @@ void add_candidate(const Candidate& from, v1::ChoiceReport& out) {
   to.set_verdict(verdict_of(from.verdict));
 }
 
+const v1::CandidateModel& simplest_equivalent(const v1::ChoiceReport& report) {
+  const v1::CandidateModel* simplest = &report.candidates(0);
+  for (const v1::CandidateModel& one : report.candidates()) {
+    if (one.verdict() == v1::equivalent && one.parameters() < simplest->parameters()) {
+      simplest = &one;
+    }
+  }
+  return *simplest;
+}
+
 std::string summary_of(const v1::ChoiceReport& report) {
   const v1::CandidateModel& best = report.candidates(0);
   std::string out = fmt::format(
       "{} predicts replicates that it was not fitted to best: its error is {:.3g} times the noise "
       "floor.",
       best.model(), best.merit());
-  const v1::CandidateModel* simplest = &best;
-  for (const v1::CandidateModel& one : report.candidates()) {
-    if (one.verdict() == v1::equivalent && one.parameters() < simplest->parameters()) {
-      simplest = &one;
-    }
-  }
-  if (simplest != &best) {
+  if (const v1::CandidateModel& simplest = simplest_equivalent(report); &simplest != &best) {
     out +=
-        fmt::format(" {} is simpler, and the data cannot say that it is worse.", simplest->model());
+        fmt::format(" {} is simpler, and the data cannot say that it is worse.", simplest.model());
   }
   if (report.far_from_floor()) {
     out +=
@@ -159,6 +163,10 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
     out.add_notes(default_model_note("and its sub-models were compared"));
   }
   return out;
+}
+
+const v1::CandidateModel& model_to_use(const v1::ChoiceReport& choice) {
+  return choice.far_from_floor() ? choice.candidates(0) : simplest_equivalent(choice);
 }
 
 }  // namespace imunoise::study

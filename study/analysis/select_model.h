@@ -24,4 +24,8 @@ struct SelectOptions {
 Result<v1::ChoiceReport> select_model(const Series& series, const SelectOptions& options,
                                       const Progress& progress = {});
 
+/// The model to go on with: the simplest of which the data cannot say that it is worse than the
+/// best; the best itself where every model is bad and "equivalent" means little.
+const v1::CandidateModel& model_to_use(const v1::ChoiceReport& choice);
+
 }  // namespace imunoise::study

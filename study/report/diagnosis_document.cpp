@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "study/report/diagnosis_words.h"
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/svg_plot.h"
@@ -12,24 +13,6 @@ namespace {
 
 constexpr int kMostShown = 8;
 constexpr int kAlwaysShown = 2;  // the others only if they are not mere chance
-
-struct VerdictWords {
-  const char* badge;
-  Mood mood;
-};
-
-VerdictWords words(const v1::DiagnosisReport& report) {
-  switch (report.verdict()) {
-    case v1::found:
-      return {"effect found", Mood::kBad};
-    case v1::one_of:
-      return {"one of several", Mood::kDoubtful};
-    case v1::unknown:
-      return {"something unknown", Mood::kDoubtful};
-    default:
-      return {"nothing missing", Mood::kGood};
-  }
-}
 
 std::string chance(double p, Digits digits) { return p < 1e-4 ? "< 0.0001" : number(p, 2, digits); }
 
@@ -178,8 +161,8 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
     witnesses += (witnesses.empty() ? "" : ", ") + name;
   out.facts = fmt::format("{:g} Hz · model {} · witnesses {}", report.rate_hz(), report.model(),
                           witnesses.empty() ? "none" : witnesses);
-  out.badge = words(report).badge;
-  out.mood = words(report).mood;
+  out.badge = diagnosis_words(report).badge;
+  out.mood = diagnosis_words(report).mood;
   out.summary = report.summary();
   add_figures(report, out);
   if (report.integrity_size() > 0) out.tables.push_back(integrity_table(report));
@@ -199,6 +182,19 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
 }
 
 }  // namespace
+
+VerdictWords diagnosis_words(const v1::DiagnosisReport& report) {
+  switch (report.verdict()) {
+    case v1::found:
+      return {"effect found", Mood::kBad};
+    case v1::one_of:
+      return {"one of several", Mood::kDoubtful};
+    case v1::unknown:
+      return {"something unknown", Mood::kDoubtful};
+    default:
+      return {"nothing missing", Mood::kGood};
+  }
+}
 
 Document document(const v1::DiagnosisReports& reports, Digits digits) {
   Document out{"diagnosis", {}};

@@ -32,6 +32,7 @@ void clean(Message& m, const Reflection& r, const FieldDescriptor* f) {
   switch (f->cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
       for (int i = 0; i < size; ++i) assert(std::isfinite(r.GetRepeatedDouble(m, f, i)));
+      if (!f->is_repeated() && r.GetDouble(m, f) == 0.0) r.SetDouble(&m, f, 0.0);  // "-0" is none
       if (f->is_repeated() || std::isfinite(r.GetDouble(m, f))) return;
       assert(f->has_optional_keyword() && "only optional numbers may be unknown");
       r.ClearField(&m, f);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 
 namespace imunoise::report {
@@ -143,6 +144,23 @@ std::string duration(double seconds) {
   std::string digits = fmt::format("{:.{}f}", value, value < 9.95 ? 1 : 0);
   if (digits.ends_with(".0")) digits.resize(digits.size() - 2);
   return digits + " " + unit->symbol;
+}
+
+std::string day(std::int64_t ns) {
+  if (ns == 0) return "unknown";
+  using std::chrono::days;
+  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(ns)};
+  const std::chrono::year_month_day date{std::chrono::floor<days>(time)};
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+}
+
+std::string minute(std::int64_t ns) {
+  if (ns == 0) return "unknown";
+  constexpr std::int64_t kNanosecondsADay = 86'400'000'000'000;
+  const std::int64_t in_day = (ns % kNanosecondsADay + kNanosecondsADay) % kNanosecondsADay;
+  const std::int64_t minutes = in_day / 60'000'000'000;
+  return fmt::format("{} {:02}:{:02}", day(ns), minutes / 60, minutes % 60);
 }
 
 std::string percent(double fraction) {

@@ -30,6 +30,11 @@ std::string interval(double value, double lower, double upper, Digits style);
 /// A time people can picture: "20 ms", "2.6 s", "44 min", "1.5 h", "3 d".
 std::string duration(double seconds);
 
+/// A day and a minute in UTC, of nanoseconds since 1970-01-01: "2026-11-22", "2026-11-22 06:40";
+/// "unknown" for 0.
+std::string day(std::int64_t ns);
+std::string minute(std::int64_t ns);
+
 /// "37 %"; "< 1 %" when it is not quite nothing.
 std::string percent(double fraction);
 

@@ -94,5 +94,14 @@ TEST(Text, CleansEscapesMeasuresAndTranslates) {
   EXPECT_EQ(to_ascii("3 °/√Hz ±2σ²"), "3 deg/sqrt(Hz) +-2s^2");
 }
 
+TEST(Number, DaysAndMinutesAreUtc) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  EXPECT_EQ(day(1'700'000'000 * kSecond), "2023-11-14");
+  EXPECT_EQ(minute(1'700'000'000 * kSecond), "2023-11-14 22:13");
+  EXPECT_EQ(minute(1'709'251'199 * kSecond), "2024-02-29 23:59");
+  EXPECT_EQ(minute(-1), "1969-12-31 23:59");
+  EXPECT_EQ(minute(0), "unknown");
+}
+
 }  // namespace
 }  // namespace imunoise::report

@@ -1,0 +1,210 @@
+#include "daemon/catalogue/catalogue.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "daemon/catalogue/entry.h"
+#include "daemon/catalogue/scan.h"
+#include "daemon/catalogue/schema.h"
+#include "recording/store/layout.h"
+
+namespace imunoise::catalogue {
+namespace {
+
+using Key = std::pair<std::string, std::string>;  // bench and folder
+
+v1::CataloguedDevice device_of(const Row& row) {
+  v1::CataloguedDevice out;
+  out.set_id(text(row[0]));
+  out.set_name(text(row[1]));
+  out.set_driver(text(row[2]));
+  out.set_serial(text(row[3]));
+  return out;
+}
+
+v1::HistoryPoint point_of(const Row& row) {
+  v1::HistoryPoint out;
+  out.set_bench(text(row[8]));
+  out.set_folder(text(row[9]));
+  out.set_started_ns(integer(row[10]));
+  out.set_value(real(row[11]));
+  if (std::holds_alternative<double>(row[12])) out.set_lower(real(row[12]));
+  if (std::holds_alternative<double>(row[13])) out.set_upper(real(row[13]));
+  out.set_model(text(row[14]));
+  return out;
+}
+
+}  // namespace
+
+std::string place_in(const std::filesystem::path& root) {
+  std::error_code unknown;
+  const bool recording = std::filesystem::exists(root / recording::kManifestName, unknown);
+  return !recording && ::access(root.c_str(), W_OK) == 0 ? (root / "catalogue.sqlite").string()
+                                                         : ":memory:";
+}
+
+Result<Catalogue> Catalogue::open(const std::string& where, std::string bench) {
+  auto database = Database::open(where);
+  if (!database) return tl::unexpected(database.error());
+  if (auto ready = prepare_schema(**database); !ready) {
+    return fail(ready.error().message +
+                "; a catalogue may be deleted: it is made again from the recordings");
+  }
+  return Catalogue(std::move(*database), std::move(bench));
+}
+
+Result<Changes> Catalogue::refresh(const recording::FileSystem& files,
+                                   const std::filesystem::path& root, const Progress& progress) {
+  const auto rows =
+      database_->query("select folder, stamp from recordings where bench = :bench", {bench_});
+  if (!rows) return tl::unexpected(rows.error());
+  std::map<std::string, std::string> known;
+  for (const Row& row : *rows) known[text(row[0])] = text(row[1]);
+  const auto folders = find_recordings(files, root);
+  if (!folders) return tl::unexpected(folders.error());
+  Changes out;
+  for (std::size_t i = 0; i < folders->size(); ++i) {
+    const std::string& folder = (*folders)[i];
+    if (progress.stopped()) return fail("stopped");
+    progress.report(static_cast<double>(i) / static_cast<double>(folders->size()));
+    const auto before = known.extract(folder);
+    if (!before.empty() && before.mapped() == stamp_of(files, root / folder)) {
+      ++out.unchanged;
+      continue;
+    }
+    const Found found = read_found(files, root, folder);
+    auto done = database_->transaction([&] { return put_entry(*database_, bench_, found); });
+    if (!done) return tl::unexpected(done.error());
+    ++out.added;
+  }
+  for (const auto& [folder, stamp] : known) {
+    auto done = database_->transaction([&] { return remove_entry(*database_, bench_, folder); });
+    if (!done) return tl::unexpected(done.error());
+    ++out.removed;
+  }
+  progress.report(1.0);
+  return out;
+}
+
+Result<Changes> Catalogue::rebuild(const recording::FileSystem& files,
+                                   const std::filesystem::path& root, const Progress& progress) {
+  auto done = database_->execute("update recordings set stamp = '' where bench = :bench", {bench_});
+  if (!done) return tl::unexpected(done.error());
+  return refresh(files, root, progress);
+}
+
+Result<v1::RecordingList> Catalogue::recordings() {
+  const auto devices =
+      database_->query("select id, name, driver, serial, bench, folder from devices order by name");
+  if (!devices) return tl::unexpected(devices.error());
+  std::map<Key, std::vector<v1::CataloguedDevice>> of;
+  for (const Row& row : *devices) of[{text(row[4]), text(row[5])}].push_back(device_of(row));
+  const auto rows = database_->query(
+      "select r.bench, r.folder, r.campaign, r.started_ns, r.closed, r.replicates, r.samples, "
+      "r.bytes, r.trouble, c.folder from recordings r left join calibrations c "
+      "on c.bench = r.bench and c.folder = r.folder order by r.started_ns, r.bench, r.folder");
+  if (!rows) return tl::unexpected(rows.error());
+  v1::RecordingList out;
+  for (const Row& row : *rows) {
+    v1::CataloguedRecording& one = *out.add_recordings();
+    one.set_bench(text(row[0]));
+    one.set_folder(text(row[1]));
+    one.set_campaign(text(row[2]));
+    one.set_started_ns(integer(row[3]));
+    one.set_closed(integer(row[4]) != 0);
+    one.set_replicates(static_cast<std::uint32_t>(integer(row[5])));
+    one.set_samples(static_cast<std::uint64_t>(integer(row[6])));
+    one.set_bytes(static_cast<std::uint64_t>(integer(row[7])));
+    one.set_trouble(text(row[8]));
+    one.set_calibrated(std::holds_alternative<std::string>(row[9]));
+    for (const v1::CataloguedDevice& device : of[{one.bench(), one.folder()}])
+      *one.add_devices() = device;
+  }
+  return out;
+}
+
+Result<v1::CalibrationList> Catalogue::calibrations() {
+  const auto rows = database_->query(
+      "select c.bench, c.folder, r.started_ns, c.made_ns, c.model, c.channels, c.fitted, "
+      "c.troubled, c.fingerprint, r.fingerprint, c.summary, c.trouble from calibrations c "
+      "join recordings r on r.bench = c.bench and r.folder = c.folder "
+      "order by r.started_ns, c.bench, c.folder");
+  if (!rows) return tl::unexpected(rows.error());
+  v1::CalibrationList out;
+  for (const Row& row : *rows) {
+    v1::CataloguedCalibration& one = *out.add_calibrations();
+    one.set_bench(text(row[0]));
+    one.set_folder(text(row[1]));
+    one.set_started_ns(integer(row[2]));
+    one.set_made_ns(integer(row[3]));
+    one.set_model(text(row[4]));
+    one.set_channels(static_cast<std::uint32_t>(integer(row[5])));
+    one.set_fitted(static_cast<std::uint32_t>(integer(row[6])));
+    one.set_troubled(static_cast<std::uint32_t>(integer(row[7])));
+    one.set_summary(text(row[10]));
+    one.set_trouble(text(row[11]));
+    one.set_outdated(one.trouble().empty() && text(row[8]) != text(row[9]));
+  }
+  return out;
+}
+
+Result<v1::CataloguedDevice> Catalogue::device(const std::string& wanted) {
+  const auto rows = database_->query(
+      "select d.id, d.name, d.driver, d.serial from devices d join recordings r "
+      "on r.bench = d.bench and r.folder = d.folder order by r.started_ns, d.name");
+  if (!rows) return tl::unexpected(rows.error());
+  std::map<std::string, v1::CataloguedDevice> known;  // by id, as it was recorded last
+  std::set<std::string> exact;
+  std::set<std::string> meant;
+  for (const Row& row : *rows) {
+    const v1::CataloguedDevice one = device_of(row);
+    known[one.id()] = one;
+    if (one.id() == wanted) exact.insert(one.id());
+    if (one.serial() == wanted || one.name() == wanted) meant.insert(one.id());
+  }
+  if (!exact.empty()) return known[wanted];
+  if (meant.size() == 1) return known[*meant.begin()];
+  std::set<std::string> all;
+  for (const auto& [id, one] : known) all.insert(id);
+  std::string list;
+  for (const std::string& id : meant.empty() ? all : meant) list += (list.empty() ? "" : ", ") + id;
+  if (!meant.empty())
+    return fail(fmt::format("device '{}': several are called so: name one of {}", wanted, list));
+  return fail(list.empty() ? "there is no device: no recording was found"
+                           : fmt::format("device '{}': there is none; there are {}", wanted, list));
+}
+
+Result<Parameters> Catalogue::parameters(const std::string& device_id) {
+  const auto rows = database_->query(
+      "select p.stream, p.channel, p.term, p.parameter, p.title, p.unit, p.datasheet_unit, "
+      "p.to_datasheet, p.bench, p.folder, r.started_ns, p.value, p.lower_end, p.upper_end, p.model "
+      "from parameters p join recordings r on r.bench = p.bench and r.folder = p.folder "
+      "where p.device = :device order by p.stream, p.channel, p.term, p.parameter, r.started_ns, "
+      "p.bench, p.folder",
+      {device_id});
+  if (!rows) return tl::unexpected(rows.error());
+  Parameters out;
+  const Row* before = nullptr;
+  for (const Row& row : *rows) {
+    const bool goes_on =
+        before != nullptr && std::equal(row.begin(), row.begin() + 4, before->begin());
+    v1::ParameterHistory& to = goes_on ? out.back() : out.emplace_back();
+    before = &row;
+    to.set_stream(text(row[0]));
+    to.set_channel(text(row[1]));
+    to.set_term(text(row[2]));
+    to.set_parameter(text(row[3]));
+    to.set_title(text(row[4]));
+    to.set_unit(text(row[5]));
+    to.set_datasheet_unit(text(row[6]));
+    to.set_to_datasheet(real(row[7]));
+    *to.add_points() = point_of(row);
+  }
+  return out;
+}
+
+}  // namespace imunoise::catalogue

@@ -1,0 +1,67 @@
+#pragma once
+
+// An index of many recordings and their calibrations. The files are the truth: it may be deleted at
+// any time and is then made again from them.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/support/progress.h"
+#include "daemon/catalogue/database.h"
+#include "imunoise/v1/catalogue.pb.h"
+#include "recording/store/file_system.h"
+
+namespace imunoise::catalogue {
+
+/// Where the catalogue of a folder lies: catalogue.sqlite in it, or in memory where that cannot be
+/// written or is itself a recording.
+std::string place_in(const std::filesystem::path& root);
+
+/// What an update did.
+struct Changes {
+  std::size_t added = 0;  ///< new, or said something else than before
+  std::size_t unchanged = 0;
+  std::size_t removed = 0;
+  friend bool operator==(const Changes&, const Changes&) = default;
+};
+
+/// A parameter of a device over time, oldest first.
+using Parameters = std::vector<v1::ParameterHistory>;
+
+/// One thread at a time. Errors: the database's.
+class Catalogue {
+ public:
+  /// `where` as Database::open() takes it. Recordings are known by their bench and folder: several
+  /// benches share one PostgreSQL.
+  static Result<Catalogue> open(const std::string& where, std::string bench = "");
+
+  /// Reads what is new or says something else in the recordings under `root`, and forgets what is
+  /// gone, of this bench. Each recording is taken whole or not at all. Error: also a root that
+  /// cannot be listed, or the caller stopped it.
+  Result<Changes> refresh(const recording::FileSystem& files, const std::filesystem::path& root,
+                          const Progress& progress = {});
+  /// The same after forgetting everything of this bench.
+  Result<Changes> rebuild(const recording::FileSystem& files, const std::filesystem::path& root,
+                          const Progress& progress = {});
+
+  /// Of all benches, oldest first.
+  Result<v1::RecordingList> recordings();
+  Result<v1::CalibrationList> calibrations();
+
+  /// The device of this id, serial number, or name in a recording. Error: there is none (those
+  /// known are listed), or several.
+  Result<v1::CataloguedDevice> device(const std::string& wanted);
+  /// What every calibration said of a device.
+  Result<Parameters> parameters(const std::string& device_id);
+
+ private:
+  Catalogue(std::unique_ptr<Database> database, std::string bench)
+      : database_(std::move(database)), bench_(std::move(bench)) {}
+
+  std::unique_ptr<Database> database_;
+  std::string bench_;
+};
+
+}  // namespace imunoise::catalogue

@@ -1,0 +1,157 @@
+#include "daemon/catalogue/database.h"
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+
+#include <deque>
+#include <exception>
+#include <utility>
+
+// As SOCI's own headers of the two have them, which bring those of SQLite and PostgreSQL along.
+namespace soci {
+extern "C" backend_factory const* factory_sqlite3();
+extern "C" backend_factory const* factory_postgresql();
+}  // namespace soci
+
+namespace imunoise::catalogue {
+namespace {
+
+constexpr std::string_view kPostgres = "postgresql://";
+constexpr int kPatience = 10;  // s that a SQLite file may be locked by somebody else
+
+// The values of a statement, kept where SOCI finds them until it was executed.
+class Bound {
+ public:
+  Bound(soci::statement& statement, const std::vector<Value>& values) {
+    for (const Value& value : values) {
+      std::visit([&](const auto& held) { bind(statement, held); }, value);
+    }
+  }
+
+ private:
+  void bind(soci::statement& statement, std::monostate) {
+    statement.exchange(soci::use(nothing_, null_));
+  }
+  void bind(soci::statement& statement, std::int64_t value) {
+    statement.exchange(soci::use(integers_.emplace_back(value)));
+  }
+  void bind(soci::statement& statement, double value) {
+    statement.exchange(soci::use(reals_.emplace_back(value)));
+  }
+  void bind(soci::statement& statement, const std::string& value) {
+    statement.exchange(soci::use(texts_.emplace_back(value)));
+  }
+
+  std::string nothing_;
+  soci::indicator null_ = soci::i_null;
+  std::deque<long long> integers_;
+  std::deque<double> reals_;
+  std::deque<std::string> texts_;
+};
+
+Value cell(const soci::row& row, std::size_t column) {
+  if (row.get_indicator(column) == soci::i_null) return std::monostate{};
+  switch (row.get_properties(column).get_data_type()) {
+    case soci::dt_double:
+      return row.get<double>(column);
+    case soci::dt_integer:
+      return std::int64_t{row.get<int>(column)};
+    case soci::dt_long_long:
+      return std::int64_t{row.get<long long>(column)};
+    default:
+      return row.get<std::string>(column);
+  }
+}
+
+// Passwords of a connection are nobody's business.
+std::string name_of(const std::string& where) {
+  return where.starts_with(kPostgres) ? "the PostgreSQL catalogue" : where;
+}
+
+}  // namespace
+
+struct Database::Session {
+  std::string name;
+  soci::session soci;
+
+  // The edge where SOCI's exceptions become errors.
+  template <class Work>
+  auto guarded(const Work& work) -> decltype(work()) {
+    try {
+      return work();
+    } catch (const std::exception& error) {
+      return fail(fmt::format("{}: {}", name, error.what()));
+    }
+  }
+};
+
+Database::Database(std::unique_ptr<Session> session) : session_(std::move(session)) {}
+Database::~Database() = default;
+
+Result<std::unique_ptr<Database>> Database::open(const std::string& where) {
+  auto session = std::make_unique<Session>();
+  session->name = name_of(where);
+  if (where.find('"') != std::string::npos && !where.starts_with(kPostgres))
+    return fail(where + ": a catalogue's path may not hold a quotation mark");
+  return session->guarded([&]() -> Result<std::unique_ptr<Database>> {
+    if (where.starts_with(kPostgres)) {
+      session->soci.open(*soci::factory_postgresql(), where.substr(kPostgres.size()));
+      session->soci << "set client_min_messages to warning";  // else libpq prints
+    } else {
+      session->soci.open(*soci::factory_sqlite3(),
+                         fmt::format("dbname=\"{}\" timeout={}", where, kPatience));
+    }
+    return std::unique_ptr<Database>(new Database(std::move(session)));
+  });
+}
+
+Result<void> Database::execute(std::string_view statement, const std::vector<Value>& values) {
+  const auto rows = query(statement, values);
+  if (!rows) return tl::unexpected(rows.error());
+  return {};
+}
+
+Result<std::vector<Row>> Database::query(std::string_view statement,
+                                         const std::vector<Value>& values) {
+  return session_->guarded([&]() -> Result<std::vector<Row>> {
+    soci::statement prepared(session_->soci);
+    const Bound bound(prepared, values);
+    soci::row row;
+    prepared.exchange(soci::into(row));
+    prepared.alloc();
+    prepared.prepare(std::string(statement));
+    prepared.define_and_bind();
+    std::vector<Row> out;
+    for (bool more = prepared.execute(true); more; more = prepared.fetch()) {
+      Row& cells = out.emplace_back();
+      for (std::size_t c = 0; c < row.size(); ++c) cells.push_back(cell(row, c));
+    }
+    return out;
+  });
+}
+
+Result<void> Database::transaction(const std::function<Result<void>()>& work) {
+  return session_->guarded([&]() -> Result<void> {
+    soci::transaction all(session_->soci);  // rolls back when it is left before the commit
+    if (auto done = work(); !done) return done;
+    all.commit();
+    return {};
+  });
+}
+
+std::int64_t integer(const Value& value) {
+  const auto* const held = std::get_if<std::int64_t>(&value);
+  return held == nullptr ? 0 : *held;
+}
+
+double real(const Value& value) {
+  const auto* const held = std::get_if<double>(&value);
+  return held == nullptr ? 0.0 : *held;
+}
+
+std::string text(const Value& value) {
+  const auto* const held = std::get_if<std::string>(&value);
+  return held == nullptr ? "" : *held;
+}
+
+}  // namespace imunoise::catalogue

@@ -1,0 +1,194 @@
+#include "study/calibration/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/model/model.h"
+#include "recording/store/manifest.h"
+#include "recording/store/replicates.h"
+#include "study/analysis/array_series.h"
+#include "study/analysis/prepare.h"
+#include "study/calibration/calibrate_channel.h"
+#include "study/calibration/calibration_file.h"
+#include "study/report/verdict.h"
+
+namespace imunoise::study {
+namespace {
+
+using recording::Replicate;
+
+// The channels wanted of one stream.
+struct Task {
+  std::string device;
+  std::string stream;
+  std::vector<std::string> channels;
+};
+
+bool of_inertia(const std::string& units) {
+  const auto unit = parse_unit(units);
+  return unit &&
+         (unit->quantity == Quantity::kAngularRate || unit->quantity == Quantity::kAcceleration);
+}
+
+Result<std::vector<Task>> tasks_of(const std::string& folder, const v1::Manifest& manifest,
+                                   const std::vector<std::string>& wanted) {
+  std::vector<Task> out;
+  std::set<std::string> missing(wanted.begin(), wanted.end());
+  std::string known;
+  for (const recording::ImportedStream& stream : recording::imported_streams(manifest)) {
+    Task task{stream.device, stream.stream, {}};
+    for (const recording::ImportedChannel& channel : stream.channels) {
+      known += (known.empty() ? "" : ", ") + channel.name;
+      const bool named = missing.erase(channel.name) > 0;
+      if (wanted.empty() ? of_inertia(channel.units) : named) task.channels.push_back(channel.name);
+    }
+    if (!task.channels.empty()) out.push_back(std::move(task));
+  }
+  if (!missing.empty()) {
+    return fail(fmt::format("{}: no channel '{}' (it has: {})", folder, *missing.begin(), known));
+  }
+  if (out.empty()) {
+    return fail(fmt::format(
+        "{}: no channel is an angular rate or an acceleration; name one with --channel ({})",
+        folder, known));
+  }
+  return out;
+}
+
+void name(const Task& task, auto& to) {
+  to.set_device(task.device);
+  to.set_stream(task.stream);
+}
+
+// A stream that cannot be read: every channel wanted of it says so.
+void tell_unread(const Task& task, const Error& error, v1::Calibration& to) {
+  for (const std::string& channel : task.channels) {
+    v1::ChannelCalibration& one = *to.add_channels();
+    name(task, one);
+    one.set_channel(channel);
+    add_trouble("read", error, *one.mutable_troubles());
+  }
+}
+
+// The channels of each quantity as one array.
+void add_arrays(const Task& task, const std::vector<Replicate>& replicates,
+                const std::vector<std::size_t>& channels, const Progress& progress,
+                v1::Calibration& to) {
+  for (const Quantity quantity : {Quantity::kAngularRate, Quantity::kAcceleration}) {
+    std::vector<Series> sensors;
+    for (const std::size_t c : channels) {
+      if (replicates.front().channels[c].unit.quantity == quantity)
+        sensors.push_back(series_of(replicates, c));
+    }
+    if (sensors.size() < 2) continue;
+    v1::ArrayCalibration& array = *to.add_arrays();
+    name(task, array);
+    for (const Series& one : sensors) array.add_channels(one.channel);
+    auto report = array_series(sensors, {}, progress);
+    if (report) {
+      *array.mutable_report() = std::move(*report);
+    } else {
+      add_trouble("array", report.error(), *array.mutable_troubles());
+    }
+  }
+}
+
+void calibrate_stream(const Task& task, const std::vector<Replicate>& replicates,
+                      const CalibrateOptions& options, const Progress& progress,
+                      v1::Calibration& to) {
+  std::vector<std::size_t> channels;
+  for (const std::string& one : task.channels)
+    channels.push_back(channel_called(one, replicates.front()).value());
+  const double arrays = options.array ? 0.9 : 1.0;  // where these begin
+  for (std::size_t i = 0; i < channels.size() && !progress.stopped(); ++i) {
+    const auto count = static_cast<double>(channels.size());
+    const Progress part = progress.part(arrays * static_cast<double>(i) / count,
+                                        arrays * static_cast<double>(i + 1) / count);
+    v1::ChannelCalibration one = calibrate_channel(replicates, channels[i], options, part);
+    name(task, one);
+    one.set_channel(task.channels[i]);
+    *to.add_channels() = std::move(one);
+  }
+  if (options.array && !progress.stopped())
+    add_arrays(task, replicates, channels, progress.part(arrays, 1.0), to);
+}
+
+v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
+  v1::CalibrationSettings out;
+  out.set_model(options.model.value_or(""));
+  for (const std::string& channel : options.channels) out.add_channels(channel);
+  out.set_diagnose(options.diagnose);
+  out.set_array(options.array);
+  out.set_bootstrap_sets(static_cast<std::uint32_t>(options.bootstrap.sets));
+  out.set_seed(options.bootstrap.seed);
+  return out;
+}
+
+std::string summary_of(const v1::Calibration& calibration) {
+  int fitted = 0;
+  int misfits = 0;
+  int effects = 0;
+  int troubled = 0;
+  for (const v1::ChannelCalibration& one : calibration.channels()) {
+    fitted += one.has_fit() ? 1 : 0;
+    misfits += one.has_fit() && report::verdict(one.fit()) == report::Verdict::kFails ? 1 : 0;
+    effects += one.diagnosis().verdict() != v1::none && one.has_diagnosis() ? 1 : 0;
+    troubled += one.troubles().empty() ? 0 : 1;
+  }
+  std::string out =
+      fmt::format("{} of {} channels have a model", fitted, calibration.channels_size());
+  out += misfits == 0 ? ", and every model fits" : fmt::format("; {} of these do not fit", misfits);
+  if (calibration.settings().diagnose())
+    out += effects == 0 ? "; no effect is missing" : fmt::format("; {} lack an effect", effects);
+  if (troubled > 0) out += fmt::format("; {} had trouble", troubled);
+  return out + ".";
+}
+
+}  // namespace
+
+Result<v1::Calibration> calibrate(const recording::FileSystem& files,
+                                  const std::filesystem::path& folder,
+                                  const CalibrateOptions& options, const Progress& progress) {
+  const auto manifest = recording::read_manifest(files, folder);
+  if (!manifest) return tl::unexpected(manifest.error());
+  if (!*manifest) {
+    return fail(folder.string() +
+                ": is no recording: it has no manifest.json (imunoise verify --repair makes one "
+                "from chunks)");
+  }
+  if (options.model) {  // before minutes are spent on reading; no rate makes a model unreadable
+    const auto model = parse_model(*options.model, Hertz{1.0});
+    if (!model) return tl::unexpected(model.error());
+  }
+  const auto tasks = tasks_of(folder.string(), **manifest, options.channels);
+  if (!tasks) return tl::unexpected(tasks.error());
+
+  v1::Calibration out;
+  out.set_version(kCalibrationVersion);
+  out.set_fingerprint(recording::fingerprint(**manifest));
+  out.set_started_ns((*manifest)->started_ns());
+  out.set_made_ns(options.made_ns);
+  *out.mutable_settings() = settings_of(options);
+  const auto count = static_cast<double>(tasks->size());
+  for (std::size_t t = 0; t < tasks->size(); ++t) {
+    const Task& task = (*tasks)[t];
+    const Progress part =
+        progress.part(static_cast<double>(t) / count, static_cast<double>(t + 1) / count);
+    recording::ImportOptions import;
+    import.channels = {task.channels.front()};
+    import.beside = true;
+    const auto replicates = recording::import_recording(files, folder, import, part.part(0.0, 0.1));
+    if (progress.stopped()) return fail("stopped");
+    if (!replicates) {
+      tell_unread(task, replicates.error(), out);
+      continue;
+    }
+    calibrate_stream(task, *replicates, options, part.part(0.1, 1.0), out);
+    if (progress.stopped()) return fail("stopped");
+  }
+  out.set_summary(summary_of(out));
+  return out;
+}
+
+}  // namespace imunoise::study

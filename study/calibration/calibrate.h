@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/inference/near_stationarity.h"
+#include "core/support/progress.h"
+#include "core/support/result.h"
+#include "imunoise/v1/calibration.pb.h"
+#include "recording/store/file_system.h"
+
+namespace imunoise::study {
+
+struct CalibrateOptions {
+  /// In the grammar; unset: chosen for each channel among the sub-models of kDefaultModel.
+  std::optional<std::string> model;
+  /// As import_recording() calls them; empty: all angular rates and accelerations.
+  std::vector<std::string> channels;
+  bool diagnose = true;        ///< which effect the model lacks
+  bool array = false;          ///< channels of one quantity in a stream as an array, too
+  BootstrapOptions bootstrap;  ///< of the test between replicates
+  std::int64_t made_ns = 0;    ///< now: ns since 1970-01-01 UTC
+};
+
+/// What the replicates of a recording say about the noise of its channels: wavelet variance, model,
+/// fit, near-stationarity, and where asked diagnosis and array. What cannot be done for a channel
+/// is told in its troubles and stops neither the other steps nor the other channels. Memory: the
+/// samples of one stream in all replicates. Error: not a recording, a channel that it has not,
+/// nothing to calibrate, a model that cannot be read, or the caller stopped it.
+Result<v1::Calibration> calibrate(const recording::FileSystem& files,
+                                  const std::filesystem::path& folder,
+                                  const CalibrateOptions& options, const Progress& progress = {});
+
+}  // namespace imunoise::study

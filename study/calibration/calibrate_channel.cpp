@@ -1,0 +1,89 @@
+#include "study/calibration/calibrate_channel.h"
+
+#include "study/analysis/diagnose_series.h"
+#include "study/analysis/fit_series.h"
+#include "study/analysis/select_model.h"
+#include "study/analysis/test_series.h"
+
+namespace imunoise::study {
+namespace {
+
+constexpr int kMostCandidates = 3;
+
+// Keeps what a step made, or why it made nothing.
+template <class Report>
+bool keep(Result<Report> done, std::string_view step, v1::ChannelCalibration& to,
+          Report* (v1::ChannelCalibration::*place)()) {
+  if (done) {
+    *(to.*place)() = std::move(*done);
+  } else {
+    add_trouble(step, done.error(), *to.mutable_troubles());
+  }
+  return done.has_value();
+}
+
+Result<v1::WaveletVarianceReport> wavelet(const Series& series, const Progress& progress) {
+  const auto measured = measure(series, {}, progress);
+  if (!measured) return tl::unexpected(measured.error());
+  return wavelet_report(series, *measured);
+}
+
+// A calibration is kept for years: the verdict and who may have done it are, not all that was
+// tried.
+void shorten(v1::DiagnosisReport& report) {
+  if (report.candidates_size() > kMostCandidates) {
+    report.mutable_candidates()->DeleteSubrange(kMostCandidates,
+                                                report.candidates_size() - kMostCandidates);
+  }
+  report.clear_before();
+  report.clear_after();
+}
+
+}  // namespace
+
+void add_trouble(std::string_view step, const Error& error,
+                 google::protobuf::RepeatedPtrField<v1::CalibrationTrouble>& to) {
+  if (!to.empty() && to.rbegin()->message() == error.message) return;
+  v1::CalibrationTrouble& trouble = *to.Add();
+  trouble.set_step(std::string(step));
+  trouble.set_message(error.message);
+}
+
+v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>& replicates,
+                                         std::size_t channel, const CalibrateOptions& options,
+                                         const Progress& progress) {
+  using Calibration = v1::ChannelCalibration;
+  Calibration out;
+  const Series series = series_of(replicates, channel);
+  keep(wavelet(series, progress.part(0.0, 0.1)), "measure", out, &Calibration::mutable_wavelet);
+
+  std::optional<std::string> model = options.model;
+  if (!model) {
+    if (keep(select_model(series, {}, progress.part(0.1, 0.3)), "select", out,
+             &Calibration::mutable_choice)) {
+      model = model_to_use(out.choice()).model();
+    }
+  }
+  FitOptions fit;
+  fit.model = model;
+  keep(fit_series(series, fit, progress.part(0.3, 0.4)), "fit", out, &Calibration::mutable_fit);
+  if (replicates.size() > 1) {
+    TestOptions test;
+    test.model = model;
+    test.bootstrap = options.bootstrap;
+    keep(test_series(series, test, progress.part(0.4, 0.6)), "test", out,
+         &Calibration::mutable_stationarity);
+  }
+  if (options.diagnose) {
+    DiagnoseOptions diagnose;
+    diagnose.model = model;
+    if (keep(diagnose_series(replicates, channel, diagnose, progress.part(0.6, 1.0)), "diagnose",
+             out, &Calibration::mutable_diagnosis)) {
+      shorten(*out.mutable_diagnosis());
+    }
+  }
+  progress.report(1.0);
+  return out;
+}
+
+}  // namespace imunoise::study

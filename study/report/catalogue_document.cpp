@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "study/report/catalogue_documents.h"
+
+namespace imunoise::report {
+namespace {
+
+std::string devices_of(const v1::CataloguedRecording& recording) {
+  std::string out;
+  for (const v1::CataloguedDevice& one : recording.devices())
+    out += (out.empty() ? "" : ", ") +
+           (one.serial().empty() ? one.name() : fmt::format("{} ({})", one.name(), one.serial()));
+  return out;
+}
+
+std::string state_of(const v1::CataloguedRecording& recording) {
+  if (!recording.trouble().empty()) return "not readable";
+  if (!recording.closed()) return "open";
+  return recording.calibrated() ? "calibrated" : "closed";
+}
+
+std::string state_of(const v1::CataloguedCalibration& calibration) {
+  if (!calibration.trouble().empty()) return "not readable";
+  return calibration.outdated() ? "outdated" : "current";
+}
+
+// A bench has a column where there are several.
+template <class List>
+bool of_benches(const List& list) {
+  std::set<std::string> benches;
+  for (const auto& one : list) benches.insert(one.bench());
+  return benches.size() > 1 || (!benches.empty() && !benches.begin()->empty());
+}
+
+void put_bench_first(const std::string& bench, std::vector<std::string>& row) {
+  row.insert(row.begin(), bench);
+}
+
+}  // namespace
+
+Document document(const v1::RecordingList& list, Digits digits) {
+  const bool benches = of_benches(list.recordings());
+  Table table{"Recordings",
+              {"started (UTC)", "folder", "devices", "replicates", "samples", "MB", "state"},
+              {}};
+  if (benches) put_bench_first("bench", table.head);
+  Section section;
+  int calibrated = 0;
+  for (const v1::CataloguedRecording& one : list.recordings()) {
+    calibrated += one.calibrated() ? 1 : 0;
+    table.rows.push_back({minute(one.started_ns()), one.folder(), devices_of(one),
+                          std::to_string(one.replicates()), count(one.samples(), digits),
+                          number(static_cast<double>(one.bytes()) / 1e6, 3, digits),
+                          state_of(one)});
+    if (benches) put_bench_first(one.bench(), table.rows.back());
+    if (!one.trouble().empty()) section.notes.push_back(one.trouble());
+  }
+  section.title = list.root();
+  section.summary = list.recordings().empty()
+                        ? "There is no recording in this folder. imunoise record makes one."
+                        : fmt::format("{} recordings, {} of them calibrated.",
+                                      list.recordings_size(), calibrated);
+  section.tables = {std::move(table)};
+  return {"recordings", {section}};
+}
+
+Document document(const v1::CalibrationList& list, Digits digits) {
+  const bool benches = of_benches(list.calibrations());
+  Table table{"Calibrations",
+              {"recorded (UTC)", "folder", "calibrated (UTC)", "model", "channels", "state"},
+              {}};
+  if (benches) put_bench_first("bench", table.head);
+  Section section;
+  for (const v1::CataloguedCalibration& one : list.calibrations()) {
+    table.rows.push_back(
+        {minute(one.started_ns()), one.folder(), minute(one.made_ns()),
+         one.model().empty() ? "chosen" : one.model(),
+         fmt::format("{} of {}", count(one.fitted(), digits), count(one.channels(), digits)),
+         state_of(one)});
+    if (benches) put_bench_first(one.bench(), table.rows.back());
+    if (!one.trouble().empty()) section.notes.push_back(one.trouble());
+    if (one.outdated()) {
+      section.notes.push_back(
+          fmt::format("{}: the recording changed since it was calibrated; imunoise calibrate does "
+                      "it again.",
+                      one.folder()));
+    }
+  }
+  section.title = list.root();
+  section.summary = list.calibrations().empty()
+                        ? "No recording in this folder is calibrated yet: imunoise calibrate "
+                          "RECORDING does it."
+                        : fmt::format("{} calibrations.", list.calibrations_size());
+  section.tables = {std::move(table)};
+  return {"calibrations", {section}};
+}
+
+}  // namespace imunoise::report
