@@ -94,6 +94,7 @@ struct DiagnoseArguments {
   std::vector<std::string> channels;  ///< to be diagnosed; empty: those of the first one's quantity
   study::DiagnoseOptions diagnose;
   ShowArguments show;
+  std::optional<std::filesystem::path> svg{};  ///< pictures for papers, before and after
 };
 
 /// One operation on a study's file.

@@ -2,6 +2,7 @@
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "study/report/diagnosis_figures.h"
 
 namespace imunoise::cli {
 namespace {
@@ -22,6 +23,21 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
   return out;
 }
 
+// Two pictures a channel.
+Result<void> write_pictures(const v1::DiagnosisReports& reports,
+                            const std::filesystem::path& path) {
+  for (const v1::DiagnosisReport& one : reports.channels()) {
+    const auto base = reports.channels_size() > 1 ? with_word(path, one.channel()) : path;
+    for (const auto& [word, picture] : {std::pair("before", report::before_svg(one)),
+                                        std::pair("after", report::after_svg(one))}) {
+      const std::filesystem::path out = with_word(base, word);
+      if (auto done = write_file(out, picture); !done) return done;
+      fmt::print(stderr, "wrote {}\n", out.string());
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 int run(const DiagnoseArguments& arguments) {
@@ -36,6 +52,10 @@ int run(const DiagnoseArguments& arguments) {
         study::diagnose_series(*replicates, channel, arguments.diagnose, line.progress());
     if (!done) return print_error(done.error());
     *reports.add_channels() = *done;
+  }
+  if (arguments.svg) {
+    if (auto done = write_pictures(reports, *arguments.svg); !done)
+      return print_error(done.error());
   }
   return show(reports, arguments.show);
 }

@@ -14,10 +14,8 @@ namespace {
 // One picture a channel: OUT.svg, or OUT_channel.svg when there are several.
 Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem::path& path) {
   for (const v1::FitReport& one : reports.channels()) {
-    std::filesystem::path out = path;
-    if (reports.channels_size() > 1) {
-      out.replace_filename(path.stem().string() + "_" + one.channel() + path.extension().string());
-    }
+    const std::filesystem::path out =
+        reports.channels_size() > 1 ? with_word(path, one.channel()) : path;
     if (auto done = write_file(out, report::budget_svg(one)); !done) return done;
     fmt::print(stderr, "wrote {}\n", out.string());
   }

@@ -45,6 +45,12 @@ int print_error(const Error& error) {
   return 1;
 }
 
+std::filesystem::path with_word(const std::filesystem::path& path, const std::string& word) {
+  std::filesystem::path out = path;
+  out.replace_filename(path.stem().string() + "_" + word + path.extension().string());
+  return out;
+}
+
 Result<void> write_file(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path temporary = path.string() + ".part";
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "core/support/result.h"
@@ -14,6 +15,9 @@ report::TerminalStyle terminal_style();
 void print(std::string_view text);
 /// "imunoise: message" on standard error; returns the exit status of a failed command.
 int print_error(const Error& error);
+
+/// OUT_word.svg of OUT.svg.
+std::filesystem::path with_word(const std::filesystem::path& path, const std::string& word);
 
 /// Writes a whole file, under a temporary name first.
 Result<void> write_file(const std::filesystem::path& path, std::string_view content);

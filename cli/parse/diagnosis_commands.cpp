@@ -13,7 +13,7 @@ Examples:
 
 Effects in a model: ramp, warm_up(tau=600), line(f=0.5, harmonics=3), step(replicate=2, t=1234),
 witness(CHANNEL, lag=300), witness(CHANNEL, quadratic), modulated(CHANNEL), outliers(above=6),
-own_powers.)help";
+telegraph, own_powers.)help";
 
 ParsedCommand diagnose_command(CLI::App& program) {
   CLI::App* const diagnose =
@@ -29,17 +29,23 @@ ParsedCommand diagnose_command(CLI::App& program) {
       ->add_option("--witness", options->witnesses,
                    "A channel that may be the cause; may be repeated (default: all others)")
       ->allow_extra_args(false);
+  const auto svg = std::make_shared<std::string>();
+  diagnose
+      ->add_option("--svg", *svg,
+                   "Write the noise budget as pictures for papers: OUT_before.svg, OUT_after.svg")
+      ->type_name("OUT.svg");
   diagnose->add_flag("--auto", options->automatic,
                      "Add what is found to the model and look again, until nothing is missing");
   diagnose->add_option("--level", options->level, "Chance of a false alarm over all that is tried")
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
-  return {diagnose, [raw, options] {
+  return {diagnose, [raw, options, svg] {
             if (!raw->input.robust.empty()) refuse("--robust", "not for diagnosis");
             if (raw->input.per_octave != 1) refuse("--per-octave", "not for diagnosis");
             DiagnoseArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
             out.channels = out.input.import.channels;
             out.diagnose.model = model_from(*raw);
+            if (!svg->empty()) out.svg = path_from(*svg);
             return out;
           }};
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "study/report/diagnosis_figures.h"
 #include "study/report/diagnosis_words.h"
 #include "study/report/inference_documents.h"
 #include "study/report/interval_chart.h"
-#include "study/report/svg_plot.h"
 #include "study/report/verdict.h"
 
 namespace imunoise::report {
@@ -113,18 +113,12 @@ Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
   return out;
 }
 
-// A noise budget of the report as the figure of a fit.
-Figure budget_figure(const v1::DiagnosisReport& report, const v1::NoiseBudget& budget,
-                     const std::string& title, const std::string& model, const std::string& id) {
-  v1::FitReport fit;
-  fit.set_channel(report.channel());
-  fit.set_unit(report.unit());
-  fit.set_rate_hz(report.rate_hz());
-  fit.set_model(model);
-  fit.set_confidence(0.95);
-  *fit.mutable_budget() = budget;
+using Drawing = std::string (*)(const v1::DiagnosisReport&, const SvgOptions&);
+
+Figure budget_figure(const v1::DiagnosisReport& report, Drawing drawing, const std::string& title,
+                     const std::string& model, const std::string& id) {
   const auto drawn = [&](double width, const char* kind) {
-    return of_kind(budget_svg(fit, {SvgVariant::kInline, width, id + kind}), kind);
+    return of_kind(drawing(report, {SvgVariant::kInline, width, id + kind}), kind);
   };
   return {title, drawn(900.0, "wide"), drawn(380.0, "narrow"), "Model: " + model};
 }
@@ -133,10 +127,10 @@ void add_figures(const v1::DiagnosisReport& report, Section& to) {
   const std::string id = "d" + report.channel();
   if (report.ladder_size() == 0) return;
   to.figures.push_back(
-      budget_figure(report, report.before(), "Before", report.ladder(0).model(), id + "b"));
+      budget_figure(report, before_svg, "Before", report.ladder(0).model(), id + "b"));
   if (report.ladder_size() < 2) return;
   const v1::Rung& last = report.ladder(report.ladder_size() - 1);
-  to.figures.push_back(budget_figure(report, report.after(),
+  to.figures.push_back(budget_figure(report, after_svg,
                                      "After: the effects taken out of the measurements",
                                      last.model(), id + "a"));
   std::vector<IntervalRow> rows;

@@ -26,10 +26,13 @@ class Diagnose : public testing::Program {
 };
 
 TEST_F(Diagnose, NamesWhatIsMissingAndTheErrorFalls) {
-  const Outcome done = run(std::string("diagnose ") + kFiles +
-                           " --channel gyro_x --model 'WN + RW' --auto --json --report out.html");
+  const Outcome done =
+      run(std::string("diagnose ") + kFiles +
+          " --channel gyro_x --model 'WN + RW' --auto --json --report out.html --svg out.svg");
   ASSERT_EQ(done.status, 0) << done.errors;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out.html"));
+  EXPECT_NE(read("out_before.svg").find("WN + RW"), std::string::npos);
+  EXPECT_NE(read("out_after.svg").find("WN + RW + QN"), std::string::npos);
   const json report = json::parse(done.out);
   EXPECT_EQ(report.at("verdict"), "found");
   const json& best = report.at("candidates").at(0);
