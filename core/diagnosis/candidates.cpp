@@ -96,12 +96,6 @@ bool is_slow(const TriedEffect& tried, const Current& current) {
   });
 }
 
-double log_places_of_courses(const Trial& trial) {
-  double out = 0.0;
-  for (const TwoLevelCourse& one : trial.regression.subject().courses) out += one.log_places;
-  return out;
-}
-
 void name_better(TriedEffect& tried) {
   if (tried.effect != "gauss_markov") return;
   if (is_bandwidth(tried.trial.fit.model.noise)) {
@@ -143,7 +137,8 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
     Suggestion one = *worth[i];
     if (auto* term = std::get_if<EffectTerm>(&one.added)) *term = rounded(*term, one.shape_error);
     Trial trial = try_out(current, one);
-    if (one.effect == "telegraph") one.search.log_places = log_places_of_courses(trial);
+    if (one.effect == "telegraph")
+      one.search.log_places = log_places(trial.regression.subject().courses);
     TriedEffect out{std::string(one.effect), one, std::move(trial)};
     out.likelihood_gain = out.trial.fit.log_likelihood - current.fit.log_likelihood;
     const std::size_t effects = out.trial.regression.effects().size();

@@ -35,7 +35,7 @@ void add_telegraph(const std::vector<StepProducts>& steps, Suggestions& out) {
   out.push_back({.effect = "telegraph",
                  .added = EffectTerm{.kind = EffectKind::kTelegraph},
                  .score_nats = found.gain_nats,
-                 .search = {.log_places = found.log_places()}});
+                 .search = {.log_places = log_places(found.courses)}});
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ Eigen::VectorXd samples_of(const Course& course, Index n) {
 }  // namespace
 
 TwoLevels find_two_levels(const std::vector<StepProducts>& replicates) {
-  const auto worth = [](const TwoLevels& one) { return one.gain_nats - one.log_places(); };
+  const auto worth = [](const TwoLevels& one) { return one.gain_nats - log_places(one.courses); };
   std::vector<Grid> grids;
   for (const StepProducts& one : replicates) grids.emplace_back(one);
   const double height = best_pulse(grids);
@@ -248,7 +248,7 @@ TwoLevels find_two_levels(const std::vector<StepProducts>& replicates) {
   return best;
 }
 
-double TwoLevels::log_places() const {
+double log_places(const std::vector<TwoLevelCourse>& courses) {
   double out = 0.0;
   for (const TwoLevelCourse& one : courses) out += one.log_places;
   return out;
@@ -270,7 +270,7 @@ Trial with_two_levels(const Regression& regression, const JointFit& fit) {
     JointFit with = joint_fit(grown, under.model.noise);
     under = {.model = {with.model.noise, regression.effects()},
              .effects = regression.under(with.model.noise)};
-    const double worth = with.log_likelihood - found.log_places();
+    const double worth = with.log_likelihood - log_places(found.courses);
     if (best && worth < most + 1e-6) break;
     most = worth;
     best = Trial{std::move(grown), std::move(with)};

@@ -12,9 +12,10 @@ struct TwoLevels {
   double height = 0.0;                  ///< between the levels, unit
   double gain_nats = 0.0;               ///< that taking them out gains under the noise
   std::size_t jumps = 0;                ///< of all replicates
-
-  double log_places() const;
 };
+
+/// Logarithm of how many courses have as many jumps as these.
+double log_places(const std::vector<TwoLevelCourse>& courses);
 
 /// The courses that explain what a fit leaves, each jump being worth its price: found by flipping
 /// one stretch after the other, on a grid of times.

@@ -3,15 +3,21 @@
 namespace imunoise::report {
 namespace {
 
-// A noise budget of the report as the figure of a fit.
-std::string figure(const v1::DiagnosisReport& report, const v1::NoiseBudget& budget,
-                   const std::string& model, const SvgOptions& options) {
+// A noise budget of the report as the figure of a fit. A rung's misfit is one test of all that it
+// leaves.
+std::string figure(const v1::DiagnosisReport& report, const v1::NoiseBudget& budget, int rung,
+                   const SvgOptions& options) {
   v1::FitReport fit;
   fit.set_channel(report.channel());
   fit.set_unit(report.unit());
   fit.set_rate_hz(report.rate_hz());
-  fit.set_model(model);
+  fit.set_model(report.model());
   fit.set_confidence(0.95);
+  if (rung >= 0 && rung < report.ladder_size()) {
+    fit.set_model(report.ladder(rung).model());
+    fit.set_p_value(report.ladder(rung).misfit_p());
+    fit.set_degrees_of_freedom(1);
+  }
   *fit.mutable_budget() = budget;
   return budget_svg(fit, options);
 }
@@ -19,14 +25,11 @@ std::string figure(const v1::DiagnosisReport& report, const v1::NoiseBudget& bud
 }  // namespace
 
 std::string before_svg(const v1::DiagnosisReport& report, const SvgOptions& options) {
-  const std::string model = report.ladder_size() > 0 ? report.ladder(0).model() : report.model();
-  return figure(report, report.before(), model, options);
+  return figure(report, report.before(), 0, options);
 }
 
 std::string after_svg(const v1::DiagnosisReport& report, const SvgOptions& options) {
-  const int rungs = report.ladder_size();
-  const std::string model = rungs > 0 ? report.ladder(rungs - 1).model() : report.model();
-  return figure(report, report.after(), model, options);
+  return figure(report, report.after(), report.ladder_size() - 1, options);
 }
 
 }  // namespace imunoise::report

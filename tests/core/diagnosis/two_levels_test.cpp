@@ -77,7 +77,7 @@ TEST(TwoLevels, NoiseHasNone) {
   for (const std::uint64_t seed : {23U, 24U, 25U}) {
     const Trial plain = fitted(subject_of({.seed = seed}));
     const TwoLevels found = find_two_levels(step_products(current_of(plain.regression, plain.fit)));
-    EXPECT_LT(found.gain_nats - found.log_places(), 5.0) << "seed " << seed;
+    EXPECT_LT(found.gain_nats - log_places(found.courses), 5.0) << "seed " << seed;
   }
 }
 
