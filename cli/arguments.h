@@ -10,9 +10,11 @@
 #include <variant>
 #include <vector>
 
+#include "cli/client/daemon_client.h"
 #include "cli/show.h"
 #include "daemon/catalogue/history.h"
 #include "drivers/emulator/serve.h"
+#include "imunoise/v1/batch.pb.h"
 #include "imunoise/v1/study.pb.h"
 #include "recording/import/import.h"
 #include "study/analysis/array_series.h"
@@ -164,12 +166,13 @@ struct CalibrateArguments {
   ShowArguments show;
 };
 
-/// A folder of recordings and its index.
+/// A folder of recordings and its index, or the recordings of a daemon.
 struct CatalogueArguments {
-  std::filesystem::path folder;
+  std::filesystem::path folder;          ///< empty: the daemon is asked
   std::optional<std::string> catalogue;  ///< unset: in the folder
   std::string bench;
   ShowArguments show;
+  DaemonArguments daemon;
 };
 struct RecordingsArguments : CatalogueArguments {};
 struct CalibrationsArguments : CatalogueArguments {};
@@ -178,13 +181,58 @@ struct HistoryArguments : CatalogueArguments {
   catalogue::HistoryOptions history;
 };
 
+// What a running imunoised is asked.
+struct DevicesArguments {
+  DaemonArguments daemon;
+  bool json = false;
+};
+struct CampaignsArguments : DevicesArguments {};
+struct StatusArguments : DevicesArguments {
+  bool follow = false;
+};
+struct StartArguments : DevicesArguments {
+  std::string campaign;
+  bool once = false;
+};
+struct StopArguments : DevicesArguments {
+  std::string campaign;
+  std::string recording;  ///< that is to be interrupted; empty: none
+};
+
+/// A batch: made, run, one shard of it, looked at, put together.
+struct BatchNewArguments {
+  std::filesystem::path folder;
+  v1::Batch batch;
+};
+struct BatchRunArguments {
+  std::filesystem::path folder;
+  bool slurm = false;                  ///< else child processes on this machine
+  std::optional<std::size_t> workers;  ///< at once; unset: one a processor, or as Slurm likes
+  std::uint32_t retries = 3;
+  std::vector<std::string> sbatch;  ///< options for it
+  ShowArguments show;
+};
+struct BatchShardArguments {
+  std::filesystem::path folder;
+  std::uint32_t number = 0;
+};
+struct BatchLookArguments {
+  std::filesystem::path folder;
+  ShowArguments show;
+};
+struct BatchStatusArguments : BatchLookArguments {};
+struct BatchMergeArguments : BatchLookArguments {};
+
 struct Arguments {
   using Command =
       std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
                    MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
                    StudyArguments, SimulateArguments, RecordArguments, VerifyArguments,
                    EmulateArguments, DriversArguments, DecodeArguments, CalibrateArguments,
-                   RecordingsArguments, CalibrationsArguments, HistoryArguments>;
+                   RecordingsArguments, CalibrationsArguments, HistoryArguments, DevicesArguments,
+                   CampaignsArguments, StatusArguments, StartArguments, StopArguments,
+                   BatchNewArguments, BatchRunArguments, BatchShardArguments, BatchStatusArguments,
+                   BatchMergeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

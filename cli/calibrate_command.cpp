@@ -1,29 +1,20 @@
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "daemon/acquire/clock.h"
 #include "study/calibration/calibrate.h"
 #include "study/calibration/calibration_file.h"
 
 namespace imunoise::cli {
-namespace {
-
-std::int64_t now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-}  // namespace
 
 int run(const CalibrateArguments& arguments) {
   const Interrupt interrupt;
   recording::FileSystem& files = recording::posix_file_system();
   study::CalibrateOptions options = arguments.calibrate;
-  options.made_ns = now_ns();
+  options.made_ns = acquire::now_ns();
   const auto done = [&] {
     ProgressLine line("calibrating");
     return study::calibrate(files, arguments.folder, options, line.progress(interrupt.token()));

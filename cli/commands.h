@@ -25,5 +25,15 @@ int run(const CalibrateArguments& arguments);
 int run(const RecordingsArguments& arguments);
 int run(const CalibrationsArguments& arguments);
 int run(const HistoryArguments& arguments);
+int run(const DevicesArguments& arguments);
+int run(const CampaignsArguments& arguments);
+int run(const StatusArguments& arguments);
+int run(const StartArguments& arguments);
+int run(const StopArguments& arguments);
+int run(const BatchNewArguments& arguments);
+int run(const BatchRunArguments& arguments);
+int run(const BatchShardArguments& arguments);
+int run(const BatchStatusArguments& arguments);
+int run(const BatchMergeArguments& arguments);
 
 }  // namespace imunoise::cli

@@ -67,7 +67,7 @@ void add(const acquire::DeviceOutcome& outcome, std::uint32_t replicate, v1::Rec
   }
 }
 
-std::string count(std::uint64_t value) { return report::count(value, report::Digits::kPlain); }
+using report::count;
 
 std::string describe(const v1::RecordReport& report) {
   std::string out = fmt::format("recorded into {}\n", report::clean_text(report.folder()));

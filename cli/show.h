@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/output.h"
+#include "study/report/batch_documents.h"
 #include "study/report/catalogue_documents.h"
 #include "study/report/document.h"
 #include "study/report/inference_documents.h"

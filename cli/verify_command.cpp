@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kShownGaps = 5;
 
-std::string count(std::uint64_t value) { return report::count(value, report::Digits::kPlain); }
+using report::count;
 
 std::string number(double value) { return report::number(value, 3, report::Digits::kPlain); }
 

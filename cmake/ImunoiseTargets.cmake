@@ -13,6 +13,16 @@ target_compile_options(imunoise_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(imunoise_flags INTERFACE -Wno-restrict)  # false alarms in std::string (GCC bug 105651)
 endif()
+if(CMAKE_UNITY_BUILD)
+  # Joined sources see each other's names; each by itself is held to these warnings.
+  target_compile_options(imunoise_flags INTERFACE -Wno-shadow -Wno-subobject-linkage)
+  if(IMUNOISE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC follows values through code that sanitizers added, and warns of what is not there; the dev build judges.
+    target_compile_options(imunoise_flags INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized
+      -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-use-after-free
+      -Wno-free-nonheap-object -Wno-dangling-pointer -Wno-nonnull)
+  endif()
+endif()
 if(IMUNOISE_WERROR)
   target_compile_options(imunoise_flags INTERFACE -Werror)
 endif()

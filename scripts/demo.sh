@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to a noise model with its intervals, on simulated gyro recordings whose true
-# noise is known; then an effect hidden in emulated sensors is found. Needs no sensor. The reports are
-# left in build/demo-output/.
+# noise is known; then an effect hidden in emulated sensors is found; then the daemon records emulated
+# sensors and calibrates them. Needs no sensor. The reports are left in build/demo-output/.
 #
 #   bash scripts/demo.sh [--hide fan|mains|step|outliers|warm_up]     else one is drawn, and sealed
 set -euo pipefail
@@ -20,7 +20,7 @@ out=build/demo-output
 bash scripts/install_packages.sh build
 echo "Building imunoise (the first time takes some minutes) ..."
 quietly build/log/demo-configure.txt cmake --preset demo
-quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise imunoise_plugins
+quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise imunoised imunoise_plugins
 imunoise=build/demo/imunoise
 
 rm -rf "$out"
@@ -46,3 +46,6 @@ echo "The same as JSON: $out/fit.json"
 
 echo
 bash scripts/hide_effect.sh "$imunoise" "$out" "$hide"
+
+echo
+bash scripts/record_campaign.sh build/demo "$out"

@@ -4,6 +4,8 @@
 #   bash scripts/install_packages.sh build   to build the program
 #   bash scripts/install_packages.sh test    to build and run every test as well
 #   bash scripts/install_packages.sh bench   to build and run the benchmarks
+#   bash scripts/install_packages.sh package to make the Debian package
+#   bash scripts/install_packages.sh slow    to run the tests labelled slow as well
 set -euo pipefail
 
 build_packages=(
@@ -16,6 +18,7 @@ build_packages=(
   libprotobuf-dev protobuf-compiler
   libhdf5-dev libdeflate-dev  # recordings
   libcli11-dev     # the command line
+  libcurl4-openssl-dev  # the command line as a client of the daemon
   libtomlplusplus-dev libspdlog-dev libsystemd-dev  # the daemon
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
@@ -29,14 +32,21 @@ test_packages=(
   python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
   postgresql                     # the catalogue of several benches
 )
-bench_packages=(libbenchmark-dev time)
+bench_packages=(libbenchmark-dev time jq)
+package_packages=(dpkg-dev file lintian)
+slow_packages=(
+  slurm-wlm munge  # batches
+  debootstrap systemd-container  # an empty Debian for the package
+)
 
 case "${1-}" in
   build) wanted=("${build_packages[@]}") ;;
   test) wanted=("${build_packages[@]}" "${test_packages[@]}") ;;
   bench) wanted=("${build_packages[@]}" "${bench_packages[@]}") ;;
+  package) wanted=("${build_packages[@]}" "${package_packages[@]}") ;;
+  slow) wanted=("${build_packages[@]}" "${test_packages[@]}" "${package_packages[@]}" "${slow_packages[@]}") ;;
   *)
-    echo "usage: $0 build|test|bench" >&2
+    echo "usage: $0 build|test|bench|package|slow" >&2
     exit 2
     ;;
 esac

@@ -201,7 +201,7 @@ ParsedCommand dynamic_command(CLI::App& program) {
   dynamic
       ->add_option("--settle", covariate->settle_s,
                    "Seconds left out after the covariate arrives at a bin")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   return {dynamic, [raw, covariate, bins] {
             DynamicArguments out{input_from(raw->input), {}, show_from(*raw)};

@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "cli/parse/commands.h"
+#include "cli/parse/daemon_options.h"
 #include "cli/parse/raw_analysis.h"
+#include "study/analysis/array_series.h"
 
 namespace imunoise::cli {
 namespace {
@@ -18,6 +22,7 @@ channel that cannot be calibrated says why and does not stop the others.)help";
 constexpr const char* kRecordingsExamples = R"help(
 Examples:
   imunoise recordings bench                              what lies in the folder bench
+  imunoise recordings                                    what imunoised has recorded
   imunoise recordings bench --catalogue "postgresql://host=db dbname=imunoise" --bench north)help";
 
 constexpr const char* kCalibrationsExamples = R"help(
@@ -43,13 +48,20 @@ ParsedCommand calibrate_command(CLI::App& program) {
   calibrate->add_option("FOLDER", *folder, "A recording's folder")
       ->required()
       ->check(CLI::ExistingDirectory);
-  add_model(*calibrate, *raw, "chosen for each channel by cross-validation");
+  const auto array_model = std::make_shared<std::string>();
+  calibrate
+      ->add_option("--model", options->models,
+                   "One: it is fitted; several: the best of them by cross-validation, for each "
+                   "channel (default: the best of many)")
+      ->allow_extra_args(false);
   calibrate
       ->add_option("--channel", options->channels,
                    "A channel; repeatable (default: all angular rates and accelerations)")
       ->delimiter(',');
   calibrate->add_flag("!--no-diagnose", options->diagnose, "Do not seek effects that are missing");
   calibrate->add_flag("--array", options->array, "Channels of one quantity as an array, too");
+  calibrate->add_option("--array-model", *array_model,
+                        fmt::format("Of the array (default: {})", study::kDefaultArrayModel));
   calibrate
       ->add_option("--bootstrap", options->bootstrap.sets,
                    "Sets of the bootstrap of the test between replicates; 0: none")
@@ -59,9 +71,9 @@ ParsedCommand calibrate_command(CLI::App& program) {
       ->capture_default_str();
   add_json(*calibrate, *raw);
   add_report(*calibrate, *raw);
-  return {calibrate, [raw, folder, options] {
+  return {calibrate, [raw, folder, options, array_model] {
             CalibrateArguments out{*folder, *options, show_from(*raw)};
-            out.calibrate.model = model_from(*raw);
+            if (!array_model->empty()) out.calibrate.array_model = *array_model;
             return out;
           }};
 }
@@ -72,24 +84,31 @@ struct RawCatalogue {
   std::string folder;
   std::string catalogue;
   std::string bench;
+  RawDaemon daemon;
 };
 
 void add_catalogue(CLI::App& command, RawCatalogue& raw) {
-  command.add_option("FOLDER", raw.folder, "A folder with recordings, at any depth")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  auto* const folder =
+      command
+          .add_option("FOLDER", raw.folder,
+                      "A folder with recordings, at any depth (default: those of imunoised)")
+          ->check(CLI::ExistingDirectory);
   command
       .add_option(
           "--catalogue", raw.catalogue,
           "The index: a SQLite file, or postgresql://... (default: FOLDER/catalogue.sqlite)")
-      ->type_name("WHERE");
-  command.add_option("--bench", raw.bench, "Name of this folder in a catalogue of several");
+      ->type_name("WHERE")
+      ->needs(folder);
+  command.add_option("--bench", raw.bench, "Name of this folder in a catalogue of several")
+      ->needs(folder);
+  add_daemon(command, raw.daemon);
   add_json(command, raw.raw);
   add_report(command, raw.raw);
 }
 
 CatalogueArguments catalogue_from(const RawCatalogue& raw) {
-  CatalogueArguments out{raw.folder, std::nullopt, raw.bench, show_from(raw.raw)};
+  CatalogueArguments out{raw.folder, std::nullopt, raw.bench, show_from(raw.raw),
+                         daemon_from(raw.daemon)};
   if (!raw.catalogue.empty()) out.catalogue = raw.catalogue;
   return out;
 }

@@ -23,7 +23,10 @@ std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate
 std::vector<ParsedCommand> replay_commands(CLI::App& program);     ///< replay
+std::vector<ParsedCommand> batch_commands(CLI::App& program);      ///< batch
 std::vector<ParsedCommand> catalogue_commands(
     CLI::App& program);  ///< calibrate, recordings, calibrations, history
+std::vector<ParsedCommand> daemon_commands(
+    CLI::App& program);  ///< devices, campaigns, status, start, stop
 
 }  // namespace imunoise::cli

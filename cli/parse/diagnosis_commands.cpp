@@ -130,7 +130,7 @@ std::vector<ParsedCommand> study_commands(CLI::App& program) {
       [](CLI::App& part, RawStudy& typed) {
         part.add_option("TERM", typed.term, "In the grammar: line(f=7.123), QN")->required();
         part.add_option("--from", typed.from, "Add to this attempt instead of the current one")
-            ->check(CLI::NonNegativeNumber);
+            ->check(zero_or_above());
       },
       [](const RawStudy& typed) {
         v1::StudyRequest request;

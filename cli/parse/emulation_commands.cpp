@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/parse/commands.h"
+#include "cli/parse/input_options.h"
 #include "drivers/can/presets.h"
 #include "drivers/emulator/effect_catalogue.h"
 #include "drivers/emulator/fault_text.h"
@@ -69,7 +70,7 @@ ParsedCommand emulate_command(CLI::App& program) {
       ->check(CLI::IsMember({"mti-g-710", "mti-g"}))
       ->capture_default_str();
   emulate->add_option("--duration", raw->duration, "s; without it, until Ctrl-C")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   return {emulate, [raw] {
             EmulateArguments out{raw->plan, {}};
             out.plan.source.rate = Hertz{raw->rate};

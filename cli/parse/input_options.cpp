@@ -1,6 +1,30 @@
 #include "cli/parse/input_options.h"
 
+#include <cmath>
+
 namespace imunoise::cli {
+namespace {
+
+CLI::Validator number_check(const char* name, const char* words, bool (*good)(double)) {
+  return {[words, good](const std::string& text) -> std::string {
+            double value = 0.0;
+            if (CLI::detail::lexical_cast(text, value) && good(value)) return "";
+            return "'" + text + "' is not " + words;
+          },
+          name};
+}
+
+}  // namespace
+
+CLI::Validator above_zero() {
+  return number_check("POSITIVE", "a number above zero",
+                      [](double value) { return std::isfinite(value) && value > 0.0; });
+}
+
+CLI::Validator zero_or_above() {
+  return number_check("NONNEGATIVE", "zero or a number above it",
+                      [](double value) { return std::isfinite(value) && value >= 0.0; });
+}
 
 void add_input(CLI::App& command, RawInput& raw) {
   command
@@ -13,7 +37,7 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->delimiter(',')
       ->allow_extra_args(false);  // what follows the name is a file again
   command.add_option("--rate", raw.rate, "Sampling rate in Hz, where the file does not say")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--unit", raw.unit,
                      "Unit of the channels, e.g. deg/s; wins over what the file says");
   command.add_option("--delimiter", raw.delimiter,

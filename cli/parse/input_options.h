@@ -22,6 +22,11 @@ struct RawInput {
   std::string robust;
 };
 
+// Numbers of a sign, for check(). CLI11's own answer a wrong one with the largest double, written
+// out.
+CLI::Validator above_zero();
+CLI::Validator zero_or_above();
+
 /// Adds FILES and everything that says how they are read and measured.
 void add_input(CLI::App& command, RawInput& raw);
 

@@ -19,6 +19,8 @@ Examples:
   imunoise verify recordings/monday                      is the recording intact?
   imunoise calibrate recordings/monday                   all of its channels at once
   imunoise history recordings --device 0042              this device over months; does it drift?
+  imunoise status --follow                               what imunoised records, and how long still
+  imunoise batch run nightly --engine slurm              many recordings or simulations at once
   imunoise emulate --device xsens                        a sensor to try imunoise record with
 
 imunoise COMMAND --help says more.)help";
@@ -38,7 +40,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   std::vector<ParsedCommand> commands;
   for (const auto& group :
        {analysis_commands, array_commands, diagnosis_commands, recording_commands, device_commands,
-        emulation_commands, replay_commands, catalogue_commands}) {
+        emulation_commands, replay_commands, catalogue_commands, batch_commands, daemon_commands}) {
     for (ParsedCommand& command : group(program)) commands.push_back(std::move(command));
   }
   try {

@@ -46,9 +46,7 @@ ParsedCommand simulate_command(CLI::App& program) {
   const auto raw = std::make_shared<Raw>();
   SimulateArguments& simulation = raw->arguments;
   simulate->add_option("--model", simulation.model, "The model, with all its values")->required();
-  simulate->add_option("--rate", raw->rate, "Sampling rate in Hz")
-      ->required()
-      ->check(CLI::PositiveNumber);
+  simulate->add_option("--rate", raw->rate, "Sampling rate in Hz")->required()->check(above_zero());
   simulate->add_option("--samples", simulation.samples, "Samples of each replicate")
       ->required()
       ->check(CLI::Range(std::size_t{16}, std::size_t{1} << 32U));
@@ -104,8 +102,7 @@ ParsedCommand record_command(CLI::App& program) {
       ->required()
       ->allow_extra_args(false)
       ->type_name("\"DRIVER NAME=VALUE ..\"");
-  record->add_option("--duration", raw->duration, "Of each replicate, in s")
-      ->check(CLI::PositiveNumber);
+  record->add_option("--duration", raw->duration, "Of each replicate, in s")->check(above_zero());
   record->add_option("--replicates", raw->arguments.replicates, "How many, one after another")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

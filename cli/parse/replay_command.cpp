@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/parse/commands.h"
+#include "cli/parse/input_options.h"
 
 namespace imunoise::cli {
 namespace {
@@ -60,7 +61,7 @@ std::vector<ParsedCommand> replay_commands(CLI::App& program) {
       ->required()
       ->type_name("FOLDER");
   replay->add_option("--speed", raw->speed, "Times real time; 0: as fast as possible")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   replay->add_option("--device", raw->one["device"], "Of a recording: which device");
   replay->add_option("--replicate", raw->one["replicate"], "Of a recording: which replicate");
@@ -75,7 +76,7 @@ std::vector<ParsedCommand> replay_commands(CLI::App& program) {
   replay->add_option("--dbc", raw->one["dbc"], "candump: what the messages mean");
   replay
       ->add_option("--duration", raw->duration, "s of this computer's time; without it, to the end")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   replay->add_flag("--json", raw->json, "Print the result as JSON");
   return {{replay, [raw] { return arguments_of(*raw); }}};
 }

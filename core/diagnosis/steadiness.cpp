@@ -11,7 +11,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr Index kMostStretches = 16;
-constexpr double kFewestFreedom = 8.0;
+constexpr double kFewestOfAReplicate = 8.0;
 
 // The term of the fitted model that is of the added kind and follows it best: the last of them.
 const Term* term_like(const Model& noise, const Process& added) {
@@ -40,7 +40,8 @@ TestOutcome steadiness(const Regression& regression, const JointFit& fit, const 
     const Eigen::VectorXd course =
         inverse_cosine_transform((left.array() * (share / spectrum).sqrt()).matrix());
     const double worth = share.sum() * share.sum() / share.square().sum();
-    const auto stretches = std::min(kMostStretches, static_cast<Index>(worth / kFewestFreedom));
+    const auto stretches =
+        std::min(kMostStretches, static_cast<Index>(worth / kFewestOfAReplicate));
     if (stretches < 2) continue;
     const Index length = n / stretches;
     const double mean = course.squaredNorm() / static_cast<double>(n);

@@ -57,7 +57,8 @@ struct NamedChannel {
 };
 
 /// Precondition: at least one replicate, each of at least kFewestSamples samples; witnesses have
-/// the same replicates. Witnesses that never change are left out.
+/// the same replicates. Witnesses that never change are left out. Stopped, it is not whole, and of
+/// no use.
 Subject make_subject(const std::vector<Signal>& replicates,
                      const std::vector<NamedChannel>& witnesses, const Progress& progress = {});
 

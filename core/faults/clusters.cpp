@@ -10,9 +10,9 @@
 namespace imunoise {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261121;
-constexpr int kDraws = 1000;
-constexpr int kRounds = 3;
+constexpr std::uint64_t kClusterSeed = 20261121;
+constexpr int kClusterDraws = 1000;
+constexpr int kClusterRounds = 3;
 
 // P(|Z| > h), and its inverse.
 double two_tails(double h) { return chi_square_tail(h * h, 1.0); }
@@ -22,12 +22,12 @@ double two_tailed(double probability) { return -normal_quantile(0.5 * probabilit
 // drives one output, each in turn, beyond h.
 double mean_share(const Eigen::MatrixXd& filters, Eigen::Index dimension, double h) {
   const Eigen::Index length = filters.cols() / dimension;
-  RandomStream random(kSeed);
+  RandomStream random(kClusterSeed);
   std::uniform_real_distribution<double> uniform(1e-12, 1.0);
   Eigen::VectorXd noise(dimension * (3 * length - 2));
   const Eigen::Index centre = dimension * (length - 1);
   double sum = 0.0;
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < kClusterDraws; ++draw) {
     for (double& x : noise) x = random.normal();
     const Eigen::Index driven = draw % filters.rows();
     const auto row = filters.row(driven);
@@ -41,7 +41,7 @@ double mean_share(const Eigen::MatrixXd& filters, Eigen::Index dimension, double
     }
     sum += 1.0 / std::max(1, beyond);
   }
-  return sum / kDraws;
+  return sum / kClusterDraws;
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ double mean_share(const Eigen::MatrixXd& filters, Eigen::Index dimension, double
 double cluster_threshold(const Eigen::MatrixXd& filters, Eigen::Index dimension, double rate) {
   const auto count = static_cast<double>(filters.rows());
   double h = two_tailed(std::min(0.5, rate / count));
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kClusterRounds; ++round) {
     h = two_tailed(std::min(0.5, rate / (count * mean_share(filters, dimension, h))));
   }
   return h;

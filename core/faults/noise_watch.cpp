@@ -12,7 +12,7 @@
 namespace imunoise {
 namespace {
 
-constexpr double kMostOften = 0.01;  // no window alarms by chance more often than this
+constexpr double kMostOftenAWindow = 0.01;  // no window alarms by chance more often than this
 constexpr std::uint64_t kSeed = 20261121;
 constexpr std::size_t kDraws = 300;
 constexpr int kRounds = 2;
@@ -20,7 +20,7 @@ constexpr std::size_t kReach = 3;  // doublings of a window within which alarms 
 
 // Probability of an alarm of one window of each length, given that of windows of one sample.
 double chance_of(std::size_t length, double share) {
-  return std::min(kMostOften, share * static_cast<double>(std::size_t{1} << length));
+  return std::min(kMostOftenAWindow, share * static_cast<double>(std::size_t{1} << length));
 }
 
 std::vector<double> thresholds_of(double share) {

@@ -129,15 +129,19 @@ class Run {
   void call(const RecordingHook& hook, std::string_view what) {
     if (!hook) return;
     const auto done = hook(campaign_, newest_->folder, Progress({}, stop_));
-    if (!done) news_ = fmt::format("{}: {}", what, done.error().message);
+    add_news(done ? *done : fmt::format("{}: {}", what, done.error().message));
+  }
+
+  void add_news(const std::string& text) {
+    if (!text.empty()) news_ += (news_.empty() ? "" : "; ") + text;
   }
 
   void tidy() {
     const auto removed = tidy_recordings(with_.files, campaign_, with_.clock.now());
     if (!removed) {
-      news_ = removed.error().message;
+      add_news(removed.error().message);
     } else if (!removed->empty()) {
-      news_ = fmt::format("{} recordings are no longer kept", removed->size());
+      add_news(fmt::format("{} recordings are no longer kept", removed->size()));
     }
   }
 

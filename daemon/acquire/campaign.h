@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <stop_token>
+#include <string>
 
 #include "core/support/progress.h"
 #include "daemon/acquire/clock.h"
@@ -30,11 +31,12 @@ class ReplicateRecorder {
                                            const Progress& progress) = 0;
 };
 
-/// What is done with a recording whose replicates are complete. After a restart it may be called
-/// again for one that it has seen: it does nothing then. Stopped, it returns soon.
-using RecordingHook =
-    std::function<Result<void>(const v1::Campaign& campaign, const std::filesystem::path& recording,
-                               const Progress& progress)>;
+/// What is done with a recording whose replicates are complete; returns what is worth telling.
+/// After a restart it may be called again for one that it has seen: it does nothing then. Stopped,
+/// it returns soon.
+using RecordingHook = std::function<Result<std::string>(const v1::Campaign& campaign,
+                                                        const std::filesystem::path& recording,
+                                                        const Progress& progress)>;
 
 /// All that a campaign touches.
 struct CampaignSurroundings {

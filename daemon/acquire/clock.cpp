@@ -8,6 +8,8 @@ namespace imunoise::acquire {
 
 Time SystemClock::now() const { return std::chrono::system_clock::now(); }
 
+std::int64_t now_ns() { return SystemClock().now().time_since_epoch().count(); }
+
 bool SystemClock::wait_until(Time time, const std::stop_token& stop) {
   constexpr std::chrono::seconds kSlice{10};  // after which a clock that was set is looked at anew
   std::mutex mutex;

@@ -3,12 +3,16 @@
 // The time of day, and waiting: injected, so that tests run days in seconds.
 
 #include <chrono>
+#include <cstdint>
 #include <stop_token>
 
 namespace imunoise::acquire {
 
 /// UTC.
 using Time = std::chrono::time_point<std::chrono::system_clock, std::chrono::nanoseconds>;
+
+/// The machine's: ns since 1970-01-01 UTC.
+std::int64_t now_ns();
 
 /// Thread-safe.
 class Clock {

@@ -35,6 +35,7 @@ Result<v1::ReplicateNote> DeviceRecorder::record(const v1::Campaign& campaign,
   plan.reopening = Reopening{};
   plan.reserve_bytes = campaign.reserve_bytes();
   plan.replicates_to_come = task.replicates_to_come;
+  if (observers_) plan.observer = observers_(campaign.name());
   const auto outcome = record_replicate(files_, plan, note_, progress);
   if (!outcome) return tl::make_unexpected(outcome.error());
   return outcome->note;

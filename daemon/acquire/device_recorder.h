@@ -12,8 +12,15 @@ namespace imunoise::acquire {
 /// in it. Thread-safe.
 class DeviceRecorder : public ReplicateRecorder {
  public:
-  DeviceRecorder(recording::FileSystem& files, const drivers::Drivers& drivers, DeviceNote note)
-      : files_(files), drivers_(drivers), note_(std::move(note)) {}
+  /// Observers are asked for by campaign; they outlive it.
+  using Observers = std::function<ReplicateObserver*(const std::string& campaign)>;
+
+  DeviceRecorder(recording::FileSystem& files, const drivers::Drivers& drivers, DeviceNote note,
+                 Observers observers = {})
+      : files_(files),
+        drivers_(drivers),
+        note_(std::move(note)),
+        observers_(std::move(observers)) {}
 
   Result<v1::ReplicateNote> record(const v1::Campaign& campaign, const ReplicateTask& task,
                                    const Progress& progress) override;
@@ -22,6 +29,7 @@ class DeviceRecorder : public ReplicateRecorder {
   recording::FileSystem& files_;
   const drivers::Drivers& drivers_;
   DeviceNote note_;
+  Observers observers_;
 };
 
 }  // namespace imunoise::acquire

@@ -9,14 +9,14 @@
 namespace imunoise::acquire {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetween{1000};  // attempts
 constexpr std::chrono::milliseconds kSlice{10};      // after which stopping is seen
 
 void wait(std::chrono::duration<double> time, const Progress& progress) {
-  const Clock::time_point begin = Clock::now();
-  while (Clock::now() - begin < time && !progress.stopped()) std::this_thread::sleep_for(kSlice);
+  const Steady::time_point begin = Steady::now();
+  while (Steady::now() - begin < time && !progress.stopped()) std::this_thread::sleep_for(kSlice);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ Result<OpenDevices> open_devices(
     const std::vector<DevicePlan>& plans,
     const std::function<Result<std::unique_ptr<drivers::Device>>(std::size_t)>& open,
     std::optional<std::chrono::duration<double>> patience, const Progress& progress) {
-  const Clock::time_point begin = Clock::now();
+  const Steady::time_point begin = Steady::now();
   OpenDevices out;
   out.devices.resize(plans.size());
   while (true) {
@@ -56,7 +56,7 @@ Result<OpenDevices> open_devices(
     }
     if (progress.stopped()) return fail("stopped while devices were being opened");
     if (out.missing.empty()) return out;
-    const std::chrono::duration<double> left = *patience - (Clock::now() - begin);
+    const std::chrono::duration<double> left = *patience - (Steady::now() - begin);
     if (left <= std::chrono::duration<double>::zero()) break;
     wait(std::min<std::chrono::duration<double>>(left, kBetween), progress);
   }

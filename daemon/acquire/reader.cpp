@@ -78,6 +78,8 @@ bool Reader::push(const drivers::Block& block) {
     lost_[taken.stream] = false;
   }
   stillness_.take(taken);
+  clocks_.take(block);
+  if (plan_.observe) plan_.observe(taken);
   if (const auto done = recorder_.push(plan_.index, taken); !done) {
     disk_failure_ = done.error();
     return false;

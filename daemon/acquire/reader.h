@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "daemon/acquire/stillness.h"
+#include "daemon/acquire/stream_clocks.h"
 #include "drivers/host/device.h"
 #include "recording/store/recorder.h"
 
@@ -34,6 +35,8 @@ struct ReaderPlan {
   /// Opens the device once more; without it a failure ends the reader.
   std::function<Result<std::unique_ptr<drivers::Device>>()> open;
   Reopening reopening;
+  /// Sees what is recorded; may be empty.
+  std::function<void(const recording::Block&)> observe;
 };
 
 /// Its thread is the only one that reads the device.
@@ -59,6 +62,9 @@ class Reader {
   bool connected() const { return connected_; }
   const std::string& disconnection() const { return disconnection_; }
   const std::vector<v1::Disturbance>& disturbances() const { return stillness_.disturbances(); }
+  std::vector<v1::ClockComparison> clocks() const {
+    return clocks_.comparisons(plan_.device.name());
+  }
 
  private:
   void run();
@@ -70,6 +76,7 @@ class Reader {
   recording::Recorder& recorder_;
   ReaderPlan plan_;
   StillnessWatch stillness_;
+  StreamClocks clocks_;
   std::vector<bool> lost_;           // of each stream: samples are missing before its next row
   std::chrono::milliseconds pause_;  // before it is opened the next time
   bool connected_ = true;

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "daemon/acquire/clock.h"
 #include "daemon/acquire/recorded_device.h"
 #include "daemon/acquire/wire_file.h"
 #include "recording/store/layout.h"
@@ -13,17 +14,11 @@
 namespace imunoise::acquire {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kWatchEvery{10};   // readers and the caller's wish to stop
 constexpr milliseconds kLookEvery{1000};  // at the disk
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 // One replicate, from its plan to its outcome; functions in the order in which they are called.
 class Replicate {
@@ -45,7 +40,9 @@ class Replicate {
     auto recorder = recording::Recorder::start(files_, plan_.folder, recorded_);
     if (!recorder) return tl::make_unexpected(recorder.error());
     open_wires();
+    if (plan_.observer != nullptr) plan_.observer->begin(plan_, recorded_.devices);
     read(**recorder, *opened);
+    if (plan_.observer != nullptr) plan_.observer->end();
     conclude();
     (*recorder)->annotate(note_);
     const auto closed = (*recorder)->close();
@@ -102,7 +99,8 @@ class Replicate {
                      recorded_.devices[readers_.size()],
                      plan_.devices[i].driver.info.name,
                      {},
-                     {}};
+                     {},
+                     observer_of(readers_.size())};
       if (plan_.reopening) {
         one.open = [this, i] { return open(i); };
         one.reopening = *plan_.reopening;
@@ -114,10 +112,15 @@ class Replicate {
     for (const auto& reader : readers_) reader->stop();
   }
 
+  std::function<void(const recording::Block&)> observer_of(std::size_t device) const {
+    if (plan_.observer == nullptr) return {};
+    return [to = plan_.observer, device](const auto& block) { to->take(device, block); };
+  }
+
   // Until the plan's end, the readers', the disk's, or that of the caller's patience.
   void wait() {
-    const Clock::time_point begin = Clock::now();
-    Clock::time_point looked = begin;
+    const Steady::time_point begin = Steady::now();
+    Steady::time_point looked = begin;
     const auto over = [&] {
       if (progress_.stopped()) {
         if (plan_.duration) interruption_ = "it was stopped";
@@ -126,12 +129,12 @@ class Replicate {
       if (std::all_of(readers_.begin(), readers_.end(), [](const auto& r) { return r->ended(); })) {
         return true;
       }
-      if (Clock::now() - looked >= kLookEvery) {
-        looked = Clock::now();
+      if (Steady::now() - looked >= kLookEvery) {
+        looked = Steady::now();
         if (reserve_is_reached()) return true;
       }
       if (!plan_.duration) return false;
-      const std::chrono::duration<double> passed = Clock::now() - begin;
+      const std::chrono::duration<double> passed = Steady::now() - begin;
       progress_.report(std::min(1.0, passed / *plan_.duration));
       return passed >= *plan_.duration;
     };
@@ -153,6 +156,7 @@ class Replicate {
       const Reader& reader = *readers_[i];
       const auto& seen = reader.disturbances();
       disturbances.insert(disturbances.end(), seen.begin(), seen.end());
+      for (const v1::ClockComparison& clock : reader.clocks()) *note_.add_clocks() = clock;
       if (!reader.failure() && reader.connected()) continue;
       if (reader.failure()) ++failed;
       v1::MissingDevice& missing = *note_.add_missing();

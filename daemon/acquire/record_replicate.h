@@ -16,6 +16,19 @@
 
 namespace imunoise::acquire {
 
+struct ReplicatePlan;
+
+/// Sees a replicate while it is recorded. take() comes from a thread a device, between begin() and
+/// end().
+class ReplicateObserver {
+ public:
+  virtual ~ReplicateObserver() = default;
+  virtual void begin(const ReplicatePlan& plan, const std::vector<v1::RecordedDevice>& devices) = 0;
+  /// `device` is an index in begin()'s.
+  virtual void take(std::size_t device, const recording::Block& block) = 0;
+  virtual void end() = 0;
+};
+
 struct ReplicatePlan {
   std::filesystem::path folder;  ///< Of the recording; made when missing.
   std::uint32_t replicate = 1;
@@ -34,6 +47,7 @@ struct ReplicatePlan {
   std::uint64_t reserve_bytes = 0;
   std::uint32_t replicates_to_come = 0;
   FreeSpace free_space = acquire::free_space;
+  ReplicateObserver* observer = nullptr;  ///< May be none; outlives the replicate.
 };
 
 /// What became of a device.

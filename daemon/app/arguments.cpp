@@ -1,6 +1,7 @@
 #include "daemon/app/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <string>
 
 namespace imunoise::app {
@@ -11,9 +12,60 @@ Examples:
   imunoised --check-config /etc/imunoise       what is wrong with these campaigns, and where
   imunoised config/array.toml                  record as their schedules say, until it is stopped
   imunoised --once config/array.toml           one recording, whatever the schedule says
+  imunoised --socket api.sock config           and answer imunoise status --socket api.sock
 
 A campaign is a TOML file; a folder stands for every *.toml in it. What happens is told on standard error.
 SIGTERM and Ctrl-C end recordings in good order within seconds; started again, it goes on where it was.)help";
+
+// What the options of the API come to once they are parsed.
+struct RawApi {
+  std::string socket;
+  std::string listen;
+  std::string tokens;
+  std::vector<std::string> hosts;
+  std::string studies = "studies";
+};
+
+// The folder that systemd made for the running service; empty elsewhere.
+std::string socket_of_the_service() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing of ours changes the environment.
+  const char* const folder = std::getenv("RUNTIME_DIRECTORY");
+  return folder == nullptr ? "" : std::string(folder) + "/api.sock";
+}
+
+void add_api(CLI::App& program, RawApi& raw) {
+  raw.socket = socket_of_the_service();
+  program
+      .add_option("--socket", raw.socket,
+                  "Answer on a Unix socket, for its owner and group (default under systemd: "
+                  "$RUNTIME_DIRECTORY/api.sock)")
+      ->type_name("PATH");
+  auto* const listen =
+      program.add_option("--listen", raw.listen, "Answer on loopback TCP, too: 127.0.0.1:8080")
+          ->type_name("ADDRESS");
+  auto* const tokens =
+      program
+          .add_option("--tokens", raw.tokens,
+                      "Who may come by TCP: a file with lines \"viewer TOKEN\", \"operator TOKEN\"")
+          ->check(CLI::ExistingFile);
+  listen->needs(tokens);
+  tokens->needs(listen);
+  program
+      .add_option("--host", raw.hosts,
+                  "A name by which clients may call this machine beside localhost; repeatable")
+      ->allow_extra_args(false);
+  program.add_option("--studies", raw.studies, "Where clients' studies are kept")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+}
+
+void take_api(const RawApi& raw, Arguments& to) {
+  if (!raw.socket.empty()) to.socket = raw.socket;
+  if (!raw.listen.empty()) to.listen = raw.listen;
+  if (!raw.tokens.empty()) to.tokens = raw.tokens;
+  to.hosts = raw.hosts;
+  to.studies = raw.studies;
+}
 
 }  // namespace
 
@@ -36,6 +88,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
                   "A folder to search for drivers before the others; repeatable")
       ->check(CLI::ExistingDirectory)
       ->allow_extra_args(false);
+  RawApi api;
+  add_api(program, api);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -44,6 +98,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   }
   out.campaigns.assign(campaigns.begin(), campaigns.end());
   out.driver_folders.assign(folders.begin(), folders.end());
+  take_api(api, out);
   return out;
 }
 

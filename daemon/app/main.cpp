@@ -5,12 +5,14 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <memory>
 
 #include "daemon/app/arguments.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/log.h"
 #include "daemon/app/service_manager.h"
 #include "daemon/app/supervisor.h"
+#include "daemon/service/service.h"
 #include "drivers/host/load.h"
 
 namespace imunoise::app {
@@ -51,42 +53,57 @@ int print_timer(const CampaignFiles& files) {
   return good ? 0 : 1;
 }
 
-// A campaign with a calendar is started by its timer, which asks for one recording.
-std::vector<CampaignFile> to_run(const CampaignFiles& files, bool once, Log& log) {
-  std::vector<CampaignFile> out;
-  for (const CampaignFile& one : files.found) {
-    if (!once && !one.campaign.schedule().calendar().empty()) {
-      log.fact(fmt::format("{}: is left to its timer ({}), which starts imunoised --once",
-                           one.campaign.name(), one.campaign.schedule().calendar()));
-      continue;
-    }
-    out.push_back(one);
+// Clients are answered where that was asked for. What keeps the daemon from it is told; recording
+// goes on.
+std::unique_ptr<service::Service> serve(const Arguments& arguments, const CampaignFiles& files,
+                                        const drivers::Drivers& drivers, Supervisor& bench,
+                                        Log& log) {
+  if (!arguments.socket && !arguments.listen) return nullptr;
+  service::ServiceOptions options;
+  options.listen = {arguments.socket, arguments.listen};
+  options.tokens = arguments.tokens;
+  options.hosts = arguments.hosts;
+  options.studies = arguments.studies;
+  options.version = IMUNOISE_VERSION;
+  service::ServiceSubjects subjects{bench, drivers, {}};
+  for (const CampaignFile& one : files.found) subjects.campaigns.push_back(one.campaign);
+  auto out = service::Service::start(options, subjects);
+  if (!out) {
+    log.error(fmt::format("nobody is answered: {}", out.error().message));
+    return nullptr;
   }
-  return out;
+  if (arguments.socket) log.fact("answers on " + arguments.socket->string());
+  if (arguments.listen)
+    log.fact(fmt::format("answers on {}, port {}", *arguments.listen, (*out)->port()));
+  return std::move(*out);
 }
 
-int record(const CampaignFiles& files, const drivers::Drivers& drivers, bool once,
+int record(const Arguments& arguments, const CampaignFiles& files, const drivers::Drivers& drivers,
            const sigset_t& signals) {
   Log log;
   if (!files.problems.empty()) {
     for (const std::string& problem : files.problems) log.error(problem);
     return 1;
   }
-  const std::vector<CampaignFile> campaigns = to_run(files, once, log);
   ServiceManager manager;
-  Supervisor supervisor(campaigns, drivers,
-                        once ? acquire::RunMode::kOnce : acquire::RunMode::kScheduled, log);
+  Supervisor supervisor(files.found, drivers,
+                        arguments.once ? acquire::RunMode::kOnce : acquire::RunMode::kScheduled,
+                        log);
+  const auto service = serve(arguments, files, drivers, supervisor, log);
   manager.ready();
+  bool stays = service != nullptr && !arguments.once;  // clients may start campaigns again
   std::string told;
   constexpr timespec kPatience{0, 200'000'000};
-  while (!supervisor.ended()) {
+  while (stays || !supervisor.ended()) {
     if (const int signal = sigtimedwait(&signals, nullptr, &kPatience); signal > 0) {
       log.fact(
           fmt::format("{}: recordings are being closed", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
       manager.stopping();
       supervisor.stop();
+      stays = false;
     }
     manager.alive();
+    supervisor.tell_warnings();
     if (const std::string status = supervisor.status(); status != told) {
       manager.status(status);
       told = status;
@@ -105,7 +122,7 @@ int run(int argc, const char* const* argv) {
   const CampaignFiles files = read_campaigns(arguments.campaigns, drivers);
   if (arguments.check_config) return check_config(files, drivers);
   if (arguments.print_timer) return print_timer(files);
-  return record(files, drivers, arguments.once, signals);
+  return record(arguments, files, drivers, signals);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs campaigns side by side.
+// Runs campaigns side by side, and is the bench of the service.
 
 #include <atomic>
 #include <map>
@@ -12,41 +12,67 @@
 
 #include "daemon/acquire/campaign.h"
 #include "daemon/acquire/device_recorder.h"
+#include "daemon/app/aftercare.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/log.h"
+#include "daemon/live/live_board.h"
+#include "daemon/service/bench.h"
 
 namespace imunoise::app {
 
 /// One thread a campaign. Functions are thread-safe.
-class Supervisor {
+class Supervisor : public service::Bench {
  public:
-  /// Starts them. `campaigns` and the others outlive it.
+  /// Starts them, but for those with a calendar where the mode is not kOnce: their timers do.
+  /// `campaigns` and the others outlive it.
   Supervisor(const std::vector<CampaignFile>& campaigns, const drivers::Drivers& drivers,
              acquire::RunMode mode, Log& log);
   /// Stops them.
-  ~Supervisor();
+  ~Supervisor() override;
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Asks all campaigns for an orderly end; does not wait.
-  void stop() { source_.request_stop(); }
+  /// Asks all campaigns for an orderly end; does not wait. None starts any more.
+  void stop();
   /// No campaign runs any more.
   bool ended() const { return running_ == 0; }
   /// What each does, in one line.
   std::string status() const;
+  /// Logs what is of concern in the replicates that are being recorded, once. To be called often.
+  void tell_warnings();
+
+  std::vector<service::BenchCampaign> campaigns() const override;
+  std::vector<v1::LiveReplicate> live() const override { return live_.state(); }
+  Result<void> start(const std::string& campaign, bool once) override;
+  Result<void> stop(const std::string& campaign, const std::string& recording) override;
+  void watch(Watcher changed) override;
 
  private:
-  void run(const v1::Campaign& campaign, acquire::RunMode mode);
-  void take(const v1::CampaignStatus& status);
+  struct Run {
+    service::BenchCampaign state;
+    std::stop_source stop;
+    std::jthread thread;
+  };
 
+  bool left_to_timer(const v1::Campaign& campaign) const;
+  void begin(Run& run, acquire::RunMode mode);  // with the mutex held
+  void run(const v1::Campaign& campaign, acquire::RunMode mode, const std::stop_token& stop);
+  void take(const v1::CampaignStatus& status);
+  void end(const std::string& campaign);
+  void tell(const std::string& campaign);
+
+  const acquire::RunMode mode_;
   Log& log_;
   acquire::SystemClock clock_;
+  live::LiveBoard live_;
   acquire::DeviceRecorder recorder_;
-  std::stop_source source_;
+  Aftercare aftercare_;
   std::atomic<std::size_t> running_ = 0;
-  mutable std::mutex mutex_;
-  std::map<std::string, v1::CampaignStatus> states_;  // by campaign
-  std::vector<std::jthread> threads_;                 // last: they use all of the above
+  std::mutex watching_;  // held while the watcher is called
+  Watcher watcher_;
+  mutable std::mutex mutex_;  // guards what follows
+  bool ending_ = false;
+  std::map<std::string, Run> runs_;  // by campaign; last: their threads use all of the above
 };
 
 }  // namespace imunoise::app

@@ -46,6 +46,9 @@ class Catalogue {
   Result<Changes> rebuild(const recording::FileSystem& files, const std::filesystem::path& root,
                           const Progress& progress = {});
 
+  /// What is refreshed and rebuilt from now on belongs to this bench.
+  void use_bench(std::string bench) { bench_ = std::move(bench); }
+
   /// Of all benches, oldest first.
   Result<v1::RecordingList> recordings();
   Result<v1::CalibrationList> calibrations();

@@ -61,7 +61,8 @@ Result<void> put_calibration(Database& database, const std::string& bench, const
     troubled += one.troubles().empty() ? 0 : 1;
   }
   return insert(database, "calibrations",
-                {bench, found.folder, calibration.made_ns(), calibration.settings().model(),
+                {bench, found.folder, calibration.made_ns(),
+                 fmt::format("{}", fmt::join(calibration.settings().models(), ", ")),
                  calibration.fingerprint(), std::int64_t{calibration.channels_size()}, fitted,
                  troubled, calibration.summary(), found.calibration_trouble});
 }

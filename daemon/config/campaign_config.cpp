@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/model/effect_term.h"
+#include "core/model/model.h"
 #include "daemon/config/device_tables.h"
 #include "daemon/config/quantity_text.h"
 
@@ -29,14 +29,25 @@ constexpr std::size_t kLargestFile = std::size_t{1} << 20U;
 // Which rate a device will have is not known here; a model that fits this one is well written.
 constexpr Hertz kAnyRate{1e6};
 
-void read_models(TableReader& reader, v1::Campaign& out) {
+void read_calibration(const TomlEntry& entry, std::vector<Problem>& problems,
+                      v1::CampaignCalibration& out) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), entry.place, "calibration",
+                     problems);
+  out.set_enabled(reader.flag("enabled").value_or(true));
   for (const PlacedText& one : reader.texts("models")) {
-    const auto model = parse_full_model(one.text, kAnyRate);
-    if (!model && !parse_array_model(one.text, kAnyRate)) {
-      reader.complain_at(one.place, "models", model.error().message);
-    }
+    const auto model = parse_model(one.text, kAnyRate);
+    if (!model) reader.complain_at(one.place, "models", model.error().message);
     out.add_models(one.text);
   }
+  out.set_diagnose(reader.flag("diagnose").value_or(true));
+  out.set_array(reader.flag("array").value_or(false));
+  if (const auto text = reader.text("array_model")) {
+    const auto model = parse_array_model(*text, kAnyRate);
+    if (!model) reader.complain("array_model", model.error().message);
+    if (!out.array()) reader.complain("array_model", "has no effect without array = true");
+    out.set_array_model(*text);
+  }
+  reader.finish();
 }
 
 void read_times(TableReader& reader, v1::Campaign& out) {
@@ -134,10 +145,14 @@ void read_all(TableReader& reader, const drivers::Drivers& drivers, CampaignConf
   const auto replicates = reader.integer("replicates", 1, kMostReplicates);
   campaign.set_replicates(static_cast<std::uint32_t>(replicates.value_or(1)));
   read_times(reader, campaign);
-  read_models(reader, campaign);
   campaign.set_reserve_bytes(reader.bytes("reserve").value_or(kReserve));
   campaign.set_wire(reader.flag("wire").value_or(false));
   campaign.mutable_stillness()->set_repeats(kRepeats);
+  campaign.mutable_calibration()->set_enabled(true);
+  campaign.mutable_calibration()->set_diagnose(true);
+  if (const auto* const entry = reader.table("calibration")) {
+    read_calibration(*entry, out.problems, *campaign.mutable_calibration());
+  }
   if (const auto* const entry = reader.table("schedule")) {
     read_schedule(*entry, out.problems, *campaign.mutable_schedule());
   }

@@ -14,9 +14,9 @@ using namespace std::chrono_literals;
 using plugin::DeviceError;
 
 // The pause and clock that low-power mode (SMPL_PRD from 0x0A on) asks for; any mode permits them.
-constexpr std::chrono::microseconds kPause = 150us;
+constexpr std::chrono::microseconds kPollPause = 150us;
 constexpr Hertz kSafeClock{0.3e6};
-constexpr usb::Duration kAnswerTime = 1s;
+constexpr usb::Duration kRegisterTime = 1s;
 constexpr usb::Duration kPowerUpTime = 300ms;  // datasheet: 220 ms, in low power 290 ms
 constexpr usb::Duration kResetTime = 200ms;    // datasheet: 100 ms, in low power 170 ms
 constexpr usb::Duration kSelfTestStep = 20ms;  // datasheet: 12 ms
@@ -26,7 +26,7 @@ constexpr std::uint16_t kKeptOfMiscControl =
     0x00c0;  // alignment of the accelerometers, g-compensation
 
 SpiFrame frame_of(std::uint16_t word) {
-  SpiFrame out{{}, false, kPause};
+  SpiFrame out{{}, false, kPollPause};
   append_big_endian(out.send, word);
   return out;
 }
@@ -70,7 +70,7 @@ void Sensor::write(Register address, std::uint16_t value) {
 std::uint16_t Sensor::exchange(std::span<const SpiFrame> frames) {
   bus_.send(frames);
   std::size_t left = frames.size();
-  for (const usb::Duration end = bus_.now() + kAnswerTime; bus_.now() < end;) {
+  for (const usb::Duration end = bus_.now() + kRegisterTime; bus_.now() < end;) {
     for (const SpiAnswer& answer : bus_.receive(end - bus_.now())) {
       if (--left == 0) return BigEndianReader(answer.bytes).take<std::uint16_t>();
     }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <charconv>
 
+#include "drivers/can/identifier.h"
+
 namespace imunoise::drivers {
 namespace {
 
 constexpr std::uint32_t kErrorFlag = 0x2000'0000;
-constexpr std::uint32_t kExtendedMask = 0x1fff'ffff;
-constexpr std::uint32_t kStandardMask = 0x7ff;
 
 // All of `text` as an unsigned number.
 template <class T>

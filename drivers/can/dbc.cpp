@@ -9,14 +9,12 @@
 #include <set>
 
 #include "drivers/can/dbc_lexer.h"
+#include "drivers/can/identifier.h"
 #include "drivers/can/utf8.h"
 
 namespace imunoise::drivers {
 namespace {
 
-constexpr std::uint32_t kExtendedFlag = 0x8000'0000;
-constexpr std::uint32_t kStandardMask = 0x7ff;
-constexpr std::uint32_t kExtendedMask = 0x1fff'ffff;
 constexpr std::uint32_t kNoMessage = 0xc000'0000;  // keeps signals that no message uses
 constexpr std::size_t kLongestMessage = 1785;      // bytes, J1939's transport protocol
 
@@ -160,14 +158,14 @@ class Parser {
     const DbcToken id_token = token_;
     const auto id = static_cast<std::uint32_t>(whole("identifier", 0xffff'ffff));
     CanMessage out;
-    out.extended = (id & kExtendedFlag) != 0;
+    out.extended = (id & kDbcExtendedFlag) != 0;
     out.id = id & kExtendedMask;
     out.name = expect(DbcToken::Kind::kName, "a message's name").text;
     expect_mark(":");
     out.length = whole("message length in bytes", kLongestMessage);
     expect(DbcToken::Kind::kName, "the sender's name");
     const bool unused = id == kNoMessage;
-    if (!unused && (id & ~kExtendedFlag) > (out.extended ? kExtendedMask : kStandardMask)) {
+    if (!unused && (id & ~kDbcExtendedFlag) > (out.extended ? kExtendedMask : kStandardMask)) {
       refuse(id_token, fmt::format("{} is no identifier: 11 bits, or 29 and bit 31 set", id));
     }
     if (!unused && !ids_.insert(id).second) {
@@ -259,7 +257,8 @@ class Parser {
     if (error_ || id == kNoMessage) return {};
     const auto message =
         std::find_if(messages_.begin(), messages_.end(), [&](const CanMessage& known) {
-          return known.id == (id & kExtendedMask) && known.extended == ((id & kExtendedFlag) != 0);
+          return known.id == (id & kExtendedMask) &&
+                 known.extended == ((id & kDbcExtendedFlag) != 0);
         });
     if (message == messages_.end()) {
       refuse(id_token, fmt::format("no message before this line has the identifier {}", id));

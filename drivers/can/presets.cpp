@@ -5,11 +5,10 @@
 #include <array>
 
 #include "drivers/can/dbc.h"
+#include "drivers/can/identifier.h"
 
 namespace imunoise::drivers {
 namespace {
-
-constexpr std::uint32_t kExtendedFlag = 0x8000'0000;  // of identifiers in DBC files
 
 constexpr std::string_view kMti600 = R"dbc(
 BO_ 5 SampleTime: 4 IMU
@@ -120,7 +119,7 @@ CanPreset aceinna_preset(std::uint8_t source_address) {
   constexpr std::uint64_t kInvalid16 = 0xfb00;
   constexpr std::uint64_t kInvalid24 = 0xfb0000;
   const auto id = [&](std::uint32_t of_address_0) {
-    return kExtendedFlag | of_address_0 | source_address;
+    return kDbcExtendedFlag | of_address_0 | source_address;
   };
   return {fmt::format(fmt::runtime(kAceinna), id(0x0cf02900), id(0x0cf02a00), id(0x08f02d00)),
           {{"Slope", "Pitch", "pitch", "", kInvalid24},

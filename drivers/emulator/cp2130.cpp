@@ -8,9 +8,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kQueue = 128;    // bytes of commands: two packets
-constexpr std::size_t kHeader = 8;     // 0 0 command 0, length with its lowest byte first
-constexpr Time kTransferTime = 200us;  // of the way through full-speed USB (an estimate)
+constexpr std::size_t kUsbQueue = 128;  // bytes of commands: two packets
+constexpr std::size_t kHeader = 8;      // 0 0 command 0, length with its lowest byte first
+constexpr Time kTransferTime = 200us;   // of the way through full-speed USB (an estimate)
 
 }  // namespace
 
@@ -43,7 +43,7 @@ bool Cp2130::control(const drivers::usb::Request& request) {
 }
 
 std::size_t Cp2130::out(drivers::Bytes bytes) {
-  const std::size_t count = std::min(bytes.size(), kQueue - commands_.size());
+  const std::size_t count = std::min(bytes.size(), kUsbQueue - commands_.size());
   commands_.insert(commands_.end(), bytes.begin(),
                    bytes.begin() + static_cast<std::ptrdiff_t>(count));
   return count;

@@ -1,7 +1,10 @@
 // The driver "emulated": devices that are not there, read by their real drivers.
 
 #include <cmath>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <random>
 #include <utility>
 
 #include "drivers/can/presets.h"
@@ -42,7 +45,7 @@ drivers::DriverInfo describe_driver() {
            .repeated = true},
           {.name = "seed",
            .type = kInteger,
-           .description = "Of all random numbers",
+           .description = "Of all random numbers; opened again, a device goes on with others",
            .by_default = "1",
            .minimum = 0},
           {.name = "rate",
@@ -66,6 +69,19 @@ drivers::DriverInfo describe_driver() {
   };
 }
 
+// Replicates of one recording are openings of one device: the first has the seed itself, each later
+// one of this program a seed that follows from it.
+std::uint64_t seed_of_opening(std::uint64_t seed) {
+  static std::mutex mutex;
+  static std::map<std::uint64_t, std::uint32_t> openings;
+  const std::lock_guard lock(mutex);
+  const std::uint32_t opening = openings[seed]++;
+  if (opening == 0) return seed;
+  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
+                         opening};
+  return std::mt19937_64(sequence)();
+}
+
 [[noreturn]] void refuse(const std::string& text) {
   throw plugin::DeviceError(IMUNOISE_BAD_OPTION, text);
 }
@@ -76,7 +92,7 @@ std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
   const bool adis = plan.driver == "adis16405";
   plan.source.models = options.texts("model");
   plan.source.effects = options.texts("effect");
-  plan.source.seed = static_cast<std::uint64_t>(options.integer("seed"));
+  plan.source.seed = seed_of_opening(static_cast<std::uint64_t>(options.integer("seed")));
   plan.source.rate = Hertz{adis ? 102.4 : 100.0};
   if (options.has("rate")) plan.source.rate = Hertz{options.number("rate")};
   plan.faults = options.texts("fault");

@@ -40,7 +40,7 @@ drivers::DriverInfo describe_driver() {
            .type = kNumber,
            .description = "Samples come in groups, this often, as over USB; 0: one by one",
            .unit = "s",
-           .by_default = "0.01",
+           .by_default = "0.05",
            .minimum = 0.0,
            .maximum = 10.0},
           {.name = "device",

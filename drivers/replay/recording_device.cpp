@@ -13,18 +13,17 @@
 namespace imunoise::replay {
 namespace {
 
-constexpr std::size_t kMostAtOnce = 4096;  // samples of a stream
-
-template <class Number>
-drivers::NumberType type_of(const std::vector<Number>& /*numbers*/) {
-  return drivers::number_type<Number>();
-}
+constexpr std::size_t kMostRowsAtOnce = 4096;  // samples of a stream
 
 drivers::Channel channel_of(const v1::RecordedChannel& from, const recording::Numbers& numbers) {
   drivers::Channel out;
   out.name = from.name();
   if (!from.units().empty()) out.units = from.units();
-  out.type = std::visit([](const auto& typed) { return type_of(typed); }, numbers);
+  out.type = std::visit(
+      []<class Number>(const std::vector<Number>& /*type*/) {
+        return drivers::number_type<Number>();
+      },
+      numbers);
   if (from.has_scale_factor()) out.scale_factor = from.scale_factor();
   if (from.has_add_offset()) out.add_offset = from.add_offset();
   out.long_name = from.long_name();
@@ -130,7 +129,7 @@ void RecordingDevice::read(plugin::Samples& samples, const plugin::Wait& wait) {
   if (!first) return samples.end();
   const auto& times = recorded_.streams[*first].host_time;
   // All that comes until then is delivered together: a group, or the next few thousand samples.
-  std::int64_t until_ns = times[std::min(next_[*first] + kMostAtOnce, times.size()) - 1];
+  std::int64_t until_ns = times[std::min(next_[*first] + kMostRowsAtOnce, times.size()) - 1];
   if (!timeline_.at_once()) {
     const Pace& pace = timeline_.pace();
     const auto group = static_cast<std::int64_t>(pace.latency_s * pace.speed * 1e9);
@@ -143,7 +142,7 @@ void RecordingDevice::read(plugin::Samples& samples, const plugin::Wait& wait) {
 void RecordingDevice::deliver(std::size_t stream, std::int64_t until_ns, plugin::Samples& samples) {
   const recording::Rows& rows = recorded_.streams[stream];
   const std::size_t begin = next_[stream];
-  const std::size_t most = std::min(rows.size(), begin + kMostAtOnce);
+  const std::size_t most = std::min(rows.size(), begin + kMostRowsAtOnce);
   std::size_t end = begin;
   while (end < most && rows.host_time[end] <= until_ns) ++end;
   if (end == begin) return;

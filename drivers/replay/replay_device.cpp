@@ -10,17 +10,16 @@ namespace {
 // Samples added at once: large enough for speed, small enough for memory caches.
 constexpr std::size_t kMostAtOnce = 4096;
 
-template <class Number>
-drivers::NumberType type_of(const std::vector<Number>& /*samples*/) {
-  return drivers::number_type<Number>();
-}
-
 drivers::Channel describe_channel(const recording::Channel& from) {
   drivers::Channel out;
   out.name = from.name;
   std::replace(out.name.begin(), out.name.end(), '/', '_');  // names become parts of files
   out.units = si_symbol(from.unit.quantity);
-  out.type = std::visit([](const auto& samples) { return type_of(samples); }, *from.samples);
+  out.type = std::visit(
+      []<class Number>(const std::vector<Number>& /*type*/) {
+        return drivers::number_type<Number>();
+      },
+      *from.samples);
   out.scale_factor = from.scale;
   out.add_offset = from.offset;
   return out;

@@ -9,24 +9,12 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/support/descriptor.h"
 #include "drivers/plugin/device.h"
 #include "drivers/transport/serial_port.h"
 
 namespace imunoise::transport {
 namespace {
-
-// Closes what it holds.
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { ::close(value_); }
-  int value() const { return value_; }
-
- private:
-  int value_;
-};
 
 class PseudoTerminal final : public SerialPort {
  public:
@@ -34,7 +22,7 @@ class PseudoTerminal final : public SerialPort {
   bool set_baud(std::uint32_t baud) override;
   std::size_t read(std::span<std::uint8_t> into) override;
   void write(drivers::Bytes bytes) override;
-  int descriptor() const override { return owned_.value(); }
+  int descriptor() const override { return owned_.get(); }
 
  private:
   Descriptor owned_;
@@ -52,7 +40,7 @@ int open_terminal(const std::string& path) {
 
 PseudoTerminal::PseudoTerminal(const std::string& path)
     : SerialPort("pty:" + path), owned_(open_terminal(path)) {
-  lock(owned_.value());
+  lock(owned_.get());
   termios2 mode{};
   if (::ioctl(descriptor(), TCGETS2, &mode) != 0) fail(IMUNOISE_BAD_DEVICE, "is no terminal");
   mode.c_iflag = mode.c_oflag = mode.c_lflag = 0;  // bytes pass as they are

@@ -21,7 +21,7 @@ struct FieldUnit {
   SiUnit si;
 };
 
-struct Field {
+struct LegacyField {
   Kind kind;
   std::string_view channel;
   const FieldUnit* unit;
@@ -70,9 +70,9 @@ enum Setting : std::uint32_t {
 };
 
 // The groups that come before the status byte, in the order of the wire.
-std::vector<Field> fields_of(LegacyLayout layout) {
+std::vector<LegacyField> fields_of(LegacyLayout layout) {
   static const Units kUnits;
-  std::vector<Field> out;
+  std::vector<LegacyField> out;
   const auto add = [&](Kind kind, const FieldUnit& unit,
                        std::initializer_list<std::string_view> channels, double scale = 1.0) {
     for (const std::string_view channel : channels) out.push_back({kind, channel, &unit, scale});
@@ -192,7 +192,8 @@ std::vector<std::uint8_t> encode_configuration(const XsensConfiguration& configu
 
 std::vector<LegacyChannel> channels_of(LegacyLayout layout) {
   std::vector<LegacyChannel> out;
-  for (const Field& field : fields_of(layout)) out.push_back({field.channel, field.unit->name});
+  for (const LegacyField& field : fields_of(layout))
+    out.push_back({field.channel, field.unit->name});
   return out;
 }
 
@@ -208,7 +209,7 @@ bool decode_legacy(Bytes payload, LegacyLayout layout, LegacyData& out, Refusals
   out.sample.stream = "imu";
   Refusals within;
   BigEndianReader in(payload);
-  for (const Field& field : fields_of(layout)) {
+  for (const LegacyField& field : fields_of(layout)) {
     const double number = field.kind == Kind::kNumber ? take_number(in, format_of(layout))
                                                       : take_whole(in, field.kind) * field.scale;
     out.numbers.push_back(number);
@@ -232,7 +233,7 @@ bool decode_legacy(Bytes payload, LegacyLayout layout, LegacyData& out, Refusals
 std::vector<std::uint8_t> encode_legacy(LegacyLayout layout, std::span<const double> numbers,
                                         std::uint8_t status, std::uint16_t counter,
                                         const XsensUtc& utc) {
-  const std::vector<Field> fields = fields_of(layout);
+  const std::vector<LegacyField> fields = fields_of(layout);
   assert(numbers.size() == fields.size());
   std::vector<std::uint8_t> out;
   for (std::size_t i = 0; i < fields.size(); ++i) {

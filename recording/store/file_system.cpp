@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/support/descriptor.h"
 #include "recording/import/file.h"
 
 namespace imunoise::recording {
@@ -27,22 +28,6 @@ tl::unexpected<Error> trouble(const Path& path, std::string_view what, int error
   return fail(fmt::format("{}: {}: {}; {}", path.string(), what,
                           std::generic_category().message(error), way_out));
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  int get() const { return value_; }
-
- private:
-  int value_;
-};
 
 class PosixFile final : public WritableFile {
  public:

@@ -17,6 +17,8 @@ class Intake {
 
   /// True when a block of so many rows may be added. An empty queue takes a block of any size.
   bool has_room(std::size_t rows) const;
+  /// True when so much waits that the journal should take it soon.
+  bool presses() const { return rows_ > capacity_ / 4; }
   /// Adds a block, with what was refused since the last one. Precondition: has_room().
   void add(Block block);
   /// Counts the rows of a block that found no room as refused.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/support/parallel.h"
 #include "recording/store/journal_reader.h"
 #include "recording/store/layout.h"
 
@@ -19,6 +20,9 @@ bool same_streams(const v1::RecordedDevice& a, const v1::RecordedDevice& b) {
                       return x.SerializeAsString() == y.SerializeAsString();
                     });
 }
+
+// Chunks that are read together, on all threads.
+constexpr std::size_t kTogether = 8;
 
 class DeviceReader {
  public:
@@ -37,8 +41,16 @@ class DeviceReader {
       out_.defects.push_back(where_.file(name) +
                              ": was not written to its end (imunoise verify --repair removes it)");
     }
-    for (const std::uint64_t number : names->chunks) {
-      if (auto done = add_chunk(number); !done) return tl::make_unexpected(done.error());
+    for (std::size_t first = 0; first < names->chunks.size(); first += kTogether) {
+      std::vector<Result<ReadChunk>> read(std::min(kTogether, names->chunks.size() - first));
+      for_each_index(read.size(), [&](std::size_t i) {
+        read[i] = read_chunk(files_, where_, names->chunks[first + i], expected_);
+      });
+      for (auto& chunk : read) {
+        if (auto done = add_chunk(std::move(chunk)); !done) {
+          return tl::make_unexpected(done.error());
+        }
+      }
     }
     for (const auto& [file, checksum] : expected_) {
       const std::size_t slash = file.rfind('/');
@@ -66,8 +78,7 @@ class DeviceReader {
     out_.in_journal.assign(out_.streams.size(), 0);
   }
 
-  Result<void> add_chunk(std::uint64_t number) {
-    auto read = read_chunk(files_, where_, number, expected_);
+  Result<void> add_chunk(Result<ReadChunk> read) {
     if (!read) {
       out_.defects.push_back(read.error().message + keep_the_rest(out_.chunks));
       return {};

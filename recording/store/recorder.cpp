@@ -105,6 +105,7 @@ class Recorder::Threads {
       lines_.push_back({std::move(*where), {}, 0, {}});
     }
     acknowledged_.assign(devices_.size(), 0);
+    sync_every_ = options.sync_every;
     return {};
   }
 
@@ -124,7 +125,7 @@ class Recorder::Threads {
     } else {
       intakes_[device].refuse(block);
     }
-    wake_journals();
+    wake_journals(intakes_[device].presses());
     return room;
   }
 
@@ -133,11 +134,11 @@ class Recorder::Threads {
     std::unique_lock guard(mutex_);
     const std::uint64_t failures = failures_;
     const auto room = [&] { return intakes_[device].has_room(block.rows.size()); };
-    if (!room()) wake_journals();
+    if (!room()) wake_journals(true);
     room_.wait(guard, [&] { return room() || failures_ != failures; });
     if (!room()) return tl::make_unexpected(*trouble_);
     intakes_[device].add(block);
-    wake_journals();
+    wake_journals(intakes_[device].presses());
     return {};
   }
 
@@ -158,7 +159,7 @@ class Recorder::Threads {
       const std::lock_guard guard(mutex_);
       for (Intake& intake : intakes_) intake.flush_refusals();
       closing_ = true;
-      wake_journals();
+      wake_journals(true);
     }
     journal_thread_.join();
     {
@@ -180,20 +181,26 @@ class Recorder::Threads {
     return fail(fmt::format("device {}: {}", devices_[device].name(), good.error().message));
   }
 
-  // The lock is held.
-  void wake_journals() {
+  // The lock is held. What is not urgent waits for the next round.
+  void wake_journals(bool urgent) {
+    if (!work_ || (urgent && !urgent_)) journal_.notify_one();
     work_ = true;
-    journal_.notify_one();
+    urgent_ = urgent_ || urgent;
   }
 
+  // Rounds over all journals, sync_every apart: syncs cost the same however little they carry.
   void run_journals() {
+    auto next = std::chrono::steady_clock::now();
     for (bool last = false; !last;) {
       {
         std::unique_lock guard(mutex_);
-        journal_.wait(guard, [&] { return work_ || closing_; });
+        journal_.wait(guard, [&] { return work_; });
+        journal_.wait_until(guard, next, [&] { return urgent_; });
         work_ = false;
+        urgent_ = false;
         last = closing_;
       }
+      next = std::chrono::steady_clock::now() + sync_every_;
       for (std::size_t i = 0; i < journals_.size(); ++i) write_journal(i, last);
     }
   }
@@ -294,6 +301,7 @@ class Recorder::Threads {
   v1::Manifest manifest_;
   std::vector<v1::RecordedDevice> devices_;
   std::deque<Journal> journals_;  // of the journal thread
+  std::chrono::nanoseconds sync_every_{};
   Result<void> outcome_;
 
   mutable std::mutex mutex_;  // guards what follows
@@ -307,6 +315,7 @@ class Recorder::Threads {
   std::uint64_t failures_ = 0;  // of syncs
   std::size_t failed_ = 0;      // segments that could not be made chunks
   bool work_ = false;
+  bool urgent_ = false;
   bool closing_ = false;
   bool journals_done_ = false;
 

@@ -29,6 +29,9 @@ struct RecordingPlan {
 struct RecorderOptions {
   SegmentLimits segments;
   std::uint64_t waiting_rows = 1U << 18U;  ///< A device's rows that may wait for the journal.
+  /// How long a block may wait for its fdatasync, unless the queue fills: all that a power cut
+  /// costs.
+  std::chrono::nanoseconds sync_every = std::chrono::milliseconds(500);
 };
 
 /// Rows of one stream so far. After close(), received = stored + refused, whatever happened.

@@ -12,11 +12,10 @@
 #include "study/analysis/array_setup.h"
 #include "study/analysis/array_weights.h"
 #include "study/analysis/prepare.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
-
-constexpr double kLevel = 0.05;
 
 void add_scales(const WaveletCovariance& mean, std::size_t replicates,
                 const std::vector<Eigen::MatrixXd>& model, const Pair& pair, double confidence,

@@ -179,6 +179,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   if (!options.search) *channels = named_by(start->model, std::move(*channels));
   auto subject = std::make_shared<const Subject>(
       make_subject(series.replicates, *channels, progress.part(0.2, 0.3)));
+  if (progress.stopped()) return fail("stopped");  // the subject is then not whole
   for (const EffectTerm& term : start->model.effects) {
     if (auto fits = check(term, *subject); !fits) return tl::unexpected(fits.error());
   }

@@ -12,7 +12,6 @@
 namespace imunoise::study {
 namespace {
 
-constexpr double kLevel = 0.05;
 constexpr int kCurvePoints = 41;
 
 Result<Model> read_dynamic_model(const std::optional<std::string>& text, Hertz rate) {

@@ -15,8 +15,6 @@
 namespace imunoise::study {
 namespace {
 
-constexpr double kLevel = 0.05;
-
 Result<void> check(const Regression& regression, const std::vector<Series>& channels,
                    const Model& written, const ArrayLayout& layout) {
   if (channels.front().replicates.size() != 1) {

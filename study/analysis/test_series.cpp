@@ -8,7 +8,6 @@
 namespace imunoise::study {
 namespace {
 
-constexpr double kLevel = 0.05;
 constexpr int kFewestSets = 19;  // of a bootstrap whose smallest p-value, 1/(B + 1), is kLevel
 
 void fill(const BootstrappedTest& from, v1::TestResult& to) {

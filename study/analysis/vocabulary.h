@@ -9,6 +9,9 @@
 
 namespace imunoise::study {
 
+/// Of tests that are told as yes or no.
+inline constexpr double kLevel = 0.05;
+
 /// "angular rate"; "" when unknown.
 std::string_view quantity_name(Quantity quantity);
 

@@ -73,8 +73,10 @@ void tell_unread(const Task& task, const Error& error, v1::Calibration& to) {
 
 // The channels of each quantity as one array.
 void add_arrays(const Task& task, const std::vector<Replicate>& replicates,
-                const std::vector<std::size_t>& channels, const Progress& progress,
-                v1::Calibration& to) {
+                const std::vector<std::size_t>& channels, const CalibrateOptions& options,
+                const Progress& progress, v1::Calibration& to) {
+  ArraySeriesOptions how;
+  how.model = options.array_model;
   for (const Quantity quantity : {Quantity::kAngularRate, Quantity::kAcceleration}) {
     std::vector<Series> sensors;
     for (const std::size_t c : channels) {
@@ -85,7 +87,7 @@ void add_arrays(const Task& task, const std::vector<Replicate>& replicates,
     v1::ArrayCalibration& array = *to.add_arrays();
     name(task, array);
     for (const Series& one : sensors) array.add_channels(one.channel);
-    auto report = array_series(sensors, {}, progress);
+    auto report = array_series(sensors, how, progress);
     if (report) {
       *array.mutable_report() = std::move(*report);
     } else {
@@ -111,15 +113,16 @@ void calibrate_stream(const Task& task, const std::vector<Replicate>& replicates
     *to.add_channels() = std::move(one);
   }
   if (options.array && !progress.stopped())
-    add_arrays(task, replicates, channels, progress.part(arrays, 1.0), to);
+    add_arrays(task, replicates, channels, options, progress.part(arrays, 1.0), to);
 }
 
 v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
   v1::CalibrationSettings out;
-  out.set_model(options.model.value_or(""));
+  for (const std::string& model : options.models) out.add_models(model);
   for (const std::string& channel : options.channels) out.add_channels(channel);
   out.set_diagnose(options.diagnose);
   out.set_array(options.array);
+  out.set_array_model(options.array_model.value_or(""));
   out.set_bootstrap_sets(static_cast<std::uint32_t>(options.bootstrap.sets));
   out.set_seed(options.bootstrap.seed);
   return out;
@@ -138,8 +141,11 @@ std::string summary_of(const v1::Calibration& calibration) {
   }
   std::string out =
       fmt::format("{} of {} channels have a model", fitted, calibration.channels_size());
-  out += misfits == 0 ? ", and every model fits" : fmt::format("; {} of these do not fit", misfits);
-  if (calibration.settings().diagnose())
+  if (fitted > 0) {
+    out +=
+        misfits == 0 ? ", and every model fits" : fmt::format("; {} of these do not fit", misfits);
+  }
+  if (calibration.settings().diagnose() && fitted > 0)
     out += effects == 0 ? "; no effect is missing" : fmt::format("; {} lack an effect", effects);
   if (troubled > 0) out += fmt::format("; {} had trouble", troubled);
   return out + ".";
@@ -157,8 +163,14 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
                 ": is no recording: it has no manifest.json (imunoise verify --repair makes one "
                 "from chunks)");
   }
-  if (options.model) {  // before minutes are spent on reading; no rate makes a model unreadable
-    const auto model = parse_model(*options.model, Hertz{1.0});
+  // Before minutes are spent on reading; no rate makes a model unreadable.
+  for (const std::string& one : options.models) {
+    if (const auto model = parse_model(one, Hertz{1.0}); !model) {
+      return tl::unexpected(model.error());
+    }
+  }
+  if (options.array_model) {
+    const auto model = parse_array_model(*options.array_model, Hertz{1.0});
     if (!model) return tl::unexpected(model.error());
   }
   const auto tasks = tasks_of(folder.string(), **manifest, options.channels);

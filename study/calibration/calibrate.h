@@ -15,8 +15,10 @@
 namespace imunoise::study {
 
 struct CalibrateOptions {
-  /// In the grammar; unset: chosen for each channel among the sub-models of kDefaultModel.
-  std::optional<std::string> model;
+  /// In the grammar, for the channels. One: it is fitted. Several: of just these, the one that
+  /// predicts unseen replicates best. None: chosen among the sub-models of kDefaultModel.
+  std::vector<std::string> models;
+  std::optional<std::string> array_model;  ///< unset: kDefaultArrayModel
   /// As import_recording() calls them; empty: all angular rates and accelerations.
   std::vector<std::string> channels;
   bool diagnose = true;        ///< which effect the model lacks

@@ -57,9 +57,13 @@ v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>
   const Series series = series_of(replicates, channel);
   keep(wavelet(series, progress.part(0.0, 0.1)), "measure", out, &Calibration::mutable_wavelet);
 
-  std::optional<std::string> model = options.model;
-  if (!model) {
-    if (keep(select_model(series, {}, progress.part(0.1, 0.3)), "select", out,
+  std::optional<std::string> model;
+  if (options.models.size() == 1) {
+    model = options.models.front();
+  } else {
+    SelectOptions select;
+    select.models = options.models;
+    if (keep(select_model(series, select, progress.part(0.1, 0.3)), "select", out,
              &Calibration::mutable_choice)) {
       model = model_to_use(out.choice()).model();
     }

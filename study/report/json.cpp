@@ -53,12 +53,12 @@ void clean(Message& m, const Reflection& r, const FieldDescriptor* f) {
 
 }  // namespace
 
-std::string to_json(const Message& message) {
+std::string to_json(const Message& message, JsonLayout layout) {
   const std::unique_ptr<Message> copy(message.New());
   copy->CopyFrom(message);
   clean(*copy);
   google::protobuf::util::JsonPrintOptions options;
-  options.add_whitespace = true;
+  options.add_whitespace = layout == JsonLayout::kIndented;
   options.always_print_primitive_fields = true;
   options.preserve_proto_field_names = true;
   std::string out;

@@ -39,7 +39,7 @@ std::string minute(std::int64_t ns);
 std::string percent(double fraction);
 
 /// An integer in groups of three: "1 000 000", with narrow spaces when typeset.
-std::string count(std::uint64_t value, Digits style);
+std::string count(std::uint64_t value, Digits style = Digits::kPlain);
 
 /// A residual with its sign: "+3.1", "−0.4".
 std::string signed_sigma(double value, Digits style);

@@ -149,6 +149,10 @@ TEST_F(Cli, RefusesWithTheWayOut) {
   EXPECT_EQ(run("fit missing.h5").status, 2);
   EXPECT_EQ(run("fit run_1.h5 --unit furlong").status, 2);
   EXPECT_EQ(run("").status, 2);
+  const Outcome unit = run("record monday --device 'replay file=run_1.h5' --duration 30s");
+  EXPECT_EQ(unit.status, 2);
+  EXPECT_NE(unit.errors.find("'30s' is not a number above zero\n"), std::string::npos)
+      << unit.errors;
   EXPECT_EQ(run("wv --channel x run_1.h5").status, 0);  // the option does not swallow the file
   EXPECT_EQ(run("simulate --model 'WN(sigma2=1)' --rate 1 --samples 20 --out short.csv").status, 0);
   const Outcome big = run("fit short.csv --model '3*AR1 + WN + RW'");

@@ -49,6 +49,14 @@ TEST_F(Emulate, ServesACanImuToARecorderOfItsOwn) {
   EXPECT_GE(stored(done, "RateOfTurn"), 50);
 }
 
+TEST_F(Emulate, ReplicatesHaveNumbersOfTheirOwn) {
+  report(
+      run("record monday --device 'emulated device=adis16405 speed=0 seed=2' --duration 1 "
+          "--replicates 2 --json"));
+  const Outcome fit = run("fit monday --channel emulated/imu/gyro_x --model WN");
+  EXPECT_EQ(fit.status, 0) << fit.errors;
+}
+
 TEST_F(Emulate, RecordsAnAdis16405WhoseEffectsAreThere) {
   report(
       run("record monday --device \"emulated device=adis16405 speed=0 seed=2 "

@@ -50,7 +50,7 @@ TEST(CampaignConfig, EveryExampleIsSound) {
       ADD_FAILURE() << describe(entry.path().string(), one);
     }
     EXPECT_EQ(read->campaign.name(), entry.path().stem().string());
-    EXPECT_FALSE(read->campaign.models().empty()) << entry.path();
+    EXPECT_FALSE(read->campaign.calibration().models().empty()) << entry.path();
     ++count;
   }
   EXPECT_GE(count, 6U) << "one for each driver, one for an array";
@@ -74,9 +74,12 @@ length = "1 h 30 min"
 settling = "10 min"
 pause = "30 s"
 patience = "2 min"
-models = ["WN + RW"]
 reserve = "20 GB"
 wire = true
+[calibration]
+models = ["WN + RW", "WN + AR1"]
+array = true
+array_model = "WN + RW[corr]"
 [schedule]
 every = "1 d"
 [retention]
@@ -100,7 +103,10 @@ options = { device = "adis16405", speed = 0.5 }
   EXPECT_EQ(campaign.settling_s(), 600.0);
   EXPECT_EQ(campaign.pause_s(), 30.0);
   EXPECT_EQ(campaign.patience_s(), 120.0);
-  EXPECT_EQ(campaign.models(0), "WN + RW");
+  EXPECT_TRUE(campaign.calibration().enabled());
+  EXPECT_EQ(campaign.calibration().models(1), "WN + AR1");
+  EXPECT_TRUE(campaign.calibration().diagnose());
+  EXPECT_EQ(campaign.calibration().array_model(), "WN + RW[corr]");
   EXPECT_EQ(campaign.reserve_bytes(), 20'000'000'000U);
   EXPECT_TRUE(campaign.wire());
   EXPECT_EQ(campaign.schedule().every_s(), 86400.0);
@@ -124,6 +130,8 @@ TEST(CampaignConfig, HasDefaultsForTheRest) {
   EXPECT_EQ(read.campaign.settling_s(), 0.0);
   EXPECT_FALSE(read.campaign.schedule().has_every_s());
   EXPECT_TRUE(read.campaign.schedule().calendar().empty());
+  EXPECT_TRUE(read.campaign.calibration().enabled());
+  EXPECT_TRUE(read.campaign.calibration().models().empty());
   EXPECT_EQ(read.campaign.reserve_bytes(), 1'000'000'000U);
 }
 
@@ -132,7 +140,7 @@ TEST(CampaignConfig, TellsAllProblemsWithTheirPlaces) {
 folder = 3
 replicate = 6
 length = "2"
-models = ["WN + RV"]
+calibration = { models = ["WN + RV"] }
 
 [schedule]
 evry = "6h"
@@ -150,7 +158,7 @@ driver = "emulatd"
       "a.toml:2:10: folder: is a whole number; give a text",
       "a.toml:3:1: replicate: unknown; did you mean 'replicates'?",
       "a.toml:4:1: length: '2': a unit is missing",
-      "a.toml:5:11: models: ",
+      "a.toml:5:27: calibration.models: ",
       "a.toml:7:2: schedule: says nothing",
       "a.toml:8:1: schedule.evry: unknown; did you mean 'every'?",
       "a.toml:12:18: device 1.options.device: 'adis16504' is none of: adis16405, xsens, can",
@@ -169,7 +177,8 @@ TEST(CampaignConfig, SaysWhatWouldBeRight) {
   expect_problem("reserve = \"20\"", "unit is missing");
   expect_problem("pause = 30", "a time with its unit");
   expect_problem("wire = \"yes\"", "give true or false");
-  expect_problem("models = \"WN\"", "a list of texts");
+  expect_problem("calibration = { models = \"WN\" }", "a list of texts");
+  expect_problem("calibration = { array_model = \"WN\" }", "array = true");
   expect_problem("settling = 2026-01-01", "is a date");
   expect_problem("schedule = { every = \"1 h\" }", "takes 2 h");
   expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give one of them");

@@ -100,14 +100,16 @@ class CampaignRun : public ::testing::Test {
     recorder.knocks = knocks_;
     recorder.crash_at = crash_at_;
     CampaignSurroundings with{clock, files(), recorder};
-    with.calibrate = [&](const auto&, const fs::path& recording, const Progress&) -> Result<void> {
+    with.calibrate = [&](const auto&, const fs::path& recording,
+                         const Progress&) -> Result<std::string> {
       calibrated_.push_back(recording.filename().string());
       if (!calibration_error_.empty()) return fail(calibration_error_);
-      return {};
+      return "2 of 2 channels have a model.";
     };
-    with.publish = [&](const auto&, const fs::path& recording, const Progress&) -> Result<void> {
+    with.publish = [&](const auto&, const fs::path& recording,
+                       const Progress&) -> Result<std::string> {
       published_.push_back(recording.filename().string());
-      return {};
+      return "imu0 drifts";
     };
     with.tell = [&](const v1::CampaignStatus& status) { told_.push_back(status); };
     run_campaign(campaign_, mode, with, clock.source().get_token());
@@ -150,6 +152,8 @@ TEST_F(CampaignRun, GoesThroughItsPhasesOnce) {
   EXPECT_EQ(phases(), (std::vector<v1::CampaignPhase>{v1::settling, recording, pausing, recording,
                                                       pausing, recording, v1::calibrating,
                                                       v1::publishing, v1::finished}));
+  EXPECT_EQ(told_[7].reason(), "2 of 2 channels have a model.");
+  EXPECT_EQ(told_[8].reason(), "imu0 drifts");
   EXPECT_EQ(told_[3].replicate(), 2U);
   EXPECT_EQ(told_[3].replicates(), 3U);
 }

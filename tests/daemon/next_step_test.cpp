@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const Time kBegin = Time(std::chrono::sys_days(std::chrono::year(2026) / 3 / 1));
+const Time kMidnight = Time(std::chrono::sys_days(std::chrono::year(2026) / 3 / 1));
 
 v1::Campaign campaign() {
   v1::Campaign out;
@@ -26,31 +26,31 @@ v1::ReplicateNote note(v1::ReplicateState state, bool disturbed = false) {
   return out;
 }
 
-RecordingState state(std::vector<v1::ReplicateNote> notes, Time started = kBegin) {
+RecordingState state(std::vector<v1::ReplicateNote> notes, Time started = kMidnight) {
   const auto last = static_cast<std::uint32_t>(notes.size());
   return {started, std::move(notes), last};
 }
 
 TEST(NextStep, SettlesRecordsAndPauses) {
   Memory memory;
-  Step step = next_step(campaign(), {}, memory, kBegin);
+  Step step = next_step(campaign(), {}, memory, kMidnight);
   EXPECT_EQ(step.phase, v1::settling);
   EXPECT_TRUE(step.new_recording);
-  EXPECT_EQ(step.until, kBegin + 10min);
+  EXPECT_EQ(step.until, kMidnight + 10min);
 
-  memory.at_rest_since = kBegin;
-  EXPECT_EQ(next_step(campaign(), {}, memory, kBegin + 9min).phase, v1::settling);
-  step = next_step(campaign(), {}, memory, kBegin + 10min);
+  memory.at_rest_since = kMidnight;
+  EXPECT_EQ(next_step(campaign(), {}, memory, kMidnight + 9min).phase, v1::settling);
+  step = next_step(campaign(), {}, memory, kMidnight + 10min);
   EXPECT_EQ(step.phase, v1::recording);
   EXPECT_TRUE(step.new_recording);
   EXPECT_EQ(step.replicate, 1U);
   EXPECT_EQ(step.attempt, 1U);
 
-  memory.replicate_ended = kBegin + 70min;
-  step = next_step(campaign(), state({note(v1::complete)}), memory, kBegin + 70min);
+  memory.replicate_ended = kMidnight + 70min;
+  step = next_step(campaign(), state({note(v1::complete)}), memory, kMidnight + 70min);
   EXPECT_EQ(step.phase, v1::pausing);
-  EXPECT_EQ(step.until, kBegin + 71min);
-  step = next_step(campaign(), state({note(v1::complete)}), memory, kBegin + 71min);
+  EXPECT_EQ(step.until, kMidnight + 71min);
+  step = next_step(campaign(), state({note(v1::complete)}), memory, kMidnight + 71min);
   EXPECT_EQ(step.phase, v1::recording);
   EXPECT_FALSE(step.new_recording);
   EXPECT_EQ(step.replicate, 2U);
@@ -60,11 +60,11 @@ TEST(NextStep, SettlesRecordsAndPauses) {
 TEST(NextStep, CalibratesPublishesAndIsFinished) {
   Memory memory;
   const auto done = state({note(v1::complete), note(v1::complete)});
-  EXPECT_EQ(next_step(campaign(), done, memory, kBegin).phase, v1::calibrating);
+  EXPECT_EQ(next_step(campaign(), done, memory, kMidnight).phase, v1::calibrating);
   memory.calibrated = true;
-  EXPECT_EQ(next_step(campaign(), done, memory, kBegin).phase, v1::publishing);
+  EXPECT_EQ(next_step(campaign(), done, memory, kMidnight).phase, v1::publishing);
   memory.published = true;
-  EXPECT_EQ(next_step(campaign(), done, memory, kBegin + 1000h).phase, v1::finished);
+  EXPECT_EQ(next_step(campaign(), done, memory, kMidnight + 1000h).phase, v1::finished);
 }
 
 TEST(NextStep, BeginsAgainFromStartToStart) {
@@ -73,12 +73,12 @@ TEST(NextStep, BeginsAgainFromStartToStart) {
   Memory memory;
   memory.calibrated = memory.published = true;
   const auto done = state({note(v1::complete), note(v1::complete)});
-  const Step wait = next_step(every, done, memory, kBegin + 3h);
+  const Step wait = next_step(every, done, memory, kMidnight + 3h);
   EXPECT_EQ(wait.phase, v1::waiting);
-  EXPECT_EQ(wait.until, kBegin + 6h - 10min) << "it settles before it records";
-  const Step next = next_step(every, done, memory, kBegin + 6h - 10min);
+  EXPECT_EQ(wait.until, kMidnight + 6h - 10min) << "it settles before it records";
+  const Step next = next_step(every, done, memory, kMidnight + 6h - 10min);
   EXPECT_EQ(next.phase, v1::settling);
-  EXPECT_EQ(next.until, kBegin + 6h);
+  EXPECT_EQ(next.until, kMidnight + 6h);
   EXPECT_TRUE(next.new_recording);
 }
 
@@ -86,14 +86,14 @@ TEST(NextStep, AfterARestartItGoesOnWithTheReplicateThatWasInterrupted) {
   v1::Campaign at_once = campaign();
   at_once.set_settling_s(0.0);
   const auto cut = state({note(v1::complete), note(v1::interrupted)});
-  const Step step = next_step(at_once, cut, {}, kBegin + 100h);
+  const Step step = next_step(at_once, cut, {}, kMidnight + 100h);
   EXPECT_EQ(step.phase, v1::recording);
   EXPECT_FALSE(step.new_recording);
   EXPECT_EQ(step.replicate, 2U);
   EXPECT_EQ(step.attempt, 3U) << "what is on disk stays as it is";
   // A replicate without a note, of a manifest that was lost, is no reason to write into it.
-  EXPECT_EQ(next_step(at_once, RecordingState{kBegin, {}, 4}, {}, kBegin).attempt, 5U);
-  EXPECT_EQ(next_step(at_once, state({note(v1::open)}), {}, kBegin).replicate, 1U);
+  EXPECT_EQ(next_step(at_once, RecordingState{kMidnight, {}, 4}, {}, kMidnight).attempt, 5U);
+  EXPECT_EQ(next_step(at_once, state({note(v1::open)}), {}, kMidnight).replicate, 1U);
 }
 
 TEST(NextStep, ReplicatesThatWaitedTooLongStayAlone) {
@@ -101,8 +101,8 @@ TEST(NextStep, ReplicatesThatWaitedTooLongStayAlone) {
   every.set_settling_s(0.0);
   every.mutable_schedule()->set_every_s(6 * 3600.0);
   const auto cut = state({note(v1::complete)});
-  EXPECT_FALSE(next_step(every, cut, {}, kBegin + 5h).new_recording);
-  EXPECT_TRUE(next_step(every, cut, {}, kBegin + 6h).new_recording);
+  EXPECT_FALSE(next_step(every, cut, {}, kMidnight + 5h).new_recording);
+  EXPECT_TRUE(next_step(every, cut, {}, kMidnight + 6h).new_recording);
 }
 
 TEST(NextStep, RepeatsWhatWasDisturbedAtMostSoOften) {
@@ -130,18 +130,18 @@ TEST(NextStep, OnceIsOneRecordingWhateverTheScheduleSays) {
   every.mutable_schedule()->set_every_s(6 * 3600.0);
   Memory memory;
   memory.calibrated = memory.published = true;
-  memory.once_since = kBegin + 1h;
+  memory.once_since = kMidnight + 1h;
   const auto before = state({note(v1::complete), note(v1::complete)});
-  EXPECT_TRUE(next_step(every, before, memory, kBegin + 1h).new_recording);
-  const auto after = state({note(v1::complete), note(v1::complete)}, kBegin + 1h);
-  EXPECT_EQ(next_step(every, after, memory, kBegin + 100h).phase, v1::finished);
+  EXPECT_TRUE(next_step(every, before, memory, kMidnight + 1h).new_recording);
+  const auto after = state({note(v1::complete), note(v1::complete)}, kMidnight + 1h);
+  EXPECT_EQ(next_step(every, after, memory, kMidnight + 100h).phase, v1::finished);
 }
 
 TEST(NextStep, IsHeldUpUntilItsTimeIsOver) {
   Memory memory;
-  memory.held_up_until = kBegin + 5s;
-  EXPECT_EQ(next_step(campaign(), {}, memory, kBegin).phase, v1::held_up);
-  EXPECT_EQ(next_step(campaign(), {}, memory, kBegin + 5s).phase, v1::settling);
+  memory.held_up_until = kMidnight + 5s;
+  EXPECT_EQ(next_step(campaign(), {}, memory, kMidnight).phase, v1::held_up);
+  EXPECT_EQ(next_step(campaign(), {}, memory, kMidnight + 5s).phase, v1::settling);
 }
 
 }  // namespace

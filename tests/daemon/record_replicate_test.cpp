@@ -64,6 +64,20 @@ class RecordReplicate : public testing::Whims {
   std::stop_source source_;
 };
 
+// The counter goes round every 2.56 s; the device's time and the host's are one here.
+TEST_F(RecordReplicate, ComparesClocks) {
+  add("a");
+  plan_.devices[0].options.push_back({"speed", "20"});
+  ASSERT_TRUE(record());
+  const v1::ReplicateNote note = note_on_disk();
+  ASSERT_EQ(note.clocks_size(), 1);
+  EXPECT_EQ(note.clocks(0).device(), "a");
+  EXPECT_EQ(note.clocks(0).stream(), "imu");
+  EXPECT_TRUE(note.clocks(0).from_counter());
+  EXPECT_GT(note.clocks(0).seconds(), 15.0);
+  EXPECT_NEAR(note.clocks(0).ppm(), 0.0, 1e-3);
+}
+
 TEST_F(RecordReplicate, IsCompleteWhenItsTimeIsOver) {
   add("a");
   add("b");

@@ -34,7 +34,7 @@ class Whims : public plugin::Device {
   }
 
   drivers::DeviceInfo describe() override {
-    drivers::Stream stream{"imu", {{.name = "gyro_x", .units = "rad/s"}}, 100.0};
+    drivers::Stream stream{"imu", {{.name = "gyro_x", .units = "rad/s"}}, 100.0, 255};
     return {{stream}, "Whims", serial_, "1"};
   }
 
@@ -51,7 +51,8 @@ class Whims : public plugin::Device {
     const double loud = word == "knock" ? 100.0 : 1.0;
     for (std::int64_t k = 0; k < speed_; ++k) {
       time_ns_ += std::chrono::nanoseconds(kPeriod).count();
-      samples.add(0, {.host_time_ns = time_ns_}).set(0, loud * random_.normal());
+      samples.add(0, {.host_time_ns = time_ns_, .counter = counter_++ % 256})
+          .set(0, loud * random_.normal());
     }
   }
 
@@ -59,6 +60,7 @@ class Whims : public plugin::Device {
   std::string file_;
   std::int64_t speed_;
   std::int64_t time_ns_;  // of the last sample
+  std::uint64_t counter_ = 0;
   std::string serial_;
   RandomStream random_{7};
   Clock::time_point next_;

@@ -61,13 +61,14 @@ double coefficient(const v1::FitReport& fit, const std::string& symbol) {
 
 TEST_F(Calibrated, EveryChannelHasItsNoiseAndWhatWentWrong) {
   CalibrateOptions options;
-  options.model = "WN + RW";
+  options.models = {"WN + RW"};
   options.made_ns = 77;
   const v1::Calibration got = calibrated(options);
   EXPECT_EQ(got.version(), kCalibrationVersion);
   EXPECT_EQ(got.started_ns(), testing::kSimulatedStart);
   EXPECT_EQ(got.made_ns(), 77);
-  EXPECT_EQ(got.settings().model(), "WN + RW");
+  ASSERT_EQ(got.settings().models_size(), 1);
+  EXPECT_EQ(got.settings().models(0), "WN + RW");
   ASSERT_EQ(got.channels_size(), 3) << "no noise model of a temperature unless it is asked for";
 
   const v1::ChannelCalibration& x = got.channels(0);
@@ -112,7 +113,7 @@ TEST_F(Calibrated, AModelIsChosenWhereNoneIsNamed) {
 
 TEST_F(Calibrated, ChannelsOfOneQuantityAreAnArrayWhenThatIsAsked) {
   CalibrateOptions options;
-  options.model = "WN + RW";
+  options.models = {"WN + RW"};
   options.diagnose = false;
   options.array = true;
   options.channels = {"gyro_x", "gyro_y"};
@@ -131,7 +132,7 @@ TEST_F(Calibrated, ChannelsOfOneQuantityAreAnArrayWhenThatIsAsked) {
 
 TEST_F(Calibrated, AChunkThatIsDamagedIsTold) {
   CalibrateOptions options;
-  options.model = "WN";
+  options.models = {"WN"};
   options.diagnose = false;
   const auto chunk = folder_.path() / "replicate-2" / "imu0" / "000001.h5";
   ASSERT_TRUE(recording::replace_file(files_, chunk, "no chunk"));
@@ -149,7 +150,7 @@ TEST_F(Calibrated, SaysWhatItCannotDo) {
     EXPECT_NE(error_of(options).find(words), std::string::npos) << error_of(options);
   };
   CalibrateOptions unreadable;
-  unreadable.model = "WN + RX";
+  unreadable.models = {"WN + RX"};
   expect(unreadable, "RX");
   CalibrateOptions absent;
   absent.channels = {"gyro_x", "gyro_w"};
@@ -161,7 +162,7 @@ TEST_F(Calibrated, SaysWhatItCannotDo) {
 
 TEST_F(Calibrated, ProgressGoesToTheEndAndAStopIsHeeded) {
   CalibrateOptions options;
-  options.model = "WN + RW";
+  options.models = {"WN + RW"};
   std::mutex told;
   double last = 0.0;
   std::stop_source source;
@@ -187,7 +188,7 @@ TEST_F(Calibrated, TheFileIsReadAsItWasWritten) {
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none);
   CalibrateOptions options;
-  options.model = "WN + RW";
+  options.models = {"WN + RW"};
   const v1::Calibration made = calibrated(options);
   ASSERT_TRUE(write_calibration(files_, folder_.path(), made));
   const auto back = read_calibration(files_, folder_.path());

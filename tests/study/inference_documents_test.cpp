@@ -13,7 +13,7 @@
 namespace imunoise::report {
 namespace {
 
-constexpr const char* kHostile = "<img src=x onerror=alert(1)> \x1b[31m & \u202E \"'";
+constexpr const char* kHostileName = "<img src=x onerror=alert(1)> \x1b[31m & \u202E \"'";
 
 v1::TestResult test_result(int degrees, bool rejected) {
   v1::TestResult out;
@@ -88,10 +88,10 @@ v1::DynamicReports dynamic(const std::string& name) {
 
 v1::ArrayReport hostile_array() {
   v1::ArrayReport out;
-  out.add_sensors(kHostile);
+  out.add_sensors(kHostileName);
   for (int i = 0; i < 30; ++i) {  // more than there is room for
     v1::SensorPair& pair = *out.add_pairs();
-    pair.set_first(kHostile);
+    pair.set_first(kHostileName);
     pair.set_second("b");
     pair.set_dependent(i % 2 == 0);
     for (const double covariance : {0.5, -0.5, 1e9, 0.0}) {
@@ -108,15 +108,15 @@ v1::ArrayReport hostile_array() {
 
 v1::MixedReport hostile_mixed() {
   v1::MixedReport out;
-  out.set_unit(kHostile);
-  out.set_summary(kHostile);
+  out.set_unit(kHostileName);
+  out.set_summary(kHostileName);
   v1::RegressionCoefficient& one = *out.add_coefficients();
-  one.set_regressor(kHostile);
-  one.set_unit(kHostile);
+  one.set_regressor(kHostileName);
+  one.set_unit(kHostileName);
   one.mutable_gls()->set_value(-1e300);
-  out.add_constants()->set_series(kHostile);
-  out.add_explained()->add_terms()->set_term(kHostile);
-  out.add_explained()->set_sensor(kHostile);
+  out.add_constants()->set_series(kHostileName);
+  out.add_explained()->add_terms()->set_term(kHostileName);
+  out.add_explained()->set_sensor(kHostileName);
   return out;
 }
 
@@ -126,20 +126,20 @@ v1::FaultReport hostile_faults() {
   for (const char* kind : {"step", "noisy", "stuck"}) {
     v1::SensorFault& fault = *out.add_faults();
     fault.set_kind(kind);
-    fault.add_sensors(kHostile);
+    fault.add_sensors(kHostileName);
     fault.add_sensors("b");
-    fault.set_replicate(kHostile);
+    fault.set_replicate(kHostileName);
     fault.set_onset_s(1e9);
   }
   for (const double high : {1.0, 0.0}) {
     v1::ParityTrace& trace = *out.add_traces();
-    trace.set_replicate(kHostile);
-    trace.set_sensor(kHostile);
+    trace.set_replicate(kHostileName);
+    trace.set_sensor(kHostileName);
     trace.set_step_s(0.1);
     trace.add_low(0.0);
     trace.add_high(high);
   }
-  out.add_stuck_rules()->set_sensor(kHostile);
+  out.add_stuck_rules()->set_sensor(kHostileName);
   return out;
 }
 
@@ -147,22 +147,22 @@ v1::FaultReport hostile_faults() {
 std::vector<Document> troubled(Digits digits) {
   v1::StationarityReports tests = stationarity(test_result(72, true), test_result(0, false));
   v1::StationarityReport& one = *tests.mutable_channels(0);
-  one.set_channel(kHostile);
-  one.set_summary(kHostile);
-  one.add_notes(kHostile);
+  one.set_channel(kHostileName);
+  one.set_summary(kHostileName);
+  one.add_notes(kHostileName);
   for (const double relative : {0.3, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::infinity()}) {
-    add_spread(one, kHostile, relative);
+    add_spread(one, kHostileName, relative);
   }
   tests.add_channels();
   v1::ChoiceReports choices;
   v1::ChoiceReport& choice = *choices.add_channels();
-  choice.set_channel(kHostile);
+  choice.set_channel(kHostileName);
   for (const double merit : {1.0, 0.0, 75942.0, std::numeric_limits<double>::quiet_NaN()}) {
-    add_candidate(choice, kHostile, merit);
+    add_candidate(choice, kHostileName, merit);
   }
   choices.add_channels();
-  v1::DynamicReports covariates = dynamic(kHostile);
+  v1::DynamicReports covariates = dynamic(kHostileName);
   covariates.add_channels();
   return {document(tests, digits),
           document(choices, digits),

@@ -19,10 +19,6 @@ v1::FitReports several() {
   return reports;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(HtmlPage, IsWellFormedWithUniqueIds) {
   for (const v1::FitReports& reports : {several(), v1::FitReports{}}) {
     const Markup markup = read_markup(html_page(reports));

@@ -10,10 +10,6 @@
 namespace imunoise::report {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(Json, ProtobufReadsBackTheSameMessage) {
   for (const v1::FitReport& report :
        {good_gyro(), bounded_gyro(), dense_unknown_unit(), v1::FitReport{}}) {

@@ -3,9 +3,15 @@
 // Reports as a fit would write them, for tests and for looking at: made of the closed forms of the
 // processes and seeded noise, with nothing fitted.
 
+#include <string>
+
 #include "imunoise/v1/noise.pb.h"
 
 namespace imunoise::report {
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// Six replicates of a gyro at 100 Hz, 1e6 samples each: AR1 + WN + RW + QN, 18 dyadic scales,
 /// fits.

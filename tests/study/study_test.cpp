@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <stop_token>
+#include <thread>
 
 #include "core/model/model.h"
 #include "study/ladder/study_file.h"
@@ -76,6 +78,24 @@ TEST(Study, WhatIsAddedMakesTheErrorFallAndCanBeTakenBack) {
   ASSERT_TRUE(other) << other.error().message;
   EXPECT_EQ(other->current(), 2u);
   EXPECT_EQ(other->attempts(2).parent(), 1u);
+}
+
+// Most moments of a search are no moment of its progress: another thread stops it.
+TEST(Study, AStopIsHeededWheneverItComes) {
+  const v1::Study first = opened();
+  v1::StudyRequest seek;
+  seek.mutable_candidates();
+  for (int delay = 0; delay <= 24; ++delay) {
+    std::stop_source source;
+    const std::jthread stopper([&] {
+      std::this_thread::sleep_for(delay * std::chrono::microseconds(400));
+      source.request_stop();
+    });
+    const auto done = apply(first, seek, read, Progress({}, source.get_token()));
+    if (!done) {
+      EXPECT_EQ(done.error().message, "stopped") << delay;
+    }
+  }
 }
 
 TEST(Study, ARequestThatCannotBeDoneChangesNothing) {

@@ -106,7 +106,7 @@ TEST_F(Units, CalendarsOfTimerAndExamplesAreCalendars) {
   for (std::string line; std::getline(timer, line);) {
     if (line.starts_with("OnCalendar=")) calendars.insert(line.substr(11));
   }
-  for (const auto& entry : fs::directory_iterator(root_ / "usr/share/doc/imunoise/config")) {
+  for (const auto& entry : fs::directory_iterator(root_ / "usr/share/doc/imunoise/examples")) {
     std::istringstream example(read(entry.path()));
     for (std::string line; std::getline(example, line);) {
       const std::size_t at = line.find("calendar = \"");

@@ -15,18 +15,18 @@
 namespace imunoise {
 namespace {
 
-constexpr Hertz kRate{1.0};
-constexpr Eigen::Index kSamples = 720;
+constexpr Hertz kMixedRate{1.0};
+constexpr Eigen::Index kMixedSamples = 720;
 
 ArrayModel walk_and_white() {
   ArrayModel out =
-      expand(parse_array_model("RW(gamma2=0.01)[all] + WN(sigma2=1)", kRate).value(), {3, {}});
+      expand(parse_array_model("RW(gamma2=0.01)[all] + WN(sigma2=1)", kMixedRate).value(), {3, {}});
   return out;
 }
 
 // A slow sine in all series, and a saw of its own in each.
 RegressionData some_data(const Eigen::MatrixXd& noise, double slow, double saw) {
-  RegressionData out{noise, {noise, noise}, kRate};
+  RegressionData out{noise, {noise, noise}, kMixedRate};
   for (Eigen::Index t = 0; t < noise.rows(); ++t) {
     for (Eigen::Index i = 0; i < noise.cols(); ++i) {
       out.regressors[0](t, i) = std::sin(0.02 * static_cast<double>(t));
@@ -75,7 +75,7 @@ TEST(BandedRegression, IsGeneralisedLeastSquares) {
 }
 
 TEST(BandedRegression, NaiveIsOrdinaryLeastSquares) {
-  const RegressionData data = some_data(simulate(walk_and_white(), kSamples, 4, 0), 0.7, -0.2);
+  const RegressionData data = some_data(simulate(walk_and_white(), kMixedSamples, 4, 0), 0.7, -0.2);
   const Coefficients naive = BandedRegression(data).naive();
   const Eigen::VectorXd huge = huber_regression(data);  // close to it on normal samples
   EXPECT_NEAR(naive.value(1), -0.2, 0.1);
@@ -83,17 +83,18 @@ TEST(BandedRegression, NaiveIsOrdinaryLeastSquares) {
 }
 
 TEST(HuberRegression, OutliersDoNotDecide) {
-  Eigen::MatrixXd noise = simulate(walk_and_white(), kSamples, 5, 0);
+  Eigen::MatrixXd noise = simulate(walk_and_white(), kMixedSamples, 5, 0);
   RegressionData data = some_data(noise, 0.0, 1.0);
-  for (Eigen::Index t = 0; t < kSamples; t += 17) data.response(t, 0) += 1e4;  // where its saw is 0
+  for (Eigen::Index t = 0; t < kMixedSamples; t += 17)
+    data.response(t, 0) += 1e4;  // where its saw is 0
   EXPECT_GT(std::abs(BandedRegression(data).naive().value(1) - 1.0), 5.0);
   EXPECT_NEAR(huber_regression(data)(1), 1.0, 0.2);
 }
 
 TEST(BandedRegression, ResidualsAreWhatIsLeft) {
-  const RegressionData data = some_data(simulate(walk_and_white(), kSamples, 6, 0), 0.7, -0.2);
+  const RegressionData data = some_data(simulate(walk_and_white(), kMixedSamples, 6, 0), 0.7, -0.2);
   const Eigen::VectorXd some = Eigen::Vector2d(0.3, 1.7);
-  const CrossPower direct = cross_power(data.residual(some), kRate);
+  const CrossPower direct = cross_power(data.residual(some), kMixedRate);
   const CrossPower found = BandedRegression(data).residual(some);
   for (std::size_t b = 0; b < direct.power.size(); ++b) {
     EXPECT_LT((found.power[b] - direct.power[b]).norm(), 1e-9 * direct.power[b].norm()) << b;
@@ -101,8 +102,8 @@ TEST(BandedRegression, ResidualsAreWhatIsLeft) {
 }
 
 TEST(MixedRegression, FindsWhatWasPutIn) {
-  const Model written = parse_array_model("RW[all] + WN", kRate).value();
-  const RegressionData data = some_data(simulate(walk_and_white(), kSamples, 7, 0), 4.0, 0.0);
+  const Model written = parse_array_model("RW[all] + WN", kMixedRate).value();
+  const RegressionData data = some_data(simulate(walk_and_white(), kMixedSamples, 7, 0), 4.0, 0.0);
   RegressionOptions options;
   options.bootstraps = 39;
   const MixedRegression found = mixed_regression(written, {3, {}}, data, options);
@@ -118,8 +119,8 @@ TEST(MixedRegression, FindsWhatWasPutIn) {
 }
 
 TEST(MixedRegression, SameAnswerWithAnyNumberOfThreads) {
-  const Model written = parse_array_model("RW[all] + WN", kRate).value();
-  const RegressionData data = some_data(simulate(walk_and_white(), kSamples, 8, 0), 1.0, 0.0);
+  const Model written = parse_array_model("RW[all] + WN", kMixedRate).value();
+  const RegressionData data = some_data(simulate(walk_and_white(), kMixedSamples, 8, 0), 1.0, 0.0);
   RegressionOptions options;
   options.bootstraps = 19;
   const MixedRegression several = mixed_regression(written, {3, {}}, data, options);

@@ -16,7 +16,7 @@ using testing::coloured_model;
 using testing::reading;
 using testing::Readings;
 
-constexpr std::uint64_t kSeed = 20261121;
+constexpr std::uint64_t kInnovationsSeed = 20261121;
 
 TEST(Innovations, ParityDoesNotSeeWhatAllSensorsSee) {
   const Eigen::MatrixXd rows = parity_rows(6, {0, 2, 3, 5});
@@ -34,7 +34,7 @@ struct Case {
 // At blocks of 1, 8 and 64 samples: unit covariance, nothing left at lags 1 to 8.
 TEST(Innovations, AreWhiteForEveryProcess) {
   constexpr std::size_t kSamples = 1 << 18;
-  std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
+  std::printf("seed %llu\n", static_cast<unsigned long long>(kInnovationsSeed));
   const std::vector<Case> cases = {
       {"WN", {1.0}},
       {"RW[corr] + WN", {0.01, 1.0}},
@@ -47,7 +47,7 @@ TEST(Innovations, AreWhiteForEveryProcess) {
   };
   for (const Case& one : cases) {
     const ArrayModel model = array_model(one.text, 3, one.powers, 0.5);
-    const Readings data = testing::simulated_array(model, kSamples, kSeed, 0);
+    const Readings data = testing::simulated_array(model, kSamples, kInnovationsSeed, 0);
     for (const std::int64_t block : {1, 8, 64}) {
       InnovationStream stream(InnovationFilter(model, parity_rows(3, {0, 1, 2}), block));
       const Eigen::MatrixXd rows = parity_rows(3, {0, 1, 2});
@@ -102,7 +102,7 @@ TEST(Clusters, ThresholdGivesTheRateOfExcursions) {
   const Eigen::MatrixXd filter = Eigen::MatrixXd::Constant(1, 7, 1.0 / std::sqrt(7.0));
   const double h = cluster_threshold(filter, 1, kRate);
   EXPECT_LT(h, -normal_quantile(0.5 * kRate)) << "excursions are fewer than samples beyond";
-  RandomStream random(kSeed);
+  RandomStream random(kInnovationsSeed);
   Eigen::VectorXd recent = Eigen::VectorXd::Zero(7);
   int excursions = 0;
   int quiet = 7;

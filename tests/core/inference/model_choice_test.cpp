@@ -9,7 +9,7 @@
 namespace imunoise {
 namespace {
 
-constexpr std::uint64_t kSeed = 12;
+constexpr std::uint64_t kChoiceSeed = 12;
 
 TEST(SubModels, AreEveryChoiceOfTermsOnce) {
   const std::vector<Model> all = sub_models(testing::model_of("2*AR1 + WN + RW"));
@@ -26,7 +26,8 @@ class Ways : public ::testing::TestWithParam<ChoiceOptions> {};
 
 TEST_P(Ways, FindTheTruthAndRefuseWhatLacksAProcess) {
   const Model truth = testing::model_of("AR1(sigma2=0.05, phi=0.98) + WN(sigma2=1)");
-  const auto moments = testing::simulated_set(truth, std::vector<std::size_t>(6, 20'000), 1, kSeed);
+  const auto moments =
+      testing::simulated_set(truth, std::vector<std::size_t>(6, 20'000), 1, kChoiceSeed);
   const ModelChoice choice =
       choose_model(sub_models(testing::model_of("AR1 + WN + RW")), moments, GetParam());
   EXPECT_EQ(choice.splits, GetParam().splits == Splits::kHalf ? 20U : 6U);

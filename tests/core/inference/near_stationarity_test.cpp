@@ -11,13 +11,14 @@
 namespace imunoise {
 namespace {
 
-constexpr std::uint64_t kSeed = 11;
+constexpr std::uint64_t kStationaritySeed = 11;
 const std::vector<std::size_t> kSix(6, 20'000);
 
 std::vector<WaveletVariance> sets_of(const std::vector<std::string>& truths) {
   std::vector<WaveletVariance> out;
   for (std::size_t k = 0; k < truths.size(); ++k) {
-    out.push_back(testing::simulated_set(testing::model_of(truths[k]), {20'000}, 1, kSeed + k)[0]);
+    out.push_back(testing::simulated_set(testing::model_of(truths[k]), {20'000}, 1,
+                                         kStationaritySeed + k)[0]);
   }
   return out;
 }
@@ -70,7 +71,7 @@ TEST(NearStationarity, NamesTheParameterThatMoves) {
 
 TEST(NearStationarity, BootstrapIsReproducibleAndAgreesWithTheAsymptoticLaw) {
   const Model truth = testing::model_of("AR1(sigma2=0.05, phi=0.98) + WN(sigma2=1)");
-  const auto moments = testing::simulated_set(truth, kSix, 1, kSeed);
+  const auto moments = testing::simulated_set(truth, kSix, 1, kStationaritySeed);
   const Model open = testing::freed(truth);
   constexpr int kSets = 400;
   const NearStationarity many = near_stationarity(open, moments, {kSets, 3});
@@ -88,7 +89,8 @@ TEST(NearStationarity, BootstrapIsReproducibleAndAgreesWithTheAsymptoticLaw) {
 
 TEST(NearStationarity, ReplicatesMayDifferInLength) {
   const Model truth = testing::model_of("WN(sigma2=1) + RW(gamma2=1e-5)");
-  const auto moments = testing::simulated_set(truth, {20'000, 10'000, 30'000, 20'000}, 1, kSeed);
+  const auto moments =
+      testing::simulated_set(truth, {20'000, 10'000, 30'000, 20'000}, 1, kStationaritySeed);
   const NearStationarity result = near_stationarity(testing::freed(truth), moments, {49, 1});
   EXPECT_GT(result.heterogeneity.p_value(), 1e-3);
   EXPECT_EQ(result.heterogeneity.asymptotic.degrees_of_freedom, 3 * 2);
@@ -105,7 +107,7 @@ TEST(MomentDraws, HaveTheCovarianceOfTheModel) {
   const Eigen::Index n = like[0].variance.size();
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(n, n);
-  RandomStream stream(kSeed);
+  RandomStream stream(kStationaritySeed);
   for (int i = 0; i < kDraws; ++i) {
     const Eigen::VectorXd off = draws.draw(stream)[0].variance - like[0].variance;
     mean += off / kDraws;

@@ -7,7 +7,7 @@
 namespace imunoise {
 namespace {
 
-constexpr Hertz kRate{100.0};
+constexpr Hertz kEffectRate{100.0};
 
 TEST(EffectTerm, EveryKindIsReadAsItIsPrinted) {
   for (const char* text :
@@ -18,22 +18,23 @@ TEST(EffectTerm, EveryKindIsReadAsItIsPrinted) {
         "WN + witness(temperature, quadratic)", "WN + witness(temperature, lag=2, own)",
         "WN + modulated(temperature)", "WN + RW + telegraph", "WN + outliers(above=6)",
         "AR1 + WN + own_powers"}) {
-    const Result<FullModel> read = parse_full_model(text, kRate);
+    const Result<FullModel> read = parse_full_model(text, kEffectRate);
     ASSERT_TRUE(read) << text << ": " << read.error().message;
     EXPECT_EQ(print(*read), text);
-    EXPECT_EQ(*parse_full_model(print(*read), kRate), *read) << text;
+    EXPECT_EQ(*parse_full_model(print(*read), kEffectRate), *read) << text;
   }
 }
 
 TEST(EffectTerm, EffectsMayStandAnywhereAndADriftIsARampOfEachReplicate) {
-  const Result<FullModel> read = parse_full_model("line(f=2e+0)+WN( sigma2=1e+0 ) + DR", kRate);
+  const Result<FullModel> read =
+      parse_full_model("line(f=2e+0)+WN( sigma2=1e+0 ) + DR", kEffectRate);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(print(*read), "WN(sigma2=1) + line(f=2) + ramp(own)");
 }
 
 TEST(EffectTerm, WhatIsWrongIsSaid) {
   const auto message = [](const char* text) {
-    const Result<FullModel> read = parse_full_model(text, kRate);
+    const Result<FullModel> read = parse_full_model(text, kEffectRate);
     return read ? "accepted" : read.error().message;
   };
   EXPECT_EQ(message("WN + line"), "line: needs f=…, a number > 0");

@@ -13,12 +13,12 @@
 namespace imunoise {
 namespace {
 
-constexpr Hertz kRate{100};
+constexpr Hertz kSamplerRate{100};
 
 class EveryProcess : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EveryProcess, SampleBySampleGivesTheNumbersOfSimulate) {
-  const Model model = *parse_model(GetParam(), kRate);
+  const Model model = *parse_model(GetParam(), kSamplerRate);
   const std::vector<double> at_once = simulate(model, 500, 42, 3);
   ModelSampler sampler(model, 42, 3);
   for (std::size_t i = 0; i < at_once.size(); ++i) {
@@ -51,7 +51,7 @@ TEST(FlickerRecursion, IsTheHalfIntegrator) {
 // sample is as far off as any later one: the spectrum 1 / (2 sin πf), integrated from the end of
 // the bank's memory T on, is ln(4T) / π, ln T = 34.5. 1000 runs: five deviations are 22 %.
 TEST(FlickerRecursion, HasItsWaveletVarianceFromTheStart) {
-  const Model model = *parse_model("FN(b2=1)", kRate);
+  const Model model = *parse_model("FN(b2=1)", kSamplerRate);
   constexpr std::uint32_t kRuns = 1000;
   const std::vector<std::size_t> widths = {1, 16, 256};
   std::vector<double> squares(widths.size());

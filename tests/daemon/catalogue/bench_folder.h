@@ -66,7 +66,7 @@ class BenchFolder : public ::testing::Test {
     calibration.set_fingerprint(recording::fingerprint(of));
     calibration.set_started_ns(of.started_ns());
     calibration.set_made_ns(of.started_ns() + kDay);
-    calibration.mutable_settings()->set_model(model);
+    calibration.mutable_settings()->add_models(model);
     calibration.set_summary("1 of 1 channels have a model.");
     v1::ChannelCalibration& channel = *calibration.add_channels();
     channel.set_device("imu0");

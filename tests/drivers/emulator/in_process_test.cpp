@@ -86,15 +86,18 @@ TEST(EmulatedDriver, AnAdis16405RunsAsFastAsItIsRead) {
   EXPECT_EQ(session->all_refused(), 0U);
 }
 
-TEST(EmulatedDriver, TheSameSeedIsTheSameRecording) {
+// Replicates of one recording are openings of one device.
+TEST(EmulatedDriver, OpenedAgainADeviceGoesOnWithOtherNumbers) {
   const Options options = options_of("adis16405", {{"speed", "0"}});
   const Session one = open(options);
   const Session two = open(options);
   ASSERT_TRUE(one->read_rows(500));
   ASSERT_TRUE(two->read_rows(500));
+  std::size_t same = 0;
   for (std::size_t i = 0; i < 500; ++i) {
-    ASSERT_EQ(one->rows()[i].numbers, two->rows()[i].numbers) << i;
+    same += one->rows()[i].numbers == two->rows()[i].numbers ? 1U : 0U;
   }
+  EXPECT_EQ(same, 0U);
 }
 
 TEST(EmulatedDriver, AnAdis16405KeepsTime) {

@@ -21,10 +21,6 @@ Series walk_spectrum(double gamma, std::size_t samples) {
   return out;
 }
 
-void add(Series& to, const Series& part) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += part[i];
-}
-
 // Variance of x over that of e: Jenkins & Watts 1968, eq. 5.2.33 with φ1 = 2r cos ω, φ2 = -r².
 double ringing_gain(const Ringing& ringing) {
   const double r2 = ringing.radius * ringing.radius;
@@ -32,6 +28,10 @@ double ringing_gain(const Ringing& ringing) {
 }
 
 }  // namespace
+
+void add(Series& to, const Series& part) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += part[i];
+}
 
 Series simulate(const Markov& markov, RandomStream& random, std::size_t samples) {
   const double phi = std::exp(-1.0 / markov.tau);

@@ -43,6 +43,9 @@ struct BaseNoise {
   std::vector<Series> parts(std::size_t samples) const;
 };
 
+/// Adds a part of as many samples.
+void add(Series& to, const Series& part);
+
 /// A realisation of `markov`.
 Series simulate(const Markov& markov, RandomStream& random, std::size_t samples);
 

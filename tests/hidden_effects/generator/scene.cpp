@@ -22,10 +22,6 @@ Series measured(const Series& truth, double noise, RandomStream& random) {
   return out;
 }
 
-void add(Series& to, const Series& part) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += part[i];
-}
-
 // A part of a long swing, a slow wander and the draught of the room.
 Series draw_temperature(Weather weather, std::size_t samples, double rate_hz,
                         RandomStream& random) {

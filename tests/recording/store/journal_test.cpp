@@ -12,7 +12,7 @@
 namespace imunoise::recording {
 namespace {
 
-constexpr int kBlocks = 6;
+constexpr int kFewBlocks = 6;
 
 v1::JournalHeader header() {
   v1::JournalHeader out;
@@ -36,7 +36,7 @@ struct Bytes {
 
 Bytes segment() {
   Bytes out;
-  for (int i = 0; i < kBlocks; ++i) {
+  for (int i = 0; i < kFewBlocks; ++i) {
     out.add(static_cast<std::uint64_t>(i) + 1, imu_block(i * 3, 3));
   }
   return out;
@@ -67,7 +67,7 @@ TEST(JournalSegment, CutAnywhereKeepsTheWholeBlocks) {
     const auto back = read_segment(std::string_view(bytes.all).substr(0, size), 0, nullptr);
     ASSERT_TRUE(back);
     std::size_t whole = 0;
-    while (whole < kBlocks && bytes.ends[whole + 1] <= size) ++whole;
+    while (whole < kFewBlocks && bytes.ends[whole + 1] <= size) ++whole;
     ASSERT_EQ(back->chunk.has_value(), whole > 0);
     if (whole > 0) {
       ASSERT_EQ(row_indices(back->chunk->streams[0]),
@@ -94,16 +94,16 @@ TEST(JournalSegment, AFlippedBitCostsItsOwnBlockOnly) {
     std::size_t hit = 0;
     while (bytes.ends[hit + 1] <= i) ++hit;
     std::vector<std::int32_t> rest;
-    for (std::int32_t row = 0; row < 3 * kBlocks; ++row) {
+    for (std::int32_t row = 0; row < 3 * kFewBlocks; ++row) {
       if (static_cast<std::size_t>(row) / 3 != hit) rest.push_back(row);
     }
     ASSERT_EQ(row_indices(back->chunk->streams[0]), rest) << "byte " << i;
     ASSERT_EQ(back->damage.size(), 1U);
-    ASSERT_EQ(back->damage[0].at_end, hit + 1 == kBlocks);
-    if (hit + 1 < kBlocks) {  // the row after the damage says that rows are missing
+    ASSERT_EQ(back->damage[0].at_end, hit + 1 == kFewBlocks);
+    if (hit + 1 < kFewBlocks) {  // the row after the damage says that rows are missing
       ASSERT_EQ(back->chunk->streams[0].flags[3 * hit], std::uint32_t{kLostBefore});
     }
-    if (hit > 0 && hit + 1 < kBlocks) {
+    if (hit > 0 && hit + 1 < kFewBlocks) {
       ASSERT_EQ(back->lost_blocks, 1U);
     }
   }
@@ -128,7 +128,7 @@ TEST(JournalSegment, WithoutItsHeaderANeighboursServes) {
   const auto alone = read_segment(damaged, 0, nullptr);
   ASSERT_TRUE(alone);
   EXPECT_FALSE(alone->chunk);
-  EXPECT_EQ(alone->unusable, static_cast<std::uint64_t>(kBlocks));
+  EXPECT_EQ(alone->unusable, static_cast<std::uint64_t>(kFewBlocks));
   const v1::JournalHeader neighbour = header();
   const auto helped = read_segment(damaged, 0, &neighbour);
   ASSERT_TRUE(helped && helped->chunk);

@@ -26,6 +26,7 @@ constexpr int kRowsABlock = 50;
   RecordingPlan plan;
   plan.devices = {test_device()};
   RecorderOptions options;
+  options.sync_every = {};
   options.segments.bytes = 20'000;  // some thirty blocks
   const auto recorder = Recorder::start(posix_file_system(), root, plan, options);
   if (!recorder) ::_exit(1);

@@ -113,6 +113,7 @@ TEST(PowerCut, AtEveryBoundaryOfARecorder) {
     RecordingPlan plan;
     plan.devices = {test_device()};
     RecorderOptions options;
+    options.sync_every = {};
     options.segments.bytes = 1000;
     if (!disk.make_folder(kRoot) || !disk.sync_folder("/")) return 0;
     const auto recorder = Recorder::start(disk, kRoot, plan, options);

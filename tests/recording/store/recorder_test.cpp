@@ -22,6 +22,7 @@ RecordingPlan plan(std::vector<v1::RecordedDevice> devices = {test_device()},
 RecorderOptions small_segments(std::uint64_t bytes = 2000) {
   RecorderOptions out;
   out.segments.bytes = bytes;
+  out.sync_every = {};
   return out;
 }
 
@@ -246,10 +247,32 @@ TEST(Recorder, AReadOnlyDiskIsToldAtTheStart) {
       << recorder.error().message;
 }
 
+// A sync costs the same however little it carries.
+TEST(Recorder, BlocksWaitForTheNextRoundUnlessTheQueueFills) {
+  FakeDisk disk;
+  RecorderOptions options;
+  options.sync_every = std::chrono::hours(1);
+  options.waiting_rows = 1000;
+  const auto recorder = Recorder::start(disk, "/run", plan(), options);
+  ASSERT_TRUE((*recorder)->push(0, imu_block(0, 10)));  // the first round begins at once
+  while ((*recorder)->state().acknowledged[0] == 0) {
+  }
+  const int calls = disk.calls();
+  for (int i = 1; i <= 20; ++i) ASSERT_TRUE((*recorder)->push(0, imu_block(10 * i, 10)));
+  EXPECT_EQ((*recorder)->state().acknowledged[0], 1U);
+  EXPECT_EQ(disk.calls(), calls);
+  for (int i = 21; i <= 40; ++i) ASSERT_TRUE((*recorder)->push(0, imu_block(10 * i, 10)));
+  while ((*recorder)->state().acknowledged[0] < 26) {  // more than a quarter of the queue
+  }
+  ASSERT_TRUE((*recorder)->close());
+  EXPECT_EQ((*recorder)->state().counts[0][0].stored, 410U);
+}
+
 TEST(Recorder, HostTimeEndsSegmentsToo) {
   FakeDisk disk;
   RecorderOptions options;
   options.segments.time = std::chrono::seconds(1);
+  options.sync_every = {};
   const auto recorder = Recorder::start(disk, "/run", plan(), options);
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE((*recorder)->push(0, imu_block(10 * i, 10)));  // 0.1 s each

@@ -24,6 +24,7 @@ class Verify : public FileTest {
     plan.devices = {test_device()};
     plan.campaign = "bench";
     RecorderOptions options;
+    options.sync_every = {};
     options.segments.bytes = 1;  // a segment each block
     const auto recorder = Recorder::start(files_, root_, plan, options);
     for (int i = 0; i < 12; ++i) {

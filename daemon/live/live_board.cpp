@@ -1,0 +1,94 @@
+#include "daemon/live/live_board.h"
+
+#include <utility>
+
+namespace imunoise::live {
+
+void LiveReplicate::begin(const acquire::ReplicatePlan& plan,
+                          const std::vector<v1::RecordedDevice>& devices) {
+  const std::lock_guard lock(mutex_);
+  about_.set_campaign(campaign_);
+  about_.set_recording(plan.folder.string());
+  about_.set_replicate(plan.replicate);
+  about_.set_length_s(plan.duration ? plan.duration->count() : 0.0);
+  devices_.clear();
+  told_.clear();
+  for (const v1::RecordedDevice& one : devices) devices_.push_back(std::make_shared<Watched>(one));
+}
+
+// The reader's own lock alone: devices do not wait for each other.
+void LiveReplicate::take(std::size_t device, const recording::Block& block) {
+  const std::shared_ptr<Watched> to = devices().at(device);
+  const std::lock_guard lock(to->mutex);
+  to->live.take(block);
+}
+
+void LiveReplicate::end() {
+  const std::lock_guard lock(mutex_);
+  devices_.clear();
+}
+
+std::vector<std::shared_ptr<LiveReplicate::Watched>> LiveReplicate::devices() const {
+  const std::lock_guard lock(mutex_);
+  return devices_;
+}
+
+std::optional<v1::LiveReplicate> LiveReplicate::state() const {
+  std::unique_lock lock(mutex_);
+  if (devices_.empty()) return std::nullopt;
+  const auto devices = devices_;
+  v1::LiveReplicate out = about_;
+  lock.unlock();
+  for (const auto& one : devices) {
+    const std::lock_guard own(one->mutex);
+    *out.add_devices() = one->live.state();
+  }
+  return out;
+}
+
+std::vector<std::string> LiveReplicate::new_warnings() {
+  std::vector<std::string> out;
+  std::set<std::string> holding;
+  for (const auto& one : devices()) {
+    std::unique_lock own(one->mutex);
+    const auto [device, warnings] = std::pair(one->live.name(), one->live.warnings());
+    own.unlock();
+    for (const v1::LiveWarning& warning : warnings) {
+      const std::string key = device + "/" + warning.stream() + "/" + warning.channel() + "/" +
+                              std::to_string(warning.concern());
+      holding.insert(key);
+      const std::lock_guard lock(mutex_);
+      if (!told_.contains(key)) out.push_back(device + ": " + warning.sentence());
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  told_ = std::move(holding);
+  return out;
+}
+
+LiveReplicate& LiveBoard::of(const std::string& campaign) {
+  const std::lock_guard lock(mutex_);
+  auto& out = campaigns_[campaign];
+  if (!out) out = std::make_unique<LiveReplicate>(campaign);
+  return *out;
+}
+
+std::vector<v1::LiveReplicate> LiveBoard::state() const {
+  std::vector<v1::LiveReplicate> out;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, campaign] : campaigns_) {
+    if (auto state = campaign->state()) out.push_back(std::move(*state));
+  }
+  return out;
+}
+
+std::vector<std::string> LiveBoard::new_warnings() {
+  std::vector<std::string> out;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, campaign] : campaigns_) {
+    for (const std::string& one : campaign->new_warnings()) out.push_back(name + ": " + one);
+  }
+  return out;
+}
+
+}  // namespace imunoise::live

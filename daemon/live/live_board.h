@@ -1,0 +1,64 @@
+#pragma once
+
+// What is known of all replicates that are being recorded.
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "daemon/acquire/record_replicate.h"
+#include "daemon/live/live_device.h"
+
+namespace imunoise::live {
+
+/// One replicate after the other of one campaign. Thread-safe.
+class LiveReplicate : public acquire::ReplicateObserver {
+ public:
+  explicit LiveReplicate(std::string campaign) : campaign_(std::move(campaign)) {}
+
+  void begin(const acquire::ReplicatePlan& plan,
+             const std::vector<v1::RecordedDevice>& devices) override;
+  void take(std::size_t device, const recording::Block& block) override;
+  void end() override;
+
+  /// Nothing while none is recorded.
+  std::optional<v1::LiveReplicate> state() const;
+  /// Of the warnings that hold now, those that did not at the last call: "imu0: gyro_x: ...".
+  std::vector<std::string> new_warnings();
+
+ private:
+  struct Watched {
+    explicit Watched(const v1::RecordedDevice& device) : live(device) {}
+    std::mutex mutex;  // of its reader's thread and of whoever looks
+    LiveDevice live;
+  };
+  // Those of this moment: they stay while somebody looks at them.
+  std::vector<std::shared_ptr<Watched>> devices() const;
+
+  std::string campaign_;
+  mutable std::mutex mutex_;  // guards what follows
+  v1::LiveReplicate about_;   // without devices
+  std::vector<std::shared_ptr<Watched>> devices_;
+  std::set<std::string> told_;
+};
+
+/// Thread-safe.
+class LiveBoard {
+ public:
+  /// The campaign's place, which lasts as long as the board.
+  LiveReplicate& of(const std::string& campaign);
+  /// Replicates that are being recorded, by campaign.
+  std::vector<v1::LiveReplicate> state() const;
+  /// "campaign: imu0: gyro_x: ..."
+  std::vector<std::string> new_warnings();
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<LiveReplicate>> campaigns_;
+};
+
+}  // namespace imunoise::live

@@ -1,0 +1,219 @@
+#include "daemon/live/live_device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "core/support/distributions.h"
+#include "core/support/units.h"
+#include "daemon/config/quantity_text.h"
+
+namespace imunoise::live {
+namespace {
+
+constexpr std::int64_t kStuckAfter = 60'000'000'000;  // ns
+constexpr double kWarming = 2.0 / 3600.0;             // K/s
+
+struct Known {
+  Quantity quantity = Quantity::kUnknown;
+  double scale = 1.0;  // SI units a number
+};
+
+Known known_of(const v1::RecordedChannel& channel) {
+  const auto unit = parse_unit(channel.units());
+  if (!unit) return {};
+  return {unit->quantity,
+          unit->to_si * (channel.has_scale_factor() ? channel.scale_factor() : 1.0)};
+}
+
+bool of_inertia(Quantity quantity) {
+  return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
+}
+
+double number_at(const recording::Numbers& numbers, std::size_t i) {
+  return std::visit([i](const auto& values) { return static_cast<double>(values[i]); }, numbers);
+}
+
+// The numbers at and beyond which a sensor saturates: stated, or the type's own.
+bool at_the_end(const v1::RecordedChannel& channel, double number) {
+  const bool small = channel.dtype() == "<i2";
+  const double least = channel.has_valid_min() ? channel.valid_min() : small ? -32768.0 : -INFINITY;
+  const double most = channel.has_valid_max() ? channel.valid_max() : small ? 32767.0 : INFINITY;
+  return number <= least || number >= most;
+}
+
+v1::LiveScale describe(const KnownScale& scale) {
+  v1::LiveScale out;
+  out.set_tau_s(scale.tau_s);
+  out.set_deviation(std::sqrt(scale.variance));
+  out.set_degrees_of_freedom(scale.degrees);
+  const double sum = scale.degrees * scale.variance;
+  out.set_lower(std::sqrt(sum / chi_square_quantile(0.975, scale.degrees)));
+  out.set_upper(std::sqrt(sum / chi_square_quantile(0.025, scale.degrees)));
+  // Each further τ brings one more.
+  out.set_enough_in_s(std::max(0.0, (kEnoughDegrees - scale.degrees) * scale.tau_s));
+  return out;
+}
+
+// The averaging times that every channel knows well enough, and what the next powers of ten take.
+std::string outlook(const v1::LiveDevice& state) {
+  constexpr int kAhead = 3;
+  double known = INFINITY;
+  for (const v1::LiveChannel& channel : state.channels()) {
+    double of_channel = 0.0;
+    for (const v1::LiveScale& scale : channel.scales()) {
+      if (scale.enough_in_s() > 0.0) break;
+      of_channel = scale.tau_s();
+    }
+    known = std::min(known, of_channel);
+  }
+  if (state.channels().empty()) return "";
+  std::string out = known > 0.0 ? fmt::format(
+                                      "averaging times up to {:.3g} s are known within a "
+                                      "factor of two",
+                                      known)
+                                : "no averaging time is known within a factor of two";
+  int told = 0;
+  for (double tau = 1.0; told < kAhead; tau *= 10.0) {
+    if (tau <= known) continue;
+    const double left = std::max(0.0, (kEnoughDegrees + 1.0) * tau - state.elapsed_s());
+    out += fmt::format("{} {:.0f} s in {}", told++ == 0 ? ";" : ",", tau,
+                       config::print_duration(std::ceil(left)));
+  }
+  return out;
+}
+
+}  // namespace
+
+LiveDevice::LiveDevice(const v1::RecordedDevice& device) : device_(device) {
+  for (const v1::RecordedStream& stream : device.streams()) {
+    Stream& to = streams_.emplace_back();
+    for (int c = 0; c < stream.channels_size(); ++c) {
+      const Known known = known_of(stream.channels(c));
+      const auto index = static_cast<std::size_t>(c);
+      if (known.quantity == Quantity::kTemperature) {
+        to.warmths.push_back({index, known.scale, {}});
+      } else if (of_inertia(known.quantity) && stream.rate_hz() > 0.0) {
+        to.channels.push_back({index, {Hertz{stream.rate_hz()}, known.scale}, 0.0, 0, {}});
+      }
+    }
+  }
+}
+
+void LiveDevice::take(const recording::Block& block) {
+  Stream& to = streams_[block.stream];
+  const recording::Rows& rows = block.rows;
+  const std::uint64_t refused = recording::refused_rows(rows.refused);
+  to.refused += refused;
+  if (refused > 0) to.lost.see(rows.size() > 0 ? rows.host_time.back() : to.now_ns, refused);
+  if (rows.size() == 0) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((rows.flags[i] & recording::kLostBefore) == 0 || to.samples + i == 0) continue;
+    ++to.gaps;
+    to.lost.see(rows.host_time[i]);
+  }
+  const v1::RecordedStream& stream = device_.streams(static_cast<int>(block.stream));
+  for (Channel& channel : to.channels) take_channel(rows, stream, channel);
+  for (Warmth& one : to.warmths) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      one.slope.take(rows.host_time[i], one.scale * number_at(rows.channels[one.index], i));
+    }
+  }
+  if (!to.begin_ns) to.begin_ns = rows.host_time.front();
+  to.now_ns = rows.host_time.back();
+  to.samples += rows.size();
+}
+
+void LiveDevice::take_channel(const recording::Rows& rows, const v1::RecordedStream& stream,
+                              Channel& to) {
+  const v1::RecordedChannel& channel = stream.channels(static_cast<int>(to.index));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double number = number_at(rows.channels[to.index], i);
+    if ((rows.flags[i] & recording::kLostBefore) != 0) to.variance.gap();
+    if (std::isfinite(number)) to.variance.push(number);
+    if (at_the_end(channel, number)) to.saturated.see(rows.host_time[i]);
+    if (number != to.last || to.same_since_ns == 0) to.same_since_ns = rows.host_time[i];
+    to.last = number;
+  }
+}
+
+v1::LiveChannel LiveDevice::describe(const v1::RecordedStream& stream, const Channel& channel) {
+  const v1::RecordedChannel& recorded = stream.channels(static_cast<int>(channel.index));
+  v1::LiveChannel out;
+  out.set_stream(stream.name());
+  out.set_channel(recorded.name());
+  out.set_units(std::string(si_symbol(known_of(recorded).quantity)));
+  for (const KnownScale& scale : channel.variance.known())
+    *out.add_scales() = live::describe(scale);
+  return out;
+}
+
+void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
+                      std::vector<v1::LiveWarning>& to) {
+  const auto add = [&](v1::LiveConcern concern, const std::string& channel, std::int64_t since,
+                       const std::string& sentence) {
+    v1::LiveWarning& out = to.emplace_back();
+    out.set_concern(concern);
+    out.set_stream(stream.name());
+    out.set_channel(channel);
+    out.set_since_ns(since);
+    out.set_sentence(fmt::format("{}: {}", channel.empty() ? stream.name() : channel, sentence));
+  };
+  const auto name = [&](std::size_t index) -> const std::string& {
+    return stream.channels(static_cast<int>(index)).name();
+  };
+  if (const auto since = of.lost.since(of.now_ns)) {
+    add(v1::lost_samples, "", *since,
+        fmt::format("samples were refused or lost, {} times within the last minutes",
+                    of.lost.count()));
+  }
+  for (const Channel& one : of.channels) {
+    if (const auto since = one.saturated.since(of.now_ns)) {
+      add(v1::saturated, name(one.index), *since,
+          fmt::format("{} samples are at the end of the range", one.saturated.count()));
+    }
+    if (of.now_ns - one.same_since_ns > kStuckAfter) {
+      add(v1::stuck, name(one.index), one.same_since_ns,
+          fmt::format("has been {} for {:.0f} s", one.last,
+                      static_cast<double>(of.now_ns - one.same_since_ns) * 1e-9));
+    }
+  }
+  for (const Warmth& one : of.warmths) {
+    const auto slope = one.slope.per_second();
+    if (!slope || std::abs(*slope) < kWarming) continue;
+    add(v1::warming, name(one.index), *of.begin_ns,
+        fmt::format("the temperature {} by {:.1f} K an hour; let it settle",
+                    *slope > 0.0 ? "rises" : "falls", std::abs(*slope) * 3600.0));
+  }
+}
+
+v1::LiveDevice LiveDevice::state() const {
+  v1::LiveDevice out;
+  out.set_device(device_.name());
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    const Stream& of = streams_[s];
+    const v1::RecordedStream& stream = device_.streams(static_cast<int>(s));
+    out.set_samples(out.samples() + of.samples);
+    out.set_refused(out.refused() + of.refused);
+    out.set_gaps(out.gaps() + of.gaps);
+    if (!of.begin_ns) continue;
+    const double elapsed = static_cast<double>(of.now_ns - *of.begin_ns) * 1e-9;
+    out.set_elapsed_s(std::max(out.elapsed_s(), elapsed));
+    for (const Channel& channel : of.channels) *out.add_channels() = describe(stream, channel);
+  }
+  out.set_outlook(outlook(out));
+  for (v1::LiveWarning& one : warnings()) *out.add_warnings() = std::move(one);
+  return out;
+}
+
+std::vector<v1::LiveWarning> LiveDevice::warnings() const {
+  std::vector<v1::LiveWarning> out;
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (streams_[s].begin_ns) warn(device_.streams(static_cast<int>(s)), streams_[s], out);
+  }
+  return out;
+}
+
+}  // namespace imunoise::live

@@ -1,0 +1,62 @@
+#pragma once
+
+// What is known of one device while it is recorded.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/live/concern.h"
+#include "daemon/live/live_variance.h"
+#include "imunoise/v1/live.pb.h"
+#include "recording/store/stream.h"
+
+namespace imunoise::live {
+
+/// Wavelet variances of its angular rates and accelerations, and what is of concern. Not
+/// thread-safe.
+class LiveDevice {
+ public:
+  explicit LiveDevice(const v1::RecordedDevice& device);
+
+  /// Samples as they are recorded: check_block() accepted them.
+  void take(const recording::Block& block);
+  v1::LiveDevice state() const;
+  /// What state() warns of.
+  std::vector<v1::LiveWarning> warnings() const;
+  const std::string& name() const { return device_.name(); }
+
+ private:
+  struct Channel {
+    std::size_t index = 0;  // in the stream
+    LiveVariance variance;
+    double last = 0.0;  // number, and since when it has been the same
+    std::int64_t same_since_ns = 0;
+    Concern saturated;
+  };
+  struct Warmth {
+    std::size_t index = 0;
+    double scale = 1.0;  // K a number
+    Slope slope;
+  };
+  struct Stream {
+    std::vector<Channel> channels;
+    std::vector<Warmth> warmths;
+    std::uint64_t samples = 0;
+    std::uint64_t refused = 0;
+    std::uint64_t gaps = 0;
+    std::optional<std::int64_t> begin_ns;
+    std::int64_t now_ns = 0;
+    Concern lost;
+  };
+  void take_channel(const recording::Rows& rows, const v1::RecordedStream& stream, Channel& to);
+  static v1::LiveChannel describe(const v1::RecordedStream& stream, const Channel& channel);
+  static void warn(const v1::RecordedStream& stream, const Stream& of,
+                   std::vector<v1::LiveWarning>& to);
+
+  v1::RecordedDevice device_;
+  std::vector<Stream> streams_;
+};
+
+}  // namespace imunoise::live

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <spawn.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/support/result.h"
+
+namespace imunoise::process {
+
+/// How a child begins: nothing to read, no signal blocked, and somewhere to print.
+class Spawning {
+ public:
+  Spawning();
+  ~Spawning();
+  Spawning(const Spawning&) = delete;
+  Spawning& operator=(const Spawning&) = delete;
+
+  /// Standard output and errors are appended to a file,
+  void print_to(const std::filesystem::path& log);
+  /// or go to an open descriptor.
+  void print_to(int descriptor);
+  /// Starts `words[0]`, found along PATH, with the others as arguments. Error: it cannot be run.
+  Result<pid_t> start(const std::vector<std::string>& words) const;
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+};
+
+}  // namespace imunoise::process

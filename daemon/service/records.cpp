@@ -1,0 +1,176 @@
+#include "daemon/service/records.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/catalogue/history.h"
+#include "daemon/service/confined_files.h"
+#include "recording/store/manifest.h"
+#include "study/calibration/calibration_file.h"
+
+namespace imunoise::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> folders(const std::map<std::string, fs::path>& roots) {
+  std::vector<fs::path> out;
+  for (const auto& [campaign, root] : roots) out.push_back(root);
+  return out;
+}
+
+// Nothing in it leads anywhere but down.
+bool leads_down(const std::string& folder) {
+  const fs::path path(folder);
+  return !path.empty() && path.is_relative() && folder.find_first_of("\\") == std::string::npos &&
+         folder.find('\0') == std::string::npos &&
+         std::none_of(path.begin(), path.end(), [](const fs::path& part) {
+           return part.empty() || part == "." || part == "..";
+         });
+}
+
+// Keeps those of one campaign; empty: all.
+template <class Entries>
+void keep(Entries& entries, const std::string& campaign) {
+  if (campaign.empty()) return;
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                               [&](const auto& one) { return one.bench() != campaign; }),
+                entries.end());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Records>> Records::open(const std::vector<v1::Campaign>& campaigns,
+                                               std::chrono::milliseconds freshness) {
+  auto catalogue = catalogue::Catalogue::open(":memory:");
+  if (!catalogue) return tl::unexpected(catalogue.error());
+  std::map<std::string, fs::path> roots;
+  for (const v1::Campaign& one : campaigns) {
+    roots[one.name()] = fs::absolute(one.folder()).lexically_normal();
+  }
+  return std::unique_ptr<Records>(new Records(std::move(roots), std::move(*catalogue), freshness));
+}
+
+Records::Records(std::map<std::string, fs::path> roots, catalogue::Catalogue catalogue,
+                 std::chrono::milliseconds freshness)
+    : roots_(std::move(roots)),
+      files_(confined_files(folders(roots_))),
+      freshness_(freshness),
+      catalogue_(std::move(catalogue)) {}
+
+Answer<void> Records::check_campaign(const std::string& campaign) const {
+  if (campaign.empty() || roots_.contains(campaign)) return {};
+  return refuse(404, fmt::format("there is no campaign '{}'", campaign));
+}
+
+Answer<void> Records::refresh() {
+  const auto now = std::chrono::steady_clock::now();
+  if (refreshed_ && now - *refreshed_ < freshness_) return {};
+  for (const auto& [campaign, root] : roots_) {
+    std::error_code unknown;
+    if (!fs::exists(root, unknown)) continue;  // nothing was recorded yet
+    catalogue_.use_bench(campaign);
+    if (const auto done = catalogue_.refresh(*files_, root); !done)
+      return refuse(500, done.error().message);
+  }
+  refreshed_ = std::chrono::steady_clock::now();
+  return {};
+}
+
+Answer<v1::RecordingList> Records::recordings(const std::string& campaign) {
+  if (auto known = check_campaign(campaign); !known) return tl::unexpected(known.error());
+  const std::lock_guard lock(mutex_);
+  if (auto done = refresh(); !done) return tl::unexpected(done.error());
+  auto out = catalogue_.recordings();
+  if (!out) return refuse(500, out.error().message);
+  keep(*out->mutable_recordings(), campaign);
+  return std::move(*out);
+}
+
+Answer<v1::CalibrationList> Records::calibrations(const std::string& campaign) {
+  if (auto known = check_campaign(campaign); !known) return tl::unexpected(known.error());
+  const std::lock_guard lock(mutex_);
+  if (auto done = refresh(); !done) return tl::unexpected(done.error());
+  auto out = catalogue_.calibrations();
+  if (!out) return refuse(500, out.error().message);
+  keep(*out->mutable_calibrations(), campaign);
+  return std::move(*out);
+}
+
+Answer<v1::ArrayList> Records::arrays(const std::string& campaign) {
+  const auto all = calibrations(campaign);
+  if (!all) return tl::unexpected(all.error());
+  v1::ArrayList out;
+  for (const v1::CataloguedCalibration& one : all->calibrations()) {
+    const auto read = calibration(one.bench(), one.folder());
+    if (!read) continue;  // the list of calibrations says why
+    for (const v1::ArrayCalibration& array : read->arrays()) {
+      v1::CataloguedArray& to = *out.add_arrays();
+      to.set_bench(one.bench());
+      to.set_folder(one.folder());
+      to.set_started_ns(one.started_ns());
+      to.set_device(array.device());
+      to.set_stream(array.stream());
+      *to.mutable_channels() = array.channels();
+    }
+  }
+  return out;
+}
+
+Answer<v1::History> Records::history(const v1::GetHistoryRequest& request) {
+  if (request.device().empty())
+    return refuse(400, "name a device: ?device=, its serial number or its name");
+  catalogue::HistoryOptions options;
+  options.channels.assign(request.channel().begin(), request.channel().end());
+  options.parameters.assign(request.parameter().begin(), request.parameter().end());
+  if (request.has_level()) options.level = request.level();
+  if (options.level < 1e-9 || options.level > 0.5)
+    return refuse(400, "level: a chance from 1e-9 to 0.5");
+  const std::lock_guard lock(mutex_);
+  if (auto done = refresh(); !done) return tl::unexpected(done.error());
+  const auto device = catalogue_.device(request.device());
+  if (!device) return refuse(404, device.error().message);
+  auto parameters = catalogue_.parameters(device->id());
+  if (!parameters) return refuse(500, parameters.error().message);
+  auto out = catalogue::history_of(*device, std::move(*parameters), options);
+  if (!out) return refuse(404, out.error().message);
+  return std::move(*out);
+}
+
+Answer<fs::path> Records::path_of(const std::string& campaign, const std::string& folder) const {
+  const auto root = roots_.find(campaign);
+  if (root == roots_.end()) return refuse(404, fmt::format("there is no campaign '{}'", campaign));
+  if (!leads_down(folder))
+    return refuse(400, "folder: name a recording as /v1/recordings lists it");
+  const fs::path path = root->second / folder;
+  if (const auto names = files_->list(path); !names)
+    return refuse(404, fmt::format("campaign '{}' has no recording '{}'", campaign, folder));
+  return path;
+}
+
+Answer<v1::Manifest> Records::manifest(const std::string& campaign,
+                                       const std::string& folder) const {
+  const auto path = path_of(campaign, folder);
+  if (!path) return tl::unexpected(path.error());
+  auto out = recording::read_manifest(*files_, *path);
+  if (!out) return refuse(500, out.error().message);
+  if (!*out)
+    return refuse(404, fmt::format("campaign '{}' has no recording '{}'", campaign, folder));
+  return std::move(**out);
+}
+
+Answer<v1::Calibration> Records::calibration(const std::string& campaign,
+                                             const std::string& folder) const {
+  const auto path = path_of(campaign, folder);
+  if (!path) return tl::unexpected(path.error());
+  auto out = study::read_calibration(*files_, *path);
+  if (!out) return refuse(500, out.error().message);
+  if (!*out)
+    return refuse(
+        404, fmt::format("recording '{}' is not calibrated; imunoise calibrate does it", folder));
+  return std::move(**out);
+}
+
+}  // namespace imunoise::service

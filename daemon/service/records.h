@@ -1,0 +1,58 @@
+#pragma once
+
+// The recordings of all campaigns and what is known of them, through the catalogue.
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/catalogue/catalogue.h"
+#include "daemon/service/answer.h"
+#include "imunoise/v1/campaign.pb.h"
+#include "imunoise/v1/service.pb.h"
+#include "recording/store/file_system.h"
+
+namespace imunoise::service {
+
+/// Thread-safe. The catalogue is kept in memory, and follows the files when it is asked, but not
+/// more often than `freshness`. Benches of the catalogue are the campaigns.
+class Records {
+ public:
+  /// Error: the database's.
+  static Result<std::unique_ptr<Records>> open(const std::vector<v1::Campaign>& campaigns,
+                                               std::chrono::milliseconds freshness);
+
+  /// Of one campaign, or of all (empty). Error: 404, there is no such campaign.
+  Answer<v1::RecordingList> recordings(const std::string& campaign);
+  Answer<v1::CalibrationList> calibrations(const std::string& campaign);
+  Answer<v1::ArrayList> arrays(const std::string& campaign);
+  Answer<v1::History> history(const v1::GetHistoryRequest& request);
+
+  // Error: 404 where there is none, 400 for a name that leads elsewhere, 500 for a damaged file.
+  Answer<v1::Manifest> manifest(const std::string& campaign, const std::string& folder) const;
+  Answer<v1::Calibration> calibration(const std::string& campaign, const std::string& folder) const;
+  /// Its folder: for files(), through which nothing leads out of the campaigns' folders.
+  Answer<std::filesystem::path> path_of(const std::string& campaign,
+                                        const std::string& folder) const;
+  const recording::FileSystem& files() const { return *files_; }
+
+ private:
+  Records(std::map<std::string, std::filesystem::path> roots, catalogue::Catalogue catalogue,
+          std::chrono::milliseconds freshness);
+  Answer<void> check_campaign(const std::string& campaign) const;
+  Answer<void> refresh();  // with the mutex held
+
+  const std::map<std::string, std::filesystem::path> roots_;  // by campaign
+  const std::unique_ptr<recording::FileSystem> files_;
+  const std::chrono::milliseconds freshness_;
+  std::mutex mutex_;
+  catalogue::Catalogue catalogue_;
+  std::optional<std::chrono::steady_clock::time_point> refreshed_;
+};
+
+}  // namespace imunoise::service

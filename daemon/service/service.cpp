@@ -1,0 +1,208 @@
+#include "daemon/service/service.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "daemon/acquire/clock.h"
+#include "daemon/acquire/disk_space.h"
+#include "daemon/service/bench_methods.h"
+#include "daemon/service/campaign_state.h"
+#include "daemon/service/event_hub.h"
+#include "daemon/service/gate.h"
+#include "daemon/service/metrics.h"
+#include "daemon/service/openapi.h"
+#include "daemon/service/record_methods.h"
+#include "daemon/service/study_methods.h"
+
+namespace imunoise::service {
+namespace {
+
+constexpr std::size_t kLargestLive = 200'000;  // bytes of an event: its JSON is longer
+
+Result<GateOptions> gate_options(const ServiceOptions& options) {
+  GateOptions out;
+  out.hosts = options.hosts;
+  out.requests_per_second = options.requests_per_second;
+  out.burst = options.burst;
+  if (options.tokens) {
+    auto tokens = Tokens::read(*options.tokens);
+    if (!tokens) return tl::unexpected(tokens.error());
+    out.tokens = std::move(*tokens);
+  } else if (options.listen.address) {
+    return fail(
+        "TCP needs a file of tokens: every user of this machine can reach it (--tokens FILE)");
+  }
+  return out;
+}
+
+}  // namespace
+
+class Service::Implementation {
+ public:
+  Implementation(const ServiceOptions& options, const ServiceSubjects& subjects,
+                 std::unique_ptr<Records> records, GateOptions gate)
+      : options_(options),
+        bench_(subjects.bench),
+        records_(std::move(records)),
+        studies_(options.studies),
+        jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }),
+        routes_(*v1::Refusal::descriptor()->file()) {
+    add_bench_methods(methods_, bench_, subjects.drivers);
+    add_record_methods(methods_, *records_);
+    add_study_methods(methods_, jobs_, studies_, *records_, options.largest_study);
+    add_own_methods();
+    gate_.emplace(routes_, methods_, std::move(gate));
+  }
+  ~Implementation() {
+    bench_.watch({});
+    server_.reset();
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  Result<void> serve() {
+    auto server = HttpServer::start(options_.listen, options_.http, *gate_);
+    if (!server) return tl::unexpected(server.error());
+    {
+      const std::lock_guard lock(server_mutex_);
+      server_ = std::move(*server);
+    }
+    bench_.watch([this](const std::string& campaign) { tell(campaign); });
+    ticker_ = std::jthread([this](const std::stop_token& stop) { tick(stop); });
+    return {};
+  }
+
+  std::uint16_t port() const { return server_->port(); }
+
+ private:
+  void add_own_methods() {
+    methods_.on<v1::WatchRequest>(
+        [this](const v1::WatchRequest& request) -> Answer<std::shared_ptr<EventQueue>> {
+          auto queue = hub_.subscribe({request.topic().begin(), request.topic().end()},
+                                      [this] { return everything(); });
+          if (!queue) return refuse(400, queue.error().message);
+          return std::move(*queue);
+        });
+    methods_.on<v1::GetHealthRequest>([this](const v1::GetHealthRequest&) -> Answer<v1::Health> {
+      v1::Health out;
+      out.set_status("ok");
+      out.set_version(options_.version);
+      return out;
+    });
+    methods_.on<v1::GetMetricsRequest>([this](const v1::GetMetricsRequest&) -> Answer<v1::Text> {
+      v1::Text out;
+      out.set_text(metrics_text(figures()));
+      return out;
+    });
+    methods_.on<v1::GetDocumentRequest>([this](const v1::GetDocumentRequest&) -> Answer<v1::Text> {
+      v1::Text out;
+      out.set_text(openapi_document(routes_, options_.version));
+      return out;
+    });
+  }
+
+  Figures figures() const {
+    Figures out;
+    out.version = options_.version;
+    out.uptime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    for (const BenchCampaign& one : bench_.campaigns()) {
+      out.campaigns.push_back(campaign_state(one, acquire::now_ns()));
+      const auto free = acquire::free_space(one.campaign.folder());
+      if (free) out.free_bytes[one.campaign.name()] = *free;
+    }
+    out.jobs = jobs_.list();
+    out.responses = gate_->responses();
+    const std::lock_guard lock(server_mutex_);
+    if (server_) out.http = server_->counters();
+    return out;
+  }
+
+  std::vector<v1::Event> everything() const {
+    std::vector<v1::Event> out;
+    for (const BenchCampaign& one : bench_.campaigns()) {
+      *out.emplace_back().mutable_campaign() = campaign_state(one, acquire::now_ns());
+    }
+    for (const v1::Job& job : jobs_.list()) *out.emplace_back().mutable_job() = job;
+    return out;
+  }
+
+  void tell(const v1::Job& job) {
+    v1::Event event;
+    *event.mutable_job() = job;
+    hub_.tell(event);
+  }
+  void tell(const BenchCampaign& campaign) {
+    v1::Event event;
+    *event.mutable_campaign() = campaign_state(campaign, acquire::now_ns());
+    hub_.tell(event);
+  }
+  void tell(v1::LiveReplicate live) {
+    if (live.ByteSizeLong() > kLargestLive) {
+      for (v1::LiveDevice& device : *live.mutable_devices()) {
+        for (v1::LiveChannel& channel : *device.mutable_channels()) channel.clear_scales();
+      }
+    }
+    v1::Event event;
+    *event.mutable_live() = std::move(live);
+    hub_.tell(event);
+  }
+  void tell(const std::string& campaign) {
+    for (const BenchCampaign& one : bench_.campaigns()) {
+      if (one.campaign.name() == campaign) tell(one);
+    }
+  }
+
+  // Time passes while nothing changes.
+  void tick(const std::stop_token& stop) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any stopping;
+    while (!stopping.wait_for(lock, stop, options_.tick, [&] { return stop.stop_requested(); })) {
+      if (hub_.wanted("campaign")) {
+        for (const BenchCampaign& one : bench_.campaigns()) {
+          if (one.running && !recording_under_way(one.status).empty()) tell(one);
+        }
+      }
+      if (hub_.wanted("live")) {
+        for (v1::LiveReplicate& one : bench_.live()) tell(std::move(one));
+      }
+    }
+  }
+
+  const ServiceOptions options_;
+  Bench& bench_;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  EventHub hub_;
+  std::unique_ptr<Records> records_;
+  StudyStore studies_;
+  Jobs jobs_;
+  Routes routes_;
+  Methods methods_;
+  std::optional<Gate> gate_;
+  mutable std::mutex server_mutex_;  // its first requests may come before it is known here
+  std::unique_ptr<HttpServer> server_;
+  std::jthread ticker_;  // last: it uses all of the above
+};
+
+Service::Service(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+Service::~Service() = default;
+
+Result<std::unique_ptr<Service>> Service::start(const ServiceOptions& options,
+                                                const ServiceSubjects& subjects) {
+  auto gate = gate_options(options);
+  if (!gate) return tl::unexpected(gate.error());
+  auto records = Records::open(subjects.campaigns, options.freshness);
+  if (!records) return tl::unexpected(records.error());
+  auto out =
+      std::make_unique<Implementation>(options, subjects, std::move(*records), std::move(*gate));
+  if (auto done = out->serve(); !done) return tl::unexpected(done.error());
+  return std::unique_ptr<Service>(new Service(std::move(out)));
+}
+
+std::uint16_t Service::port() const { return implementation_->port(); }
+
+}  // namespace imunoise::service

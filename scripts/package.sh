@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Builds the Debian package, and says what is in it and what lintian thinks of it.
+#
+#   bash scripts/package.sh [REVISION]     Debian's revision; 1 unless given
+#
+# The package is left in build/package/package/.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+revision=${1:-1}
+out=build/package/package
+
+bash scripts/install_packages.sh package
+echo "Building imunoise as it is shipped ..."
+quietly build/log/package-configure.txt cmake --preset package -D IMUNOISE_PACKAGE_REVISION="$revision"
+quietly build/log/package-build.txt cmake --build --preset package --parallel "$jobs"
+quietly build/log/package-cpack.txt cpack --config build/package/CPackConfig.cmake
+package=$(find "$out" -maxdepth 1 -name "*.deb" -newer build/log/package-build.txt)
+
+echo
+dpkg-deb --info "$package"
+echo "lintian:"
+lintian --allow-root --fail-on error,warning "$package" && echo "nothing to complain of"
+echo
+echo "The package: $package"

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "imunoise/v1/batch.pb.h"
+#include "study/report/document.h"
+#include "study/report/number.h"
+
+namespace imunoise::report {
+
+/// What `imunoise batch` says, for page and terminal.
+Document document(const v1::BatchStatus& status, Digits digits);
+Document document(const v1::BatchReport& report, Digits digits);
+
+}  // namespace imunoise::report

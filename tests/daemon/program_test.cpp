@@ -1,0 +1,58 @@
+// A child process that ends, fails, or has to be ended.
+
+#include "daemon/process/program.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace imunoise::process {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+std::string error_of(const std::string& script) {
+  const auto done = run_program({"/bin/sh", "-c", script}, {});
+  return done ? "" : done.error().message;
+}
+
+TEST(Program, TellsHowItEnded) {
+  EXPECT_TRUE(run_program({"/bin/true"}, {}));
+  EXPECT_EQ(error_of("echo one; echo two >&2; exit 3"), "/bin/sh: exit status 3: one\ntwo");
+  EXPECT_EQ(error_of("kill -SEGV $$"), "/bin/sh: ended by signal 11: ");
+  const auto absent = run_program({"/no/such/program"}, {});
+  ASSERT_FALSE(absent);
+  EXPECT_EQ(absent.error().message, "/no/such/program: cannot be run: No such file or directory");
+}
+
+TEST(Program, KeepsTheLastOfMuchThatIsSaid) {
+  const std::string said = error_of("seq 1 100000; exit 1");
+  EXPECT_LT(said.size(), 3000U);
+  EXPECT_TRUE(said.ends_with("\n99999\n100000")) << said;
+}
+
+TEST(Program, StepsBack) {
+  EXPECT_EQ(error_of("sleep 0.1; test $(ps -o ni= -p $$) -eq 19"), "");
+  EXPECT_EQ(error_of("sleep 0.1; test $(cat /proc/$$/oom_score_adj) -eq 1000"), "");
+}
+
+TEST(Program, StopsWhenItIsAsked) {
+  for (const char* script : {"sleep 60", "trap '' TERM; while :; do sleep 0.1; done"}) {
+    std::stop_source source;
+    const auto begin = Clock::now();
+    std::thread stopper([&] {
+      std::this_thread::sleep_for(300ms);
+      source.request_stop();
+    });
+    const auto done = run_program({"/bin/sh", "-c", script}, Progress({}, source.get_token()));
+    stopper.join();
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, "stopped");
+    EXPECT_LT(Clock::now() - begin, 5s);
+  }
+}
+
+}  // namespace
+}  // namespace imunoise::process

@@ -1,0 +1,429 @@
+// Every method of the API, over a real socket.
+
+#include <set>
+
+#include "daemon/service/routes.h"
+#include "imunoise/v1/service.pb.h"
+#include "recording/store/file_system.h"
+#include "study/calibration/calibration_file.h"
+#include "tests/daemon/service/served.h"
+
+namespace imunoise {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::RawClient;
+using testing::RawResponse;
+
+class Api : public testing::Served {
+ protected:
+  v1::CampaignStatus recording_status() const {
+    v1::CampaignStatus out;
+    out.set_campaign("array");
+    out.set_phase(v1::recording);
+    out.set_recording("data/array/2026-03-01T060000Z");
+    out.set_replicate(2);
+    out.set_replicates(3);
+    out.set_since_ns(1);
+    return out;
+  }
+  json job_over(const std::string& id) const {
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    for (;;) {
+      json job = get_json("/v1/jobs/" + id);
+      const std::string state = job["state"];
+      if ((state != "queued" && state != "working") || std::chrono::steady_clock::now() > deadline)
+        return job;
+      std::this_thread::sleep_for(20ms);
+    }
+  }
+  json open_study(const std::string& name) const {
+    return post_json("/v1/studies", {{"study", name},
+                                     {"campaign", "array"},
+                                     {"folder", "monday"},
+                                     {"channel", "gyro_x"},
+                                     {"model", "WN"},
+                                     {"wait_s", 8}});
+  }
+};
+
+TEST_F(Api, DevicesAndDrivers) {
+  drivers::Driver driver;
+  driver.info.name = "replay";
+  drivers_.found.push_back(driver);
+  serve();
+  bench_.tell(recording_status());
+  const json all = get_json("/v1/devices");
+  ASSERT_EQ(all["devices"].size(), 2U);
+  EXPECT_EQ(all["devices"][0]["device"]["name"], "imu-of-array");
+  EXPECT_EQ(all["devices"][0]["recorded_now"], true);
+  EXPECT_EQ(all["devices"][1]["recorded_now"], false);
+  EXPECT_EQ(get_json("/v1/devices?campaign=other")["devices"].size(), 1U);
+  EXPECT_EQ(refusal("/v1/devices?campaign=x", 404),
+            "there is no campaign 'x'; there are array, other");
+  EXPECT_EQ(get_json("/v1/drivers")["drivers"][0]["name"], "replay");
+}
+
+TEST_F(Api, CampaignsAreShownStartedAndStopped) {
+  serve();
+  EXPECT_EQ(get_json("/v1/campaigns")["campaigns"][1]["campaign"]["name"], "other");
+  bench_.tell(recording_status());
+  const json array = get_json("/v1/campaigns/array");
+  EXPECT_EQ(array["status"]["phase"], "recording");
+  EXPECT_EQ(array["recording"], "2026-03-01T060000Z");
+  EXPECT_EQ(array["left_s"], 100) << "one replicate, as this one is long over";
+  EXPECT_FALSE(get_json("/v1/campaigns/other").contains("left_s"));
+  EXPECT_EQ(post_json("/v1/campaigns/array/start", {{"once", true}})["campaign"]["name"], "array");
+  post_json("/v1/campaigns/other/start", json::object());
+  post_json("/v1/campaigns/other/stop", {{"recording", "2026-03-01T060000Z"}});
+  EXPECT_EQ(post_json("/v1/campaigns/array/stop", {{"recording", "refuse"}}, 409)["error"],
+            "not this one");
+  for (const char* const verb : {"start", "stop"})
+    post_json(std::string("/v1/campaigns/x/") + verb, json::object(), 404);
+  EXPECT_EQ(bench_.asked(),
+            "start array once\nstart other\nstop other 2026-03-01T060000Z\nstop array refuse\n");
+}
+
+TEST_F(Api, RecordingsAppearWhenTheyAreThere) {
+  serve();
+  EXPECT_TRUE(get_json("/v1/recordings")["recordings"].empty());
+  record("monday");
+  record("nested/tuesday");
+  const json all = get_json("/v1/recordings");
+  ASSERT_EQ(all["recordings"].size(), 2U);
+  EXPECT_EQ(all["recordings"][0]["bench"], "array");
+  EXPECT_EQ(get_json("/v1/recordings?campaign=array")["recordings"].size(), 2U);
+  EXPECT_TRUE(get_json("/v1/recordings?campaign=other")["recordings"].empty());
+  refusal("/v1/recordings?campaign=x", 404);
+  for (const json& one : all["recordings"]) {
+    const json manifest = get_json("/v1/recordings/array/" + one["folder"].get<std::string>());
+    EXPECT_EQ(manifest["devices"][0]["serial"], "0042");
+    EXPECT_EQ(manifest["chunks"].size(), 3U);
+  }
+  refusal("/v1/recordings/array/sunday", 404);
+  refusal("/v1/recordings/x/monday", 404);
+  refusal("/v1/recordings/array/nested", 404);
+}
+
+TEST_F(Api, CalibrationsArraysAndHistories) {
+  serve();
+  record("monday");
+  EXPECT_NE(refusal("/v1/calibrations/array/monday", 404).find("imunoise calibrate"),
+            std::string::npos);
+  v1::Calibration calibration;
+  calibration.set_version(1);
+  calibration.set_summary("well");
+  calibration.add_arrays()->add_channels("gyro_x");
+  ASSERT_TRUE(study::write_calibration(recording::posix_file_system(),
+                                       folder_.path() / "data/array/monday", calibration));
+  EXPECT_EQ(get_json("/v1/calibrations")["calibrations"][0]["summary"], "well");
+  EXPECT_TRUE(get_json("/v1/calibrations?campaign=other")["calibrations"].empty());
+  EXPECT_EQ(get_json("/v1/calibrations/array/monday")["summary"], "well");
+  EXPECT_EQ(get_json("/v1/arrays")["arrays"][0]["channels"][0], "gyro_x");
+  EXPECT_EQ(get_json("/v1/arrays/array/monday")["arrays"].size(), 1U);
+  EXPECT_NE(refusal("/v1/history?device=7", 404).find("simulated:0042"), std::string::npos);
+  refusal("/v1/history", 400);
+  refusal("/v1/history?device=0042&level=0.9", 400);
+  EXPECT_NE(refusal("/v1/history?device=0042", 404).find("calibrate"), std::string::npos);
+}
+
+TEST_F(Api, AStudyIsOpenedImprovedAndTakenBack) {
+  serve();
+  record("monday");
+  const json opened = open_study("gyro");
+  ASSERT_EQ(opened["state"], "done") << opened;
+  EXPECT_EQ(opened["result"]["channel"], "gyro_x");
+  const double before = opened["result"]["attempts"][0]["rung"]["heldout_error"];
+
+  const json preview = post_json("/v1/studies/gyro/preview", {{"term", "RW"}, {"wait_s", 8}});
+  ASSERT_EQ(preview["state"], "done") << preview;
+  EXPECT_EQ(preview["result"]["attempts"].size(), 2U);
+  EXPECT_EQ(get_json("/v1/studies/gyro")["attempts"].size(), 1U) << "a preview is not kept";
+
+  const json added = post_json("/v1/studies/gyro/add", {{"term", "RW"}, {"wait_s", 8}});
+  ASSERT_EQ(added["state"], "done") << added;
+  EXPECT_EQ(added["result"]["attempts"], preview["result"]["attempts"]);
+  EXPECT_LT(added["result"]["attempts"][1]["rung"]["heldout_error"], before);
+  EXPECT_EQ(get_json("/v1/studies/gyro")["current"], 1);
+
+  const json branched =
+      post_json("/v1/studies/gyro/branch", {{"name", "other"}, {"from", 0}, {"wait_s", 8}});
+  ASSERT_EQ(branched["state"], "done") << branched;
+  EXPECT_EQ(get_json("/v1/studies/other")["current"], 0);
+
+  const json undone = post_json("/v1/studies/gyro/undo", {{"wait_s", 8}});
+  ASSERT_EQ(undone["state"], "done") << undone;
+  EXPECT_EQ(get_json("/v1/studies/gyro")["current"], 0);
+  EXPECT_TRUE(get_json("/v1/studies/gyro")["attempts"][1]["undone"]);
+  EXPECT_EQ(post_json("/v1/studies/gyro/undo", {{"wait_s", 8}})["state"], "failed");
+
+  const json all = get_json("/v1/studies");
+  ASSERT_EQ(all["studies"].size(), 2U);
+  EXPECT_EQ(all["studies"][0]["study"], "gyro");
+  EXPECT_EQ(all["studies"][0]["model"], "WN");
+  EXPECT_EQ(all["studies"][0]["attempts"], 2);
+  EXPECT_EQ(get_json("/v1/jobs")["jobs"].size(), 6U);
+}
+
+TEST_F(Api, CandidatesAreSoughtInTheBackground) {
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  const json begun = post_json("/v1/studies/gyro/candidates", json::object(), 202);
+  EXPECT_EQ(begun["operation"], "candidates");
+  const json job = job_over(begun["job"]);
+  ASSERT_EQ(job["state"], "done") << job["error"];
+  EXPECT_EQ(job["progress"], 1);
+  EXPECT_EQ(get_json("/v1/studies/gyro")["diagnosis"]["verdict"],
+            job["result"]["diagnosis"]["verdict"]);
+  EXPECT_EQ(job["result"]["diagnosis"]["verdict"], "found")
+      << job["result"]["diagnosis"]["summary"];
+}
+
+TEST_F(Api, JobsAreCancelled) {
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  const json first = post_json("/v1/studies/gyro/candidates", json::object(), 202);
+  const json second = post_json("/v1/studies/gyro/candidates", json::object(), 202);
+  EXPECT_EQ(post_json("/v1/jobs/" + second["job"].get<std::string>() + "/cancel",
+                      json::object())["state"],
+            "cancelled");
+  testing::post(local_, "/v1/jobs/" + first["job"].get<std::string>() + "/cancel");
+  const std::string state = job_over(first["job"])["state"];
+  EXPECT_EQ(state, "cancelled");
+  EXPECT_FALSE(get_json("/v1/studies/gyro").contains("diagnosis"));
+  post_json("/v1/jobs/job-99/cancel", json::object(), 404);
+  refusal("/v1/jobs/job-99", 404);
+}
+
+TEST_F(Api, OnlySoManyJobsWait) {
+  options_.waiting_jobs = 2;
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  int refused = 0;
+  for (int i = 0; i < 6; ++i) {
+    refused += testing::post(local_, "/v1/studies/gyro/candidates").status == 503 ? 1 : 0;
+  }
+  EXPECT_GE(refused, 3) << "one works, two wait";
+}
+
+TEST_F(Api, StudiesThatCannotBe) {
+  serve();
+  record("monday");
+  const auto open = [&](json body, int status) {
+    json all = {{"study", "s"},  {"campaign", "array"}, {"folder", "monday"},
+                {"model", "WN"}, {"channel", "gyro_x"}, {"wait_s", 8}};
+    all.update(body);
+    const json done = post_json("/v1/studies", all, status);
+    return done.value("error", "");
+  };
+  open({{"study", ""}}, 400);
+  open({{"study", "../s"}}, 400);
+  open({{"study", ".s"}}, 400);
+  open({{"study", std::string(65, 's')}}, 400);
+  open({{"folder", "sunday"}}, 404);
+  open({{"campaign", "x"}}, 404);
+  open({{"wait_s", 9}}, 400);
+  open({{"wait_s", -1}}, 400);
+  EXPECT_NE(open({{"channel", "gyro_w"}}, 200).find("it has: gyro_x"), std::string::npos);
+  EXPECT_NE(open({{"model", "WM"}}, 200).find("WM"), std::string::npos);
+  refusal("/v1/studies/s", 404);
+  refusal("/v1/studies/.s", 400);
+  post_json("/v1/studies/s/add", {{"term", "QN"}}, 404);
+  EXPECT_TRUE(get_json("/v1/studies")["studies"].empty());
+}
+
+TEST_F(Api, LargeRecordingsAreStudiedElsewhere) {
+  options_.largest_study = 1000;
+  serve();
+  record("monday");
+  const json refused =
+      post_json("/v1/studies", {{"study", "s"}, {"campaign", "array"}, {"folder", "monday"}}, 409);
+  const std::string error = refused["error"];
+  EXPECT_NE(error.find("imunoise study on another machine"), std::string::npos) << error;
+}
+
+TEST_F(Api, ANameIsTakenOnce) {
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  EXPECT_EQ(
+      post_json("/v1/studies", {{"study", "gyro"}, {"campaign", "array"}, {"folder", "monday"}},
+                409)["error"],
+      "there is a study 'gyro' already; take another name");
+  post_json("/v1/studies/gyro/branch", {{"name", "gyro"}}, 409);
+  EXPECT_EQ(
+      post_json("/v1/studies/gyro/branch", {{"name", "b"}, {"from", 7}, {"wait_s", 8}})["error"],
+      "attempt 7: there are 1, counted from 0");
+}
+
+TEST_F(Api, EventsBeginWithWhatThereIs) {
+  options_.tick = 50ms;
+  serve();
+  RawClient all(local_);
+  all.send(testing::request_text("GET", "/v1/events"));
+  EXPECT_NE(all.receive_until("\"other\"").find("event: campaign\ndata: {"), std::string::npos);
+  RawClient jobs(local_);
+  jobs.send(testing::request_text("GET", "/v1/events?topic=job"));
+  jobs.receive_until("\r\n\r\n");
+  bench_.tell(recording_status());
+  const std::string told = all.receive_until("\"left_s\":100");
+  EXPECT_NE(told.find("\"recording\":\"2026-03-01T060000Z\""), std::string::npos) << told;
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  const std::string of_jobs = jobs.receive_until("\"done\"");
+  EXPECT_NE(of_jobs.find("event: job\ndata: {\"job\":\"job-1\""), std::string::npos) << of_jobs;
+  EXPECT_NE(of_jobs.find("\"working\""), std::string::npos);
+  EXPECT_EQ(of_jobs.find("campaign\ndata"), std::string::npos);
+  EXPECT_EQ(of_jobs.find("\"attempts\""), std::string::npos) << "results are asked for";
+  EXPECT_EQ(refusal("/v1/events?topic=weather", 400),
+            "topic 'weather': there are campaign, job, live");
+}
+
+// One channel with so many scales.
+v1::LiveReplicate live_replicate(int scales) {
+  v1::LiveReplicate out;
+  out.set_campaign("array");
+  out.set_replicate(2);
+  v1::LiveChannel& channel = *out.add_devices()->add_channels();
+  channel.set_channel("gyro_x");
+  for (int i = 0; i < scales; ++i) channel.add_scales()->set_tau_s(i + 1.0);
+  return out;
+}
+
+TEST_F(Api, TellsWhatIsKnownWhileItRecords) {
+  options_.tick = 50ms;
+  serve();
+  EXPECT_TRUE(get_json("/v1/live")["replicates"].empty());
+  bench_.show({live_replicate(3)});
+  const auto known = get_json("/v1/live?campaign=array");
+  EXPECT_EQ(known["replicates"][0]["devices"][0]["channels"][0]["scales"].size(), 3U) << known;
+  EXPECT_TRUE(get_json("/v1/live?campaign=other")["replicates"].empty());
+  EXPECT_NE(refusal("/v1/live?campaign=none", 404).find("there is no campaign 'none'"),
+            std::string::npos);
+  RawClient client(local_);
+  client.send(testing::request_text("GET", "/v1/events?topic=live"));
+  EXPECT_NE(client.receive_until("\"tau_s\":3").find("event: live\ndata: {"), std::string::npos);
+  bench_.show({live_replicate(100'000)});
+  EXPECT_NE(client.receive_until("\"scales\":[]").find("\"gyro_x\""), std::string::npos)
+      << "too much for an event";
+}
+
+TEST_F(Api, TimePassesInEventsWhileNothingChanges) {
+  options_.tick = 50ms;
+  serve();
+  bench_.tell(recording_status());
+  RawClient client(local_);
+  client.send(testing::request_text("GET", "/v1/events?topic=campaign"));
+  std::string told = client.receive_until("\"other\"");
+  const auto count = [](const std::string& text) {
+    std::size_t out = 0;
+    for (std::size_t at = 0; (at = text.find("event: campaign", at)) != std::string::npos; ++at)
+      ++out;
+    return out;
+  };
+  EXPECT_EQ(count(told), 2U);
+  std::this_thread::sleep_for(300ms);
+  told = client.receive_until("never", 50ms);
+  EXPECT_GE(count(told), 4U);
+}
+
+// A line of the text format: a comment, or a name with labels and a number.
+bool is_metric(const std::string& line) {
+  if (line.starts_with("# HELP ") || line.starts_with("# TYPE ")) return true;
+  const std::size_t blank = line.rfind(' ');
+  if (blank == std::string::npos) return false;
+  char* end = nullptr;
+  std::strtod(line.c_str() + blank + 1, &end);
+  const std::string name = line.substr(0, std::min(line.find('{'), blank));
+  return *end == '\0' && name.starts_with("imunoise_") &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos &&
+         (line[name.size()] == ' ' || line[blank - 1] == '}');
+}
+
+TEST_F(Api, MetricsAreWhatPrometheusReads) {
+  serve();
+  bench_.tell(recording_status());
+  get_json("/v1/campaigns");
+  refusal("/nowhere", 404);
+  const RawResponse response = testing::get(local_, "/metrics");
+  EXPECT_NE(response.head.find("text/plain; version=0.0.4"), std::string::npos);
+  std::istringstream lines(response.body);
+  std::set<std::string> seen;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(is_metric(line)) << line;
+    EXPECT_TRUE(seen.insert(line.substr(0, line.rfind(' '))).second || line.starts_with("#"))
+        << line << ": twice";
+  }
+  for (const char* const line :
+       {"imunoise_info{version=\"1.2.3\"} 1\n", "imunoise_http_responses_total{status=\"404\"} 1\n",
+        "imunoise_http_responses_total{status=\"200\"} 1\n", "imunoise_http_accepted_total 3\n",
+        "imunoise_campaign_phase{campaign=\"array\",phase=\"recording\"} 1\n",
+        "imunoise_campaign_phase{campaign=\"array\",phase=\"waiting\"} 0\n",
+        "imunoise_campaign_left_seconds{campaign=\"array\"} 100\n",
+        "imunoise_jobs{state=\"queued\"} 0\n", "imunoise_disk_free_bytes{campaign=\"other\"} "})
+    EXPECT_NE(response.body.find(line), std::string::npos) << line << response.body;
+}
+
+TEST_F(Api, TheDocumentDescribesEveryRoute) {
+  serve();
+  const json document = get_json("/openapi.json");
+  EXPECT_EQ(document["openapi"], "3.0.3");
+  EXPECT_EQ(document["info"]["version"], "1.2.3");
+  const service::Routes routes(*v1::Refusal::descriptor()->file());
+  EXPECT_GE(routes.all().size(), 25U);
+  std::size_t operations = 0;
+  for (const auto& [path, verbs] : document["paths"].items()) operations += verbs.size();
+  EXPECT_EQ(operations, routes.all().size());
+  const json& stop = document["paths"]["/v1/campaigns/{campaign}/stop"]["post"];
+  EXPECT_EQ(stop["x-role"], "operator");
+  EXPECT_EQ(stop["parameters"][0]["name"], "campaign");
+  const json& body = stop["requestBody"]["content"]["application/json"]["schema"]["properties"];
+  EXPECT_TRUE(body.contains("recording"));
+  EXPECT_FALSE(body.contains("campaign")) << "the path says it";
+  EXPECT_NE(body["recording"]["description"].get<std::string>().find("interrupted"),
+            std::string::npos);
+  EXPECT_TRUE(document["paths"]["/v1/recordings/{campaign}/{folder}"].contains("get"));
+}
+
+// Every reference leads to a schema, and every schema of a message is there once.
+TEST_F(Api, TheDocumentHoldsTogether) {
+  serve();
+  const json document = get_json("/openapi.json");
+  std::set<std::string> references;
+  const std::function<void(const json&)> walk = [&](const json& node) {
+    if (node.is_object() && node.contains("$ref"))
+      references.insert(node["$ref"].get<std::string>());
+    if (node.is_structured()) {
+      for (const json& child : node) walk(child);
+    }
+  };
+  walk(document);
+  EXPECT_GE(references.size(), 30U);
+  for (const std::string& one : references)
+    EXPECT_TRUE(document.contains(json::json_pointer(one.substr(1)))) << one;
+  EXPECT_EQ(document["components"]["schemas"].size(), references.size());
+  const json& state = document["components"]["schemas"]["CampaignStatus"]["properties"];
+  EXPECT_EQ(state["since_ns"]["allOf"][0]["type"], "string");
+  EXPECT_NE(state["since_ns"]["description"].get<std::string>().find("nanoseconds"),
+            std::string::npos);
+}
+
+TEST_F(Api, EveryRouteHasARoleASentenceAndAFunction) {
+  serve();
+  const service::Routes routes(*v1::Refusal::descriptor()->file());
+  std::set<std::string> paths;
+  for (const service::Route& route : routes.all()) {
+    EXPECT_NE(route.http.role(), v1::role_unspecified) << route.path;
+    EXPECT_TRUE(route.http.summary().ends_with(".")) << route.path;
+    EXPECT_TRUE(route.path.starts_with("/")) << route.path;
+    EXPECT_EQ(route.verb == "POST", route.http.role() == v1::operator_) << route.path;
+    EXPECT_TRUE(paths.insert(route.verb + route.path).second) << route.path << ": twice";
+  }
+  EXPECT_EQ(get_json("/healthz")["status"], "ok");
+}
+
+}  // namespace
+}  // namespace imunoise

@@ -1,0 +1,68 @@
+#pragma once
+
+// Acquisition for tests of the service: it does what it is told, and remembers it.
+
+#include <mutex>
+
+#include "daemon/service/bench.h"
+
+namespace imunoise::testing {
+
+class FakeBench : public service::Bench {
+ public:
+  std::vector<service::BenchCampaign> campaigns() const override {
+    const std::lock_guard lock(mutex_);
+    return campaigns_;
+  }
+  std::vector<v1::LiveReplicate> live() const override {
+    const std::lock_guard lock(mutex_);
+    return live_;
+  }
+  Result<void> start(const std::string& campaign, bool once) override {
+    const std::lock_guard lock(mutex_);
+    asked_ += "start " + campaign + (once ? " once\n" : "\n");
+    return {};
+  }
+  Result<void> stop(const std::string& campaign, const std::string& recording) override {
+    const std::lock_guard lock(mutex_);
+    asked_ += "stop " + campaign + " " + recording + "\n";
+    if (recording == "refuse") return fail("not this one");
+    return {};
+  }
+  void watch(Watcher changed) override {
+    const std::lock_guard lock(watching_);
+    watcher_ = std::move(changed);
+  }
+
+  void add(const v1::Campaign& campaign) { campaigns_.push_back({campaign, {}, true}); }
+  /// The first campaign does this from now on.
+  void tell(const v1::CampaignStatus& status) {
+    std::string name;
+    {
+      const std::lock_guard lock(mutex_);
+      campaigns_.front().status = status;
+      name = campaigns_.front().campaign.name();
+    }
+    const std::lock_guard lock(watching_);
+    if (watcher_) watcher_(name);
+  }
+  void show(std::vector<v1::LiveReplicate> live) {
+    const std::lock_guard lock(mutex_);
+    live_ = std::move(live);
+  }
+  /// What clients asked for, a line each.
+  std::string asked() const {
+    const std::lock_guard lock(mutex_);
+    return asked_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::mutex watching_;
+  std::vector<service::BenchCampaign> campaigns_;
+  std::vector<v1::LiveReplicate> live_;
+  std::string asked_;
+  Watcher watcher_;
+};
+
+}  // namespace imunoise::testing

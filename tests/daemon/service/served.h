@@ -1,0 +1,95 @@
+#pragma once
+
+// A service on a Unix socket and on TCP, with two campaigns, one of which has recordings.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "daemon/service/service.h"
+#include "tests/daemon/service/fake_bench.h"
+#include "tests/daemon/service/raw_client.h"
+#include "tests/study/simulated_recording.h"
+
+namespace imunoise::testing {
+
+class Served : public ::testing::Test {
+ protected:
+  using json = nlohmann::json;
+
+  Served() {
+    for (const char* const name : {"array", "other"}) {
+      v1::Campaign campaign;
+      campaign.set_name(name);
+      campaign.set_folder((folder_.path() / "data" / name).string());
+      campaign.set_replicates(3);
+      campaign.set_length_s(100);
+      v1::CampaignDevice& device = *campaign.add_devices();
+      device.set_name("imu-of-" + std::string(name));
+      device.set_driver("replay");
+      bench_.add(campaign);
+      options_.freshness = std::chrono::milliseconds(0);
+    }
+    std::filesystem::create_directories(folder_.path() / "data/array");
+    options_.listen = {folder_.path() / "api.sock", "127.0.0.1:0"};
+    options_.studies = folder_.path() / "studies";
+    options_.version = "1.2.3";
+    options_.requests_per_second = 1e4;
+    options_.burst = 1e4;
+    options_.tokens = folder_.path() / "tokens";
+    std::ofstream(*options_.tokens) << "viewer " << kViewer << "\noperator " << kOperator << "\n";
+    ::chmod(options_.tokens->c_str(), 0600);
+  }
+
+  void serve() {
+    service::ServiceSubjects subjects{bench_, drivers_, {}};
+    for (const auto& one : bench_.campaigns()) subjects.campaigns.push_back(one.campaign);
+    auto started = service::Service::start(options_, subjects);
+    ASSERT_TRUE(started.has_value()) << started.error().message;
+    service_ = std::move(*started);
+    local_ = {*options_.listen.socket, 0};
+    tcp_ = {"", service_->port()};
+  }
+
+  // Of the campaign "array".
+  void record(const std::string& name) const {
+    SimulatedRecording what;
+    what.folder = folder_.path() / "data/array" / name;
+    std::filesystem::create_directories(what.folder.parent_path());
+    what.channels = {{"gyro_x", "rad/s", "WN(sigma2=4e-6) + RW(gamma2=1e-9)"},
+                     {"temperature", "K", "WN(sigma2=1e-4)"}};
+    what.samples = 2048;
+    testing::record(what);
+  }
+
+  json get_json(const std::string& target, int status = 200) const {
+    const RawResponse response = get(local_, target);
+    EXPECT_EQ(response.status, status) << target << ": " << response.body;
+    return json::parse(response.body);
+  }
+  json post_json(const std::string& target, const json& body, int status = 200) const {
+    const RawResponse response = post(local_, target, body.dump());
+    EXPECT_EQ(response.status, status) << target << ": " << response.body;
+    return json::parse(response.body);
+  }
+  // The error of a response of this status.
+  std::string refusal(const std::string& target, int status) const {
+    return get_json(target, status)["error"];
+  }
+
+  static inline const std::string kViewer = std::string(32, 'v');
+  static inline const std::string kOperator = std::string(32, 'o');
+  const TemporaryFolder folder_;
+  FakeBench bench_;
+  drivers::Drivers drivers_;
+  service::ServiceOptions options_;
+  std::unique_ptr<service::Service> service_;
+  Where local_;
+  Where tcp_;
+};
+
+}  // namespace imunoise::testing
