@@ -23,15 +23,13 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
   return out;
 }
 
-// Two pictures a channel.
 Result<void> write_pictures(const v1::DiagnosisReports& reports,
                             const std::filesystem::path& path) {
   for (const v1::DiagnosisReport& one : reports.channels()) {
     const auto base = reports.channels_size() > 1 ? with_word(path, one.channel()) : path;
-    for (const auto& [word, picture] : {std::pair("before", report::before_svg(one)),
-                                        std::pair("after", report::after_svg(one))}) {
-      const std::filesystem::path out = with_word(base, word);
-      if (auto done = write_file(out, picture); !done) return done;
+    for (const report::Picture& picture : report::pictures(one)) {
+      const std::filesystem::path out = with_word(base, picture.word);
+      if (auto done = write_file(out, picture.svg); !done) return done;
       fmt::print(stderr, "wrote {}\n", out.string());
     }
   }

@@ -31,8 +31,10 @@ ParsedCommand diagnose_command(CLI::App& program) {
       ->allow_extra_args(false);
   const auto svg = std::make_shared<std::string>();
   diagnose
-      ->add_option("--svg", *svg,
-                   "Write the noise budget as pictures for papers: OUT_before.svg, OUT_after.svg")
+      ->add_option(
+          "--svg", *svg,
+          "Write noise budget and spectrum as pictures for papers: OUT_before.svg, OUT_after.svg, "
+          "OUT_spectrum_before.svg, OUT_spectrum_after.svg")
       ->type_name("OUT.svg");
   diagnose->add_flag("--auto", options->automatic,
                      "Add what is found to the model and look again, until nothing is missing");

@@ -104,18 +104,12 @@ std::string parameter_of(const Suggestion& one) {
 // How large the coefficient of a search must be to pass the threshold nine times in ten.
 std::optional<DetectionLimit> limit_of(const Suggestion& one, double level) {
   if (!(one.information > 0.0)) return std::nullopt;
-  double low = 0.0;
-  double high = 1e3;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (log_chance(middle, one.dof, INFINITY, one.power, one.search) > std::log(level) ? low : high) =
-        middle;
-  }
+  const double needed = gain_needed(level, one.dof, one.power, one.search);
   const double nine_in_ten = normal_quantile(0.9);
   const auto* term = std::get_if<EffectTerm>(&one.added);
   return DetectionLimit{std::string(one.effect), term != nullptr ? term->witness : "",
                         parameter_of(one),
-                        (std::sqrt(2.0 * high) + nine_in_ten) / std::sqrt(one.information)};
+                        (std::sqrt(2.0 * needed) + nine_in_ten) / std::sqrt(one.information)};
 }
 
 }  // namespace

@@ -45,6 +45,16 @@ double log_chance(double gain_nats, double dof, double freedom, bool power, cons
   return std::min(0.0, search.log_places + log_sum(here, crossings));
 }
 
+double gain_needed(double level, double dof, bool power, const Search& search) {
+  double low = 0.0;
+  double high = 1e3;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (log_chance(middle, dof, INFINITY, power, search) > std::log(level) ? low : high) = middle;
+  }
+  return high;
+}
+
 double path_length(const Eigen::MatrixXd& scores) {
   double out = 0.0;
   for (Eigen::Index i = 1; i < scores.cols(); ++i) {

@@ -25,6 +25,9 @@ double log_chance(double gain_nats, double dof, double freedom, bool power);
 /// The same for the best place of a search, at most 0.
 double log_chance(double gain_nats, double dof, double freedom, bool power, const Search& search);
 
+/// Nats that the best place of a search must gain for its chance to be `level`, the noise known.
+double gain_needed(double level, double dof, bool power, const Search& search);
+
 /// The length of the path along the columns of a matrix (unit vectors up to their sign).
 double path_length(const Eigen::MatrixXd& scores);
 

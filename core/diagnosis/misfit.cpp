@@ -88,34 +88,42 @@ MisfitReport misfit_of(const Trial& trial) {
   const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
   out.spectrum = chi_square_test(left.squaredNorm(), std::max<Index>(0, n - inverse.rank));
 
-  constexpr Index kStretches = 16;
-  const std::size_t count = subject.replicates();
-  const std::vector<Eigen::VectorXd> white = innovations(trial.regression, trial.fit).white;
+  const Innovations all = innovations(trial.regression, trial.fit);
+  out.times = time_misfits(all, subject.rate.value);
+  double chi = 0.0;
+  for (const TimeMisfit& one : out.times) chi += one.sigma * one.sigma;
+  out.time = chi_square_test(
+      chi, static_cast<Index>(out.times.size()) - static_cast<Index>(all.white.size()));
   double squares = 0.0;
   double fourth = 0.0;
   double samples = 0.0;
-  double chi = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index length = white[k].size() / kStretches;
-    // Each replicate against its own level: that is another question.
-    const double level = white[k].squaredNorm() / static_cast<double>(white[k].size());
-    const double seconds = static_cast<double>(length) / subject.rate.value;
-    for (Index i = 0; i < kStretches; ++i) {
-      const double ratio = white[k].segment(i * length, length).squaredNorm() /
-                           (level * static_cast<double>(length));
-      const double sigma = normal_score(ratio, static_cast<double>(length));
-      chi += sigma * sigma;
-      out.times.push_back({k, static_cast<double>(i) * seconds,
-                           static_cast<double>(i + 1) * seconds, ratio, sigma});
-    }
-    squares += white[k].squaredNorm();
-    fourth += white[k].array().square().square().sum();
-    samples += static_cast<double>(white[k].size());
+  for (const Eigen::VectorXd& white : all.white) {
+    squares += white.squaredNorm();
+    fourth += white.array().square().square().sum();
+    samples += static_cast<double>(white.size());
   }
-  const auto replicates = static_cast<Index>(count);
-  out.time = chi_square_test(chi, replicates * (kStretches - 1));
   out.excess_kurtosis = fourth * samples / (squares * squares) - 3.0;
   out.kurtosis = chi_square_test(out.excess_kurtosis * out.excess_kurtosis * samples / 24.0, 1);
+  return out;
+}
+
+std::vector<TimeMisfit> time_misfits(const Innovations& innovations, double rate) {
+  constexpr Index kStretches = 16;
+  std::vector<TimeMisfit> out;
+  for (std::size_t i = 0; i < innovations.white.size(); ++i) {
+    const Eigen::VectorXd& white = innovations.white[i];
+    const Index length = white.size() / kStretches;
+    // Each replicate against its own level: that is another question.
+    const double level = white.squaredNorm() / static_cast<double>(white.size());
+    const double seconds = static_cast<double>(length) / rate;
+    for (Index at = 0; at < kStretches; ++at) {
+      const double ratio =
+          white.segment(at * length, length).squaredNorm() / (level * static_cast<double>(length));
+      out.push_back({innovations.replicates[i], static_cast<double>(at) * seconds,
+                     static_cast<double>(at + 1) * seconds, ratio,
+                     normal_score(ratio, static_cast<double>(length))});
+    }
+  }
   return out;
 }
 

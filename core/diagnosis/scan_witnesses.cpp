@@ -3,7 +3,7 @@
 
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/scan.h"
-#include "core/diagnosis/slow_view.h"
+#include "core/diagnosis/witness_lags.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
@@ -121,26 +121,13 @@ void add_lagged(const Current& current, const SlowView& view, const Witness& wit
                 Suggestions& out) {
   const Subject& subject = current.subject();
   const std::string_view effect = coupling_effect(subject.quantity, witness);
-  SlowView::Means means;
-  for (std::size_t k = 0; k < subject.replicates(); ++k)
-    means.push_back(view.means(witness.samples[k], k));
-  const double block_s = static_cast<double>(view.block(0)) / subject.rate.value;
-  const auto late = [&](double lag) {
-    SlowView::Means made;
-    for (const Eigen::VectorXd& x : means) made.push_back(lagged(x, lag / block_s));
-    return made;
-  };
-  const auto early = [&](double lag) {
-    SlowView::Means made;
-    for (const Eigen::VectorXd& x : means)
-      made.push_back(lagged(x.reverse(), lag / block_s).reverse());
-    return made;
-  };
-  const double shortest = std::max(4.0 * block_s, 2e-4 * subject.seconds(0));
-  const double longest = 0.25 * subject.seconds(0);
-  if (shortest < longest) {
-    const SlowView::BestTime best = view.best_time(shortest, longest, false, late);
-    const SlowView::BestTime backwards = view.best_time(shortest, longest, false, early);
+  const LaggedWitness behind(view, subject, witness);
+  if (behind.shortest() < behind.longest()) {
+    const auto best_of = [&](const std::function<SlowView::Means(double)>& family) {
+      return view.best_time(behind.shortest(), behind.longest(), false, family);
+    };
+    const SlowView::BestTime best = best_of([&](double lag) { return behind.late(lag); });
+    const SlowView::BestTime backwards = best_of([&](double lag) { return behind.early(lag); });
     constexpr double kClearly = 3.0;  // nats
     if (best.gain > 0.0) {
       out.push_back({.effect = effect,

@@ -8,7 +8,9 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/integrity.h"
 #include "core/spectrum/cross_power.h"
+#include "study/analysis/comparison.h"
 #include "study/analysis/diagnosis_report.h"
+#include "study/analysis/misfit_sentences.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/series.h"
@@ -205,6 +207,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   add_integrity(series, out);
   LeftOver left = left_over(model);
   *out.mutable_before() = budget_of(model, left);
+  *out.mutable_compared_before() = comparison_of(model, left, series.channel, series.names);
   const double first = model.fit.log_likelihood;
   std::string added;
   std::string why = "The model as it was given.";
@@ -218,7 +221,8 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
         rung_of(model, left, added, first, diagnosis.misfit_p, diagnosis.heldout, why);
     // The verdict is about the model that was asked for; later rounds only climb.
     if (rung == 0) {
-      add_diagnosis(diagnosis, *subject, series.names, out);
+      add_diagnosis(diagnosis, *subject, out);
+      add_misfits(diagnosis.misfit, out);
       put_defects_first(out);
     }
     if (!diagnosis.worth_adding) break;
@@ -233,6 +237,8 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
         rung_of(model, left, added, first, misfit_p_value(misfit_of(model)), best.heldout, why);
   }
   *out.mutable_after() = budget_of(model, left);
+  if (out.ladder_size() > 1)
+    *out.mutable_compared_after() = comparison_of(model, left, series.channel, series.names);
   return out;
 }
 

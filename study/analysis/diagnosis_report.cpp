@@ -17,7 +17,6 @@ namespace imunoise::study {
 namespace {
 
 constexpr std::size_t kMostCandidates = 12;
-constexpr double kWorthSaying = 3.0;  // standard deviations
 
 v1::Verdict verdict_of(DiagnosisVerdict from) {
   switch (from) {
@@ -121,11 +120,6 @@ std::string summary_of(const Diagnosis& diagnosis) {
          "would have had to be.";
 }
 
-std::string percent_more(double ratio) {
-  return ratio >= 1.0 ? fmt::format("{:.0f} % more", 100.0 * (ratio - 1.0))
-                      : fmt::format("{:.0f} % less", 100.0 * (1.0 - ratio));
-}
-
 // "rad" for a rate.
 std::string integral_unit(Quantity quantity) {
   switch (quantity) {
@@ -140,57 +134,6 @@ std::string integral_unit(Quantity quantity) {
   return unit.empty() ? "s" : fmt::format("{}·s", unit);
 }
 
-// Neighbouring half octaves that deviate to the same side are one place.
-void add_band_misfits(const Diagnosis& diagnosis, std::size_t replicates, v1::DiagnosisReport& to) {
-  const std::vector<BandMisfit>& bands = diagnosis.misfit.bands;
-  for (std::size_t i = 0; i < bands.size();) {
-    if (std::abs(bands[i].sigma) < kWorthSaying) {
-      ++i;
-      continue;
-    }
-    std::size_t end = i;
-    std::size_t worst = i;
-    while (end < bands.size() && std::abs(bands[end].sigma) >= kWorthSaying &&
-           (bands[end].sigma > 0.0) == (bands[i].sigma > 0.0)) {
-      if (std::abs(bands[end].sigma) > std::abs(bands[worst].sigma)) worst = end;
-      ++end;
-    }
-    const BandMisfit& one = bands[worst];
-    v1::Misfit& misfit = *to.add_misfits();
-    misfit.set_kind("frequency");
-    misfit.set_from(bands[i].from);
-    misfit.set_to(bands[end - 1].to);
-    misfit.set_sigma(one.sigma);
-    const std::string where =
-        one.replicates == static_cast<int>(replicates)
-            ? "in all replicates"
-            : fmt::format("in {} of {} replicates", one.replicates, replicates);
-    misfit.set_sentence(fmt::format(
-        "At {:.3g} to {:.3g} Hz (periods of {:.3g} to {:.3g} s) the recording has {} power than "
-        "the model ({:.1f} sigma), {}.",
-        misfit.from(), misfit.to(), 1.0 / misfit.to(), 1.0 / misfit.from(), percent_more(one.ratio),
-        std::abs(one.sigma), where));
-    i = end;
-  }
-}
-
-void add_time_misfits(const Diagnosis& diagnosis, const std::vector<std::string>& replicates,
-                      v1::DiagnosisReport& to) {
-  // Of so many stretches some deviate by three standard deviations.
-  constexpr double kOfMany = 4.0;
-  for (const TimeMisfit& one : diagnosis.misfit.times) {
-    if (std::abs(one.sigma) < kOfMany) continue;
-    v1::Misfit& misfit = *to.add_misfits();
-    misfit.set_kind("time");
-    misfit.set_from(one.from);
-    misfit.set_to(one.to);
-    misfit.set_sigma(one.sigma);
-    misfit.set_sentence(fmt::format(
-        "{}: from {:.0f} to {:.0f} s the noise has {} variance than in the rest ({:.1f} sigma).",
-        replicates[one.replicate], one.from, one.to, percent_more(one.ratio), std::abs(one.sigma)));
-  }
-}
-
 }  // namespace
 
 std::string added_term(const TriedEffect& effect) {
@@ -200,23 +143,11 @@ std::string added_term(const TriedEffect& effect) {
   return print(alone);
 }
 
-void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
-                   const std::vector<std::string>& replicates, v1::DiagnosisReport& to) {
+void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to) {
   to.set_verdict(verdict_of(diagnosis.verdict));
   to.set_summary(summary_of(diagnosis));
   for (std::size_t i = 0; i < std::min(kMostCandidates, diagnosis.effects.size()); ++i)
     *to.add_candidates() = candidate_of(diagnosis.effects[i], diagnosis.heldout, subject);
-  add_band_misfits(diagnosis, replicates.size(), to);
-  add_time_misfits(diagnosis, replicates, to);
-  constexpr double kKurtosisSaid = 1e-3;
-  if (diagnosis.misfit.kurtosis.p_value < kKurtosisSaid) {
-    v1::Misfit& misfit = *to.add_misfits();
-    misfit.set_kind("kurtosis");
-    misfit.set_sigma(std::sqrt(diagnosis.misfit.kurtosis.statistic));
-    misfit.set_sentence(
-        fmt::format("The noise is not normal: its excess kurtosis is {:.3g} ({:.1f} sigma).",
-                    diagnosis.misfit.excess_kurtosis, misfit.sigma()));
-  }
   for (const DetectionLimit& from : diagnosis.limits) {
     const bool seen = std::any_of(
         diagnosis.effects.begin(), diagnosis.effects.end(), [&](const RankedEffect& one) {

@@ -8,9 +8,8 @@
 
 namespace imunoise::study {
 
-/// Fills verdict, summary, candidates, misfits, limits and witnesses of a report whose unit is set.
-void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject,
-                   const std::vector<std::string>& replicates, v1::DiagnosisReport& to);
+/// Fills verdict, summary, candidates and limits of a report whose unit is set.
+void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to);
 
 /// A model that was tried, for the ladder. `first` is the likelihood of the lowest rung.
 v1::Rung rung_of(const Trial& trial, const LeftOver& left, const std::string& added, double first,

@@ -37,6 +37,8 @@ void shorten(v1::DiagnosisReport& report) {
   }
   report.clear_before();
   report.clear_after();
+  report.clear_compared_before();
+  report.clear_compared_after();
 }
 
 }  // namespace

@@ -138,11 +138,7 @@ std::string draw(const CovariateChart& chart, const SvgOptions& options) {
   SvgWriter svg;
   std::string opening = svg_opening(options, bottom + line * static_cast<double>(caption.size()),
                                     clean_text(chart.title));
-  if (!paper) {
-    const std::string_view plain = R"(class="figure")";
-    opening.replace(opening.find(plain), plain.size(), "class=\"figure " + options.id + "\"");
-  }
-  svg.raw(opening);
+  svg.raw(paper ? opening : of_kind(std::move(opening), options.id));
   if (paper) svg.text("title", {4.0, 22.0}, chart.title, kTitleSize, Anchor::kStart);
   const Plot plot(chart.curve, chart.points, options.width, top);
   plot.draw_axes(svg, chart);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "study/report/comparison_figures.h"
 #include "study/report/diagnosis_figures.h"
 #include "study/report/diagnosis_words.h"
 #include "study/report/inference_documents.h"
@@ -123,28 +124,41 @@ Figure budget_figure(const v1::DiagnosisReport& report, Drawing drawing, const s
   return {title, drawn(900.0, "wide"), drawn(380.0, "narrow"), "Model: " + model};
 }
 
-void add_figures(const v1::DiagnosisReport& report, Section& to) {
-  const std::string id = "d" + report.channel();
-  if (report.ladder_size() == 0) return;
-  to.figures.push_back(
-      budget_figure(report, before_svg, "Before", report.ladder(0).model(), id + "b"));
-  if (report.ladder_size() < 2) return;
-  const v1::Rung& last = report.ladder(report.ladder_size() - 1);
-  to.figures.push_back(budget_figure(report, after_svg,
-                                     "After: the effects taken out of the measurements",
-                                     last.model(), id + "a"));
+void add_spectrum(const v1::DiagnosisReport& report, const v1::Comparison& compared,
+                  const std::string& title, Section& to) {
+  if (auto figure = curve_figure(spectrum_chart(report, compared, title)))
+    to.figures.push_back(std::move(*figure));
+}
+
+std::optional<Figure> ladder_figure(const v1::DiagnosisReport& report) {
   std::vector<IntervalRow> rows;
   for (const v1::Rung& rung : report.ladder()) {
     if (!rung.has_heldout_error()) continue;
     rows.push_back({rung.added().empty() ? rung.model() : "+ " + rung.added(), rung.heldout_error(),
                     rung.heldout_lower(), rung.heldout_upper(), rung.misfit_p() < 0.01});
   }
-  auto ladder = interval_chart(
+  return interval_chart(
       "The error falling", "held-out error, 1 = noise floor",
       "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
       "noise alone makes; orange models do not fit.",
       std::move(rows), 1.0);
-  if (ladder) to.figures.push_back(std::move(*ladder));
+}
+
+void add_figures(const v1::DiagnosisReport& report, Section& to) {
+  const std::string id = "d" + report.channel();
+  if (report.ladder_size() == 0) return;
+  to.figures.push_back(
+      budget_figure(report, before_svg, "Before", report.ladder(0).model(), id + "b"));
+  add_spectrum(report, report.compared_before(), "Spectrum before", to);
+  for (Figure& one : comparison_figures(report, report.compared_before()))
+    to.figures.push_back(std::move(one));
+  if (report.ladder_size() < 2) return;
+  const v1::Rung& last = report.ladder(report.ladder_size() - 1);
+  to.figures.push_back(budget_figure(report, after_svg,
+                                     "After: the effects taken out of the measurements",
+                                     last.model(), id + "a"));
+  add_spectrum(report, report.compared_after(), "Spectrum after", to);
+  if (auto ladder = ladder_figure(report)) to.figures.push_back(std::move(*ladder));
 }
 
 Section section(const v1::DiagnosisReport& report, Digits digits) {

@@ -1,5 +1,9 @@
 #include "study/report/diagnosis_figures.h"
 
+#include <fmt/format.h>
+
+#include "study/report/comparison_figures.h"
+
 namespace imunoise::report {
 namespace {
 
@@ -30,6 +34,20 @@ std::string before_svg(const v1::DiagnosisReport& report, const SvgOptions& opti
 
 std::string after_svg(const v1::DiagnosisReport& report, const SvgOptions& options) {
   return figure(report, report.after(), report.ladder_size() - 1, options);
+}
+
+std::vector<Picture> pictures(const v1::DiagnosisReport& report) {
+  const auto spectrum = [&](const v1::Comparison& compared, const std::string& model) {
+    return curve_svg(spectrum_chart(report, compared,
+                                    fmt::format("{}: spectrum under {}", report.channel(), model)));
+  };
+  std::vector<Picture> out{{"before", before_svg(report)}, {"after", after_svg(report)}};
+  if (report.has_compared_before())
+    out.push_back({"spectrum_before", spectrum(report.compared_before(), report.model())});
+  if (report.has_compared_after())
+    out.push_back({"spectrum_after", spectrum(report.compared_after(),
+                                              report.ladder(report.ladder_size() - 1).model())});
+  return out;
 }
 
 }  // namespace imunoise::report

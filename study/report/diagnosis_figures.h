@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "imunoise/v1/diagnosis.pb.h"
 #include "study/report/svg_plot.h"
@@ -12,5 +13,15 @@ std::string before_svg(const v1::DiagnosisReport& report, const SvgOptions& opti
 
 /// What the effects of the last rung leave of it, against the noise of that rung.
 std::string after_svg(const v1::DiagnosisReport& report, const SvgOptions& options = {});
+
+/// A picture for papers, and the word that its file's name ends in.
+struct Picture {
+  std::string word;
+  std::string svg;
+};
+
+/// Noise budget and spectrum, before and after: "before", "after", "spectrum_before",
+/// "spectrum_after". Where nothing was added there is no spectrum after.
+std::vector<Picture> pictures(const v1::DiagnosisReport& report);
 
 }  // namespace imunoise::report

@@ -191,10 +191,7 @@ std::string svg_opening(const SvgOptions& options, double height, const std::str
 }
 
 std::string page_opening(const char* kind, double width, double height, const std::string& name) {
-  std::string out = svg_opening({SvgVariant::kInline, width, kind}, height, name);
-  const std::string_view plain = R"(class="figure")";
-  out.replace(out.find(plain), plain.size(), fmt::format(R"(class="figure {}")", kind));
-  return out;
+  return of_kind(svg_opening({SvgVariant::kInline, width, kind}, height, name), kind);
 }
 
 std::string budget_svg(const v1::FitReport& report, const SvgOptions& options) {

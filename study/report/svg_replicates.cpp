@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "study/report/budget_layout.h"
+#include "study/report/heat_map.h"
 #include "study/report/number.h"
 #include "study/report/svg_axes.h"
 #include "study/report/svg_plot.h"
@@ -12,22 +13,9 @@
 namespace imunoise::report {
 namespace {
 
-constexpr double kRow = 22.0;        // px
-constexpr double kNameRow = 16.0;    // px, above a row, where a phone has no room beside it
-constexpr double kGap = 2.0;         // px between cells
-constexpr double kSteps = 4.0;       // steps of colour on either side
-constexpr double kFullColour = 6.0;  // σ
-
-// Class of a cell: sign and strength; `strong` beyond ±2σ, where a sign is printed too.
-std::string cell_class(double residual) {
-  const int step = std::min(static_cast<int>(kSteps),
-                            static_cast<int>(kSteps * std::abs(residual) / kFullColour + 0.5));
-  return fmt::format("cell {}{}",
-                     step == 0        ? "zero"
-                     : residual > 0.0 ? "plus"
-                                      : "minus",
-                     step == 0 ? "" : std::to_string(step));
-}
+constexpr double kRow = 22.0;      // px
+constexpr double kNameRow = 16.0;  // px, above a row, where a phone has no room beside it
+constexpr double kGap = 2.0;       // px between cells
 
 void draw_row(SvgWriter& svg, const ReplicateView& replicate, const LogAxis& time,
               const Box& frame) {

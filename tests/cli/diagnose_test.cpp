@@ -33,6 +33,8 @@ TEST_F(Diagnose, NamesWhatIsMissingAndTheErrorFalls) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out.html"));
   EXPECT_NE(read("out_before.svg").find("WN + RW"), std::string::npos);
   EXPECT_NE(read("out_after.svg").find("WN + RW + QN"), std::string::npos);
+  EXPECT_NE(read("out_spectrum_before.svg").find("frequency, Hz"), std::string::npos);
+  EXPECT_NE(read("out_spectrum_after.svg").find("WN + RW + QN"), std::string::npos);
   const json report = json::parse(done.out);
   EXPECT_EQ(report.at("verdict"), "found");
   const json& best = report.at("candidates").at(0);

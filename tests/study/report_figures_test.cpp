@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
 
 #include "study/report/budget_layout.h"
 #include "study/report/label_layout.h"
 #include "study/report/svg_plot.h"
-#include "tests/study/markup_check.h"
+#include "tests/study/figure_geometry.h"
 #include "tests/study/sample_report.h"
 
 namespace imunoise::report {
@@ -23,10 +22,6 @@ std::vector<SvgOptions> all_options() {
           {SvgVariant::kInline, 388.0, "c"}};
 }
 
-double value(const Element& element, const std::string& name) {
-  return std::stod(element.attributes.at(name));
-}
-
 std::size_t count_class(const Markup& markup, const std::string& css_class) {
   std::size_t n = 0;
   for (const Element& element : markup.elements) {
@@ -34,47 +29,6 @@ std::size_t count_class(const Markup& markup, const std::string& css_class) {
     if (found != element.attributes.end() && found->second == css_class) ++n;
   }
   return n;
-}
-
-std::vector<Point> points_of(const Element& element) {
-  std::vector<Point> out;
-  if (element.name == "line") {
-    out = {{value(element, "x1"), value(element, "y1")},
-           {value(element, "x2"), value(element, "y2")}};
-  } else if (element.name == "circle") {
-    out = {{value(element, "cx"), value(element, "cy")}};
-  } else if (element.name == "rect" && element.attributes.at("class") != "paper") {
-    const Point corner{value(element, "x"), value(element, "y")};
-    EXPECT_GE(value(element, "width"), 0.0);
-    EXPECT_GE(value(element, "height"), 0.0);
-    out = {corner, {corner.x + value(element, "width"), corner.y + value(element, "height")}};
-  } else if (element.name == "path") {
-    static const std::regex pair_pattern("[ML](-?[0-9.]+),(-?[0-9.]+)");
-    const std::string& d = element.attributes.at("d");
-    for (auto it = std::sregex_iterator(d.begin(), d.end(), pair_pattern);
-         it != std::sregex_iterator(); ++it) {
-      out.push_back({std::stod((*it)[1]), std::stod((*it)[2])});
-    }
-    EXPECT_FALSE(out.empty());
-  }
-  return out;
-}
-
-// Boxes of all texts; the raised exponent of a power of ten counts at full size.
-std::vector<std::pair<std::string, Box>> text_boxes(const Markup& markup) {
-  std::vector<std::pair<std::string, Box>> out;
-  for (const Element& element : markup.elements) {
-    if (element.name != "text") continue;
-    const std::string& at = element.attributes.at("text-anchor");
-    const Anchor anchor = at == "start" ? Anchor::kStart
-                          : at == "end" ? Anchor::kEnd
-                                        : Anchor::kMiddle;
-    static const std::regex entity_pattern("&[a-z#0-9]+;");
-    const std::string text = std::regex_replace(element.text, entity_pattern, "x");
-    out.emplace_back(text, text_box({value(element, "x"), value(element, "y")}, text,
-                                    value(element, "font-size"), anchor));
-  }
-  return out;
 }
 
 // The advance widths of DejaVu Sans, the widest font asked for, in em.
@@ -88,20 +42,7 @@ TEST(Figures, AreWellFormedAndInsideTheCanvas) {
     for (const SvgOptions& options : all_options()) {
       for (const std::string& svg :
            {budget_svg(report, options), replicates_svg(report, options)}) {
-        if (svg.empty()) continue;
-        const Markup markup = read_markup(svg);
-        ASSERT_EQ(markup.error, "") << report.channel();
-        EXPECT_EQ(svg.find("nan"), std::string::npos);
-        EXPECT_EQ(svg.find("inf"), std::string::npos);
-        const Element& root = markup.elements.front();
-        const Box canvas{0.0, 0.0, value(root, "width"), value(root, "height")};
-        for (const Element& element : markup.elements) {
-          if (element.name == "line" && element.attributes.at("class") == "hatch") continue;
-          for (const Point& p : points_of(element)) {
-            EXPECT_TRUE(canvas.contains({p.x, p.y, p.x, p.y}))
-                << report.channel() << ": " << element.name << " at " << p.x << ", " << p.y;
-          }
-        }
+        if (!svg.empty()) expect_sound(svg, report.channel());
       }
     }
   }
@@ -109,19 +50,8 @@ TEST(Figures, AreWellFormedAndInsideTheCanvas) {
 
 TEST(Figures, TextsDoNotOverlapOrLeaveTheCanvas) {
   for (const v1::FitReport& report : all_samples()) {
-    for (const SvgOptions& options : all_options()) {
-      const Markup markup = read_markup(budget_svg(report, options));
-      const Box canvas{0.0, 0.0, options.width, value(markup.elements.front(), "height")};
-      const auto boxes = text_boxes(markup);
-      for (std::size_t i = 0; i < boxes.size(); ++i) {
-        EXPECT_TRUE(canvas.contains(boxes[i].second)) << options.width << ": " << boxes[i].first;
-        for (std::size_t j = 0; j < i; ++j) {
-          EXPECT_FALSE(boxes[i].second.overlaps(boxes[j].second))
-              << report.channel() << " at " << options.width << ": '" << boxes[i].first << "' and '"
-              << boxes[j].first << "'";
-        }
-      }
-    }
+    for (const SvgOptions& options : all_options())
+      expect_texts_apart(budget_svg(report, options), report.channel());
   }
 }
 

@@ -6,14 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {
 namespace {
-
-double wave(double hertz, double s) { return std::sin(2.0 * std::numbers::pi * hertz * s); }
 
 // A slow swing that differs between replicates, and hums along.
 double temperature(std::size_t k, double s) {

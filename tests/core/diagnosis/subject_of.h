@@ -2,14 +2,20 @@
 
 // Subjects made in memory for the tests of the diagnosis.
 
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/diagnosis/diagnose.h"
 
 namespace imunoise {
+
+inline double wave(double hertz, double s) {
+  return std::sin(2.0 * std::numbers::pi * hertz * s);
+}
 
 /// Something that a test adds to a replicate: a sample's value from its time in s.
 using Addition = std::function<double(std::size_t replicate, double seconds)>;

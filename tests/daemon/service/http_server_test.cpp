@@ -254,7 +254,7 @@ TEST_F(Server, OnePeerLeavesConnectionsForOthers) {
   const RawClient first(where_);
   const RawClient second(where_);
   ASSERT_TRUE(comes(&HttpCounters::connections, 2));
-  const RawClient third(where_);  // is told so at once, and need not ask
+  RawClient third(where_);  // is told so at once, and need not ask
   EXPECT_EQ(third.receive().status, 503);
   EXPECT_EQ(testing::get({"", server_->port()}, "/a").status, 200);
 }
