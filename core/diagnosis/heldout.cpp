@@ -5,12 +5,16 @@
 #include <numeric>
 
 #include "core/inference/normal_scores.h"
+#include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
 
 using Index = Eigen::Index;
+
+constexpr std::size_t kBlocks = 4;    // of a single replicate, which stand in for replicates
+constexpr Index kShortestCut = 4096;  // samples
 
 WaveletVariance variance_of(const Eigen::VectorXd& samples, const Subject& subject) {
   const auto n = static_cast<std::size_t>(samples.size());
@@ -51,7 +55,8 @@ double modulation_gain(const Regression& one, const JointFit& fit,
 
 bool can_hold_out(const Trial& trial) {
   const auto& effects = trial.regression.effects();
-  return trial.regression.subject().replicates() > 1 &&
+  const Subject& subject = trial.regression.subject();
+  return (subject.replicates() > 1 || subject.length(0) >= kShortestCut) &&
          std::none_of(effects.begin(), effects.end(),
                       [](const EffectTerm& term) { return term.kind == EffectKind::kOwnPowers; });
 }
@@ -98,7 +103,9 @@ Errors training_errors(const Trial& trial, const LeftOver& left) {
 }
 
 Errors heldout_errors(const Trial& trial) {
-  const Regression& all = trial.regression;
+  const Regression all = trial.regression.subject().replicates() > 1
+                             ? trial.regression
+                             : trial.regression.in_blocks(kBlocks);
   const std::size_t count = all.subject().replicates();
   Errors out{std::vector<double>(count), std::vector<double>(count)};
   for_each_index(count, [&](std::size_t k) {
@@ -114,7 +121,8 @@ Errors heldout_errors(const Trial& trial) {
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
-    out.error[k] = wavelet_error(variance_of(all.residual_samples(at, k), all.subject()), noise);
+    out.error[k] = wavelet_error(
+        variance_of(inverse_cosine_transform(all.residual_cosines(at, k)), all.subject()), noise);
     out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
   });
   return out;

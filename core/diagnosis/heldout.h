@@ -27,15 +27,17 @@ struct LeftOver {
 };
 LeftOver left_over(const Trial& trial);
 
-/// True where replicates can be held out: two of them, and no parameters of their own.
+/// True where something can be held out: replicates, or blocks of a single one that is long enough;
+/// and no parameters of their own.
 bool can_hold_out(const Trial& trial);
 
 /// On the replicates that the model was fitted to. `left`: left_over() of it.
 Errors training_errors(const Trial& trial, const LeftOver& left);
 
-/// On each replicate by a fit to the others. Coefficients that belong to the held-out replicate
-/// alone (phases, steps) are estimated there, and each costs a nat. Precondition: at least two
-/// replicates, all of the model's parameters common to them.
+/// On each replicate by a fit to the others; of a single replicate on each of four blocks, which is
+/// weaker: what holds throughout that hour is not seen to hold in another. Coefficients that belong
+/// to the held-out replicate alone (phases, steps) are estimated there, and each costs a nat.
+/// Precondition: can_hold_out().
 Errors heldout_errors(const Trial& trial);
 
 }  // namespace imunoise

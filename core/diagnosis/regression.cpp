@@ -24,6 +24,22 @@ BandedPower empty_bands(Index n, Hertz rate) {
   return {bands.frequency, bands.count, zero, zero, zero, static_cast<std::size_t>(n), rate};
 }
 
+// One series in blocks of so many samples, each less its mean.
+std::vector<Eigen::VectorXd> cut(const VectorRef& x, std::size_t blocks, Index length) {
+  std::vector<Eigen::VectorXd> out(blocks);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    out[b] = x.segment(static_cast<Index>(b) * length, length);
+    out[b].array() -= out[b].mean();
+  }
+  return out;
+}
+
+std::vector<Eigen::VectorXd> transformed(const std::vector<Eigen::VectorXd>& blocks) {
+  std::vector<Eigen::VectorXd> out(blocks.size());
+  for_each_index(out.size(), [&](std::size_t b) { out[b] = cosine_transform(blocks[b]); });
+  return out;
+}
+
 }  // namespace
 
 Regression::Regression(std::shared_ptr<const Subject> subject)
@@ -88,6 +104,53 @@ Regression Regression::on(std::shared_ptr<const Subject> subject) const {
   Regression out = *this;
   out.subject_ = std::move(subject);
   for_each_index(out.moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  return out;
+}
+
+Regression Regression::in_blocks(std::size_t blocks) const {
+  const auto length =
+      static_cast<Index>(quick_length(static_cast<std::size_t>(subject_->length(0)) / blocks));
+  auto parts = std::make_shared<Subject>(Subject{subject_->rate, subject_->quantity, {}, {}, {}});
+  parts->samples = cut(subject_->samples[0], blocks, length);
+  parts->cosines = transformed(parts->samples);
+  for (const Witness& from : subject_->witnesses) {
+    Witness& to = parts->witnesses.emplace_back(Witness{from.name, from.quantity, {}, {}});
+    // The level of a block is part of what it says about the noise there.
+    for (std::size_t b = 0; b < blocks; ++b)
+      to.samples.emplace_back(from.samples[0].segment(static_cast<Index>(b) * length, length));
+    to.cosines = transformed(to.samples);
+  }
+  for (const double nats : subject_->own_nats)
+    parts->own_nats.assign(blocks, nats / static_cast<double>(blocks));
+  Regression out(parts);
+  out.effects_ = effects_;
+  out.first_ = first_;
+  out.names_ = names_;
+  for (CoefficientName& name : out.names_) name.replicate = CoefficientName::kAll;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    auto made = std::make_shared<Regressors>();
+    made->replicates.assign(blocks, {Eigen::MatrixXd(length - 1, 0), {}});
+    const Eigen::MatrixXd samples = samples_of_regressor(effects_[e], *subject_, 0);
+    for (Index i = 0; i < samples.cols(); ++i) {
+      const std::vector<Eigen::VectorXd> each = cut(samples.col(i), blocks, length);
+      double all = 0.0;
+      for (const Eigen::VectorXd& one : each) all += one.squaredNorm();
+      std::vector<std::size_t> felt;
+      for (std::size_t b = 0; b < blocks; ++b) {
+        constexpr double kNothing = 1e-12;
+        if (!(each[b].squaredNorm() > kNothing * all)) continue;
+        felt.push_back(b);
+        Columns& to = made->replicates[b];
+        to.cosines.conservativeResize(Eigen::NoChange, to.cosines.cols() + 1);
+        to.cosines.rightCols(1) = cosine_transform(each[b]);
+        to.places.push_back(i);
+      }
+      if (felt.size() == 1)
+        out.names_[static_cast<std::size_t>(first_[e] + i)].replicate = felt.front();
+    }
+    out.columns_.push_back(std::move(made));
+  }
+  for_each_index(blocks, [&](std::size_t b) { out.fill_moments(b); });
   return out;
 }
 

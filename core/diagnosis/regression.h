@@ -26,6 +26,10 @@ class Regression {
   Regression on(std::shared_ptr<const Subject> subject) const;
   /// Only some of the replicates (by number); coefficients that none of them has are zero.
   Regression of(const std::vector<std::size_t>& replicates) const;
+  /// The only replicate cut into so many blocks of equal length, a replicate each. A coefficient
+  /// that a single block feels (a step's height) belongs to that block, all others are shared.
+  /// Effects keep the form that they have over the whole: residual_samples() has no meaning then.
+  Regression in_blocks(std::size_t blocks) const;
 
   const Subject& subject() const { return *subject_; }
   const std::shared_ptr<const Subject>& shared_subject() const { return subject_; }

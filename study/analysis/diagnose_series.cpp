@@ -194,8 +194,8 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   if (!start->note.empty()) out.add_notes(start->note);
   if (subject->replicates() == 1)
     out.add_notes(
-        "One replicate: nothing can be held out, so that no effect is proven on data it "
-        "was not fitted to.");
+        "One replicate: its four quarters stand in for replicates, each predicted from the others. "
+        "That is weaker proof: record again after a restart to be sure.");
 
   Trial model = fit_full_model(subject, start->model, progress.part(0.3, 0.35));
   out.set_model(print(model.fit.model));

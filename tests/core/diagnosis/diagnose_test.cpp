@@ -127,5 +127,17 @@ TEST(Diagnose, WhatWasFoundIsGoneOnceItIsInTheModel) {
   EXPECT_EQ(after.verdict, DiagnosisVerdict::kNone);
 }
 
+TEST(Diagnose, OneReplicateIsProvenOnItsQuarters) {
+  const Diagnosis wavy =
+      of({.samples = 32768, .replicates = 1, .seed = 15, .added = [](std::size_t, double s) {
+            return 0.1 * wave(7.123, s);
+          }});
+  expect_found(wavy, "line");
+  EXPECT_EQ(wavy.heldout->error.size(), 4U);
+  const Diagnosis still = of({.samples = 32768, .replicates = 1, .seed = 16});
+  EXPECT_EQ(still.verdict, DiagnosisVerdict::kNone);
+  EXPECT_TRUE(still.heldout);
+}
+
 }  // namespace
 }  // namespace imunoise

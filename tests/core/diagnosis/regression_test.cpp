@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/spectrum/cosine_transform.h"
 #include "core/support/linear_algebra.h"
 #include "tests/core/diagnosis/subject_of.h"
 
@@ -81,6 +82,31 @@ TEST(Regression, WhatWasAddedIsFoundWithinItsErrors) {
   EXPECT_LT(z(0, 0.02), kOnceInTenThousand);
   for (Eigen::Index k = 0; k < 4; ++k) EXPECT_LT(z(2 + 2 * k, 0.3), kOnceInTenThousand);
   EXPECT_LT(z(found.value.size() - 1, 0.5), kOnceInTenThousand);
+}
+
+TEST(Regression, BlocksOfOneReplicateFeelTheSameEffects) {
+  const auto subject = subject_of({.replicates = 1, .seed = 14, .added = [](std::size_t, double s) {
+                                     return 0.3 * wave(4.0, s) + 2.0 * std::exp(-s / 60.0) +
+                                            (s >= 100.0 ? 0.5 : 0.0);
+                                   }});
+  const Trial trial =
+      fitted(subject, "WN + RW + line(f=4) + warm_up(tau=60) + step(replicate=1, t=100)");
+  const Regression blocks = trial.regression.in_blocks(4);
+  ASSERT_EQ(blocks.subject().replicates(), 4U);
+  ASSERT_EQ(blocks.coefficients().size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(blocks.coefficients()[i].replicate, CoefficientName::kAll);
+  EXPECT_EQ(blocks.coefficients()[3].replicate, 2U);  // 164 s in quarters: the third holds 100 s
+  // Effects taken out with what the whole found leave what the whole leaves, block by block.
+  const Eigen::VectorXd whole = trial.regression.residual_samples(trial.fit.effects.value, 0);
+  for (std::size_t b = 0; b < 4; ++b) {
+    const Eigen::Index n = blocks.subject().length(b);
+    Eigen::VectorXd expected = whole.segment(static_cast<Eigen::Index>(b) * n, n);
+    expected.array() -= expected.mean();
+    const Eigen::VectorXd left =
+        inverse_cosine_transform(blocks.residual_cosines(trial.fit.effects.value, b));
+    EXPECT_LT((left - expected).norm(), 1e-9 * expected.norm()) << b;
+  }
 }
 
 }  // namespace
