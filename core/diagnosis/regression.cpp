@@ -94,6 +94,19 @@ Regression Regression::with(const EffectTerm& term) const {
   return out;
 }
 
+Regression Regression::without(std::size_t effect) const {
+  Regression out = *this;
+  const auto place = static_cast<std::ptrdiff_t>(effect);
+  const Index taken = first_[effect + 1] - first_[effect];
+  out.effects_.erase(out.effects_.begin() + place);
+  out.columns_.erase(out.columns_.begin() + place);
+  out.names_.erase(out.names_.begin() + first_[effect], out.names_.begin() + first_[effect + 1]);
+  out.first_.erase(out.first_.begin() + place + 1);
+  for (std::size_t e = effect + 1; e < out.first_.size(); ++e) out.first_[e] -= taken;
+  for_each_index(moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  return out;
+}
+
 Regression Regression::of(const std::vector<std::size_t>& replicates) const {
   Regression out = *this;
   out.replicates_ = replicates;

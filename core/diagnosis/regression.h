@@ -22,6 +22,8 @@ class Regression {
   explicit Regression(std::shared_ptr<const Subject> subject);
   /// With one effect more. Precondition: check(term, subject).
   Regression with(const EffectTerm& term) const;
+  /// With one effect less, by its number.
+  Regression without(std::size_t effect) const;
   /// The same effects on other samples of the same replicates.
   Regression on(std::shared_ptr<const Subject> subject) const;
   /// Only some of the replicates (by number); coefficients that none of them has are zero.

@@ -7,6 +7,7 @@
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/integrity.h"
+#include "core/diagnosis/useless.h"
 #include "core/spectrum/cross_power.h"
 #include "study/analysis/comparison.h"
 #include "study/analysis/diagnosis_report.h"
@@ -135,14 +136,34 @@ void put_defects_first(v1::DiagnosisReport& to) {
       finding.sentence()));
 }
 
+Step step_of(const TriedEffect& effect) {
+  return {.added = added_term(effect),
+          .why = fmt::format("{} explains {:.1f} nats ({:.1f} more than chance).", effect.effect,
+                             effect.likelihood_gain, effect.gain)};
+}
+
+// Takes what the last term made useless out of a model, one after the other.
+void drop_useless(Trial& model, Step& step, double level) {
+  while (auto useless = useless_term(model, level)) {
+    step.dropped.push_back(useless->term);
+    step.why += fmt::format(" Beside it {} explains no more than chance ({:.1f} nats).",
+                            useless->term, useless->loss);
+    model = std::move(useless->without);
+  }
+}
+
+std::optional<Errors> errors_held_out(const Trial& model) {
+  if (!can_hold_out(model)) return std::nullopt;
+  return heldout_errors(model);
+}
+
 // A model that somebody wants to know the error of.
 void judge(const Trial& model, const Progress& progress, v1::DiagnosisReport& out) {
   const LeftOver left = left_over(model);
   progress.report(0.3);
-  std::optional<Errors> heldout;
-  if (can_hold_out(model)) heldout = heldout_errors(model);
+  const std::optional<Errors> heldout = errors_held_out(model);
   progress.report(0.8);
-  *out.add_ladder() = rung_of(model, left, "", 0.0, misfit_p_value(misfit_of(model)), heldout, "");
+  *out.add_ladder() = rung_of(model, left, {}, 0.0, misfit_p_value(misfit_of(model)), heldout);
   *out.mutable_before() = budget_of(model, left);
   *out.mutable_after() = out.before();
 }
@@ -209,16 +230,14 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   *out.mutable_before() = budget_of(model, left);
   *out.mutable_compared_before() = comparison_of(model, left, series.channel, series.names);
   const double first = model.fit.log_likelihood;
-  std::string added;
-  std::string why = "The model as it was given.";
+  Step step{.added = "", .why = "The model as it was given."};
   const int most = options.automatic ? kMostRungs : 1;
   for (int rung = 0; rung < most; ++rung) {
     const double begin = 0.35 + 0.6 * rung / most;
     Diagnosis diagnosis =
         diagnose(model, {options.level}, progress.part(begin, begin + 0.6 / most));
     if (progress.stopped()) return fail("stopped");
-    *out.add_ladder() =
-        rung_of(model, left, added, first, diagnosis.misfit_p, diagnosis.heldout, why);
+    *out.add_ladder() = rung_of(model, left, step, first, diagnosis.misfit_p, diagnosis.heldout);
     // The verdict is about the model that was asked for; later rounds only climb.
     if (rung == 0) {
       add_diagnosis(diagnosis, *subject, out);
@@ -227,14 +246,14 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
     }
     if (!diagnosis.worth_adding) break;
     RankedEffect& best = diagnosis.effects.front();
-    added = added_term(best.tried);
-    why = fmt::format("{} explains {:.1f} nats ({:.1f} more than chance).", best.tried.effect,
-                      best.tried.likelihood_gain, best.tried.gain);
+    step = step_of(best.tried);
     model = std::move(best.tried.trial);
+    if (options.automatic) drop_useless(model, step, options.level);
     left = left_over(model);
     if (rung + 1 < most) continue;
+    if (!step.dropped.empty()) best.heldout = errors_held_out(model);
     *out.add_ladder() =
-        rung_of(model, left, added, first, misfit_p_value(misfit_of(model)), best.heldout, why);
+        rung_of(model, left, step, first, misfit_p_value(misfit_of(model)), best.heldout);
   }
   *out.mutable_after() = budget_of(model, left);
   if (out.ladder_size() > 1)

@@ -169,11 +169,12 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
   }
 }
 
-v1::Rung rung_of(const Trial& trial, const LeftOver& left, const std::string& added, double first,
-                 double misfit_p, const std::optional<Errors>& heldout, const std::string& why) {
+v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, double first,
+                 double misfit_p, const std::optional<Errors>& heldout) {
   v1::Rung out;
   out.set_model(print(trial.fit.model));
-  out.set_added(added);
+  out.set_added(step.added);
+  for (const std::string& term : step.dropped) out.add_dropped(term);
   out.set_training_error(training_errors(trial, left).mean_error());
   if (heldout) {
     out.set_heldout_error(heldout->mean_error());
@@ -184,7 +185,7 @@ v1::Rung rung_of(const Trial& trial, const LeftOver& left, const std::string& ad
   }
   out.set_log_likelihood(trial.fit.log_likelihood - first);
   out.set_misfit_p(misfit_p);
-  out.set_why(why);
+  out.set_why(step.why);
   const std::string unit = integral_unit(trial.regression.subject().quantity);
   for (const RunOff& from : run_off_of(trial, left)) {
     v1::Drift& drift = *out.add_drift();

@@ -11,9 +11,16 @@ namespace imunoise::study {
 /// Fills verdict, summary, candidates and limits of a report whose unit is set.
 void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to);
 
+/// How the ladder came to a model.
+struct Step {
+  std::string added;                   ///< term in the grammar; empty on the first rung
+  std::vector<std::string> dropped{};  ///< terms that it made useless
+  std::string why;
+};
+
 /// A model that was tried, for the ladder. `first` is the likelihood of the lowest rung.
-v1::Rung rung_of(const Trial& trial, const LeftOver& left, const std::string& added, double first,
-                 double misfit_p, const std::optional<Errors>& heldout, const std::string& why);
+v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, double first,
+                 double misfit_p, const std::optional<Errors>& heldout);
 
 /// The measured wavelet variance, with the effects taken out, against the noise of a fit.
 v1::NoiseBudget budget_of(const Trial& trial, const LeftOver& left);

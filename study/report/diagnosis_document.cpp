@@ -17,12 +17,20 @@ constexpr int kAlwaysShown = 2;  // the others only if they are not mere chance
 
 std::string chance(double p, Digits digits) { return p < 1e-4 ? "< 0.0001" : number(p, 2, digits); }
 
+// "WN + RW" for the first rung, "+ RES − AR1" for what came after.
+std::string name_of(const v1::Rung& rung) {
+  if (rung.added().empty()) return rung.model();
+  std::string out = "+ " + rung.added();
+  for (const std::string& term : rung.dropped()) out += " − " + term;
+  return out;
+}
+
 Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
   Table out{"The ladder: error on replicates not used (noise floor = 1)",
             {"added", "held-out error", "training error", "gained", "misfit p"},
             {}};
   for (const v1::Rung& rung : report.ladder()) {
-    out.rows.push_back({rung.added().empty() ? rung.model() : "+ " + rung.added(),
+    out.rows.push_back({name_of(rung),
                         rung.has_heldout_error()
                             ? with_interval(rung.heldout_error(), rung.heldout_lower(),
                                             rung.heldout_upper(), digits)
@@ -86,7 +94,7 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
   for (const v1::Drift& one : report.ladder(0).drift())
     out.head.push_back(fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
-    std::vector<std::string> row{rung.added().empty() ? rung.model() : "+ " + rung.added()};
+    std::vector<std::string> row{name_of(rung)};
     for (const v1::Drift& one : rung.drift()) {
       row.push_back(fmt::format("{} / {} {}", number(one.predicted(), 3, digits),
                                 number(one.measured(), 3, digits), one.unit()));
@@ -134,8 +142,8 @@ std::optional<Figure> ladder_figure(const v1::DiagnosisReport& report) {
   std::vector<IntervalRow> rows;
   for (const v1::Rung& rung : report.ladder()) {
     if (!rung.has_heldout_error()) continue;
-    rows.push_back({rung.added().empty() ? rung.model() : "+ " + rung.added(), rung.heldout_error(),
-                    rung.heldout_lower(), rung.heldout_upper(), rung.misfit_p() < 0.01});
+    rows.push_back({name_of(rung), rung.heldout_error(), rung.heldout_lower(), rung.heldout_upper(),
+                    rung.misfit_p() < 0.01});
   }
   return interval_chart(
       "The error falling", "held-out error, 1 = noise floor",

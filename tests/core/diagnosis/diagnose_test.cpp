@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/useless.h"
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {
@@ -137,6 +139,24 @@ TEST(Diagnose, OneReplicateIsProvenOnItsQuarters) {
   const Diagnosis still = of({.samples = 32768, .replicates = 1, .seed = 16});
   EXPECT_EQ(still.verdict, DiagnosisVerdict::kNone);
   EXPECT_TRUE(still.heldout);
+}
+
+TEST(UselessTerm, GoesAndWhatIsNeededStays) {
+  const auto subject =
+      subject_of({.seed = 17, .added = [](std::size_t, double s) { return 0.1 * wave(7.123, s); }});
+  const Trial loaded = fitted(subject, "WN + RW + QN + line(f=7.123) + ramp");
+  std::vector<std::string> gone;
+  Trial model = loaded;
+  while (auto useless = useless_term(model, 0.01)) {
+    gone.push_back(useless->term);
+    EXPECT_LT(useless->loss, 7.0);
+    EXPECT_LE(model.fit.log_likelihood - useless->without.fit.log_likelihood, useless->loss + 1e-9);
+    model = std::move(useless->without);
+  }
+  std::sort(gone.begin(), gone.end());
+  EXPECT_EQ(gone, (std::vector<std::string>{"QN", "ramp"}));
+  EXPECT_EQ(print(model.fit.model), "WN + RW + line(f=7.123)");
+  EXPECT_EQ(model.regression.coefficients().size(), 8U);
 }
 
 }  // namespace
