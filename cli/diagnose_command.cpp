@@ -14,11 +14,15 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
   for (const std::string& name : wanted) {
     const auto found = study::channel_called(name, first);
     if (!found) return tl::unexpected(found.error());
+    if (first.channels[*found].interpolated)
+      return fail(name +
+                  ": is of another stream than the channels before it; diagnose it by itself");
     out.push_back(*found);
   }
   if (!out.empty()) return out;
   for (std::size_t c = 0; c < first.channels.size(); ++c) {
-    if (first.channels[c].unit.quantity == first.channels[0].unit.quantity) out.push_back(c);
+    const recording::Channel& one = first.channels[c];
+    if (one.unit.quantity == first.channels[0].unit.quantity && !one.interpolated) out.push_back(c);
   }
   return out;
 }

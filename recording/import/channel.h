@@ -34,6 +34,8 @@ struct Channel {
   double offset = 0.0;                     ///< SI units: value_SI = offset + scale · sample.
   Unit unit;                               ///< As the file (or the user) states it.
   Hertz rate;
+  /// Its samples lie between those that another clock made: a witness, never a subject.
+  bool interpolated = false;
 
   /// The channel as the mathematics sees it. Borrows: keep this channel (or a copy) alive.
   Signal signal() const {

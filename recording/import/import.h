@@ -22,8 +22,8 @@ inline constexpr std::size_t kMinimumSamples = 16;
 struct ImportOptions {
   /// Names of the channels wanted, in this order. Empty: every channel of the first file.
   std::vector<std::string> channels;
-  /// Of a recording's folder: those and every channel that shares their clock (of the first stream
-  /// where none is named).
+  /// Of a recording's folder: those, every channel that shares their clock (of the first stream
+  /// where none is named), and what the device's other streams say at the same times.
   bool beside = false;
   /// Sampling rate. Wins over what a file states; a time column is then ignored, gaps included.
   std::optional<Hertz> rate;

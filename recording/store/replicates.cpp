@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "recording/import/select.h"
+#include "recording/store/alignment.h"
 #include "recording/store/gaps.h"
 #include "recording/store/layout.h"
 #include "recording/store/reader.h"
@@ -45,12 +46,15 @@ struct Wanted {
   Place place;
 };
 
-std::vector<Wanted> same_stream(const Offers& offers, const Place& as) {
+// All channels of a device, those of one stream first.
+std::vector<Wanted> same_device(const Offers& offers, const Place& as) {
   std::vector<Wanted> out;
-  for (std::size_t i = 0; i < offers.places.size(); ++i) {
-    const Place& place = offers.places[i];
-    if (place.device == as.device && place.stream == as.stream)
-      out.push_back({offers.names[i].name, place});
+  for (const bool same_stream : {true, false}) {
+    for (std::size_t i = 0; i < offers.places.size(); ++i) {
+      const Place& place = offers.places[i];
+      if (place.device == as.device && (place.stream == as.stream) == same_stream)
+        out.push_back({offers.names[i].name, place});
+    }
   }
   return out;
 }
@@ -62,7 +66,7 @@ Result<std::vector<Wanted>> select(const std::string& file, const v1::Manifest& 
   if (!chosen) return tl::make_unexpected(chosen.error());
   std::vector<Wanted> out;
   for (const std::size_t i : *chosen) out.push_back({offers.names[i].name, offers.places[i]});
-  if (options.beside) return same_stream(offers, out.front().place);
+  if (options.beside) return same_device(offers, out.front().place);
   for (const Wanted& one : out) {
     const Place& first = out.front().place;
     if (one.place.device == first.device && one.place.stream == first.stream) continue;
@@ -114,16 +118,21 @@ class Importer {
       }
     }
     for (const Wanted& one : wanted_) {
-      const v1::RecordedChannel& channel = stream.channels(one.place.channel);
+      const v1::RecordedChannel& channel =
+          device.device.streams(one.place.stream).channels(one.place.channel);
       const auto unit = resolve_unit(root_.string(), one.name, channel.units(), options_);
       if (!unit) return tl::make_unexpected(unit.error());
       const double scale = channel.has_scale_factor() ? channel.scale_factor() : 1.0;
+      const bool other = one.place.stream != first.stream;
+      Rows& own = device.streams[static_cast<std::size_t>(one.place.stream)];
+      Numbers& numbers = own.channels[static_cast<std::size_t>(one.place.channel)];
       const auto samples = std::make_shared<const Samples>(
-          samples_of(std::move(rows.channels[static_cast<std::size_t>(one.place.channel)])));
+          other ? Samples(at_times(numbers, own.host_time, rows.host_time))
+                : samples_of(std::move(numbers)));
       for (std::size_t i = 0; i < kept.size(); ++i) {
         out_[begin + i].channels.push_back(
             {one.name, samples, kept[i].begin, kept[i].count, scale * unit->to_si,
-             channel.add_offset() * unit->to_si + unit->si_offset, *unit, rate});
+             channel.add_offset() * unit->to_si + unit->si_offset, *unit, rate, other});
       }
     }
     return {};

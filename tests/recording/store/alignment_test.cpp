@@ -1,0 +1,60 @@
+// Channels of a device's other streams, at the times of the one under study.
+
+#include "recording/store/alignment.h"
+
+#include <gtest/gtest.h>
+
+#include "recording/store/recorder.h"
+#include "recording/store/replicates.h"
+#include "tests/recording/files.h"
+#include "tests/recording/store/samples.h"
+
+namespace imunoise::recording {
+namespace {
+
+TEST(AtTimes, LieOnTheLineBetweenRows) {
+  const std::vector<std::int64_t> times{100, 200, 400};
+  const std::vector<std::int64_t> wanted{50, 100, 150, 200, 300, 350, 400, 500};
+  const Numbers numbers = std::vector<std::int16_t>{10, 20, -20};
+  EXPECT_EQ(at_times(numbers, times, wanted),
+            (std::vector<double>{10, 10, 15, 20, 0, -10, -20, -20}));
+}
+
+TEST(AtTimes, AreZeroWhereNothingCame) {
+  EXPECT_EQ(at_times(Numbers(std::vector<float>()), {}, std::vector<std::int64_t>{1, 2}),
+            (std::vector<double>{0, 0}));
+}
+
+class OtherStreams : public FileTest {};
+
+TEST_F(OtherStreams, AreReadBesideTheOneUnderStudy) {
+  const std::filesystem::path root = path("run");
+  RecordingPlan plan;
+  plan.devices = {test_device()};
+  const auto recorder = Recorder::start(posix_file_system(), root, plan);
+  ASSERT_TRUE(recorder);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE((*recorder)->push(0, slow_block(i)));
+  EXPECT_TRUE((*recorder)->push(0, imu_block(0, 300)));
+  ASSERT_TRUE((*recorder)->close());
+  ImportOptions options;
+  options.channels = {"imu0/imu/gyro_x"};
+  options.beside = true;
+  const auto read = import_recording(posix_file_system(), root, options);
+  ASSERT_TRUE(read) << read.error().message;
+  const std::vector<Channel>& channels = read->front().channels;
+  ASSERT_EQ(channels.size(), 3U);
+  EXPECT_EQ(channels[0].name, "imu0/imu/gyro_x");
+  EXPECT_EQ(channels[1].name, "imu0/imu/row");
+  EXPECT_EQ(channels[2].name, "imu0/slow/temperature");
+  EXPECT_FALSE(channels[1].interpolated);
+  EXPECT_TRUE(channels[2].interpolated);
+  // A degree a second, seen every hundredth of one.
+  ASSERT_EQ(channels[2].count, 300U);
+  const Signal temperature = channels[2].signal();
+  EXPECT_DOUBLE_EQ(temperature.value(0), 0.0);
+  EXPECT_DOUBLE_EQ(temperature.value(150), 1.5);
+  EXPECT_EQ(temperature.rate().value, 100.0);
+}
+
+}  // namespace
+}  // namespace imunoise::recording
