@@ -3,7 +3,7 @@
 # noise is known; then an effect hidden in emulated sensors is found; then the daemon records emulated
 # sensors and calibrates them. Needs no sensor. The reports are left in build/demo-output/.
 #
-#   bash scripts/demo.sh [--hide fan|mains|step|outliers|warm_up]     else one is drawn, and sealed
+#   bash scripts/demo.sh [--hide fan|mains|step|outliers|warm_up|temperature]     else one is drawn, and sealed
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

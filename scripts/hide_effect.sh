@@ -3,13 +3,13 @@
 #
 #   bash scripts/hide_effect.sh IMUNOISE FOLDER [EFFECT] [SEED]
 #
-# EFFECT: fan, mains, step, outliers or warm_up; drawn by the seed when it is not named.
+# EFFECT: fan, mains, step, outliers, warm_up or temperature; drawn by the seed when it is not named.
 set -euo pipefail
 
 imunoise=$1
 out=$2
 seed=${4:-$((RANDOM))}
-known=(fan mains step outliers warm_up)
+known=(fan mains step outliers warm_up temperature)
 effect=${3:-}
 if [[ -z $effect ]]; then effect=${known[seed % ${#known[@]}]}; fi
 
@@ -19,6 +19,7 @@ case $effect in
   step) hidden="step(at=200,height=1e-3,channel=gyro_x)" ;;
   outliers) hidden="outliers(share=1e-4,deviation=0.03,channel=gyro_x)" ;;
   warm_up) hidden="warm_up(size=2e-3,time=60,channel=gyro_x)" ;;
+  temperature) hidden="temperature(swing=2,period=90,coupling=5e-4,lag=10,channel=gyro_x)" ;;
   *)
     echo "$0: no effect '$effect'; there are ${known[*]}" >&2
     exit 2

@@ -15,30 +15,49 @@ using Index = Eigen::Index;
 // Bands are put together until they have this many degrees of freedom and span half an octave.
 constexpr double kFewestFreedom = 8.0;
 
-// Half octaves of one length of replicates, with the directions of the parameters.
-void add_bands(const Model& noise, const BandedPower& bands, const std::vector<Index>& interior,
-               std::vector<BandMisfit>& out, std::vector<Eigen::VectorXd>& directions) {
-  const Eigen::MatrixXd slopes = whittle_slopes(noise, bands, interior);
-  const Eigen::ArrayXd power = bands.count * bands.power / spectrum(noise, bands.frequency);
-  const double rate = bands.rate.value;
-  Index begin = 0;
-  while (begin < bands.frequency.size()) {
+// What the replicates of one length say about a narrow band.
+struct Measured {
+  double frequency = 0.0;  // Hz
+  double freedom = 0.0;
+  double relative = 0.0;  // sum of as many powers over the model's
+  Eigen::VectorXd slope;  // of the model's logarithm, by its parameters
+};
+
+// Of replicates of all lengths, in the order of frequency.
+std::vector<Measured> measured(const Model& noise, const std::vector<BandedPower>& lengths,
+                               const std::vector<Index>& interior) {
+  std::vector<Measured> out;
+  for (const BandedPower& bands : lengths) {
+    const Eigen::MatrixXd slopes = whittle_slopes(noise, bands, interior);
+    const Eigen::ArrayXd power = bands.count * bands.power / spectrum(noise, bands.frequency);
+    for (Index b = 0; b < bands.frequency.size(); ++b) {
+      out.push_back({bands.frequency(b) * bands.rate.value, bands.count(b), power(b),
+                     slopes.row(b).transpose()});
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Measured& one, const Measured& other) {
+    return one.frequency < other.frequency;
+  });
+  return out;
+}
+
+// Half octaves, with the directions of the parameters.
+void add_bands(const std::vector<Measured>& all, std::vector<BandMisfit>& out,
+               std::vector<Eigen::VectorXd>& directions) {
+  for (std::size_t begin = 0; begin < all.size();) {
     double freedom = 0.0;
     double relative = 0.0;
-    Eigen::VectorXd direction = Eigen::VectorXd::Zero(static_cast<Index>(interior.size()));
-    Index end = begin;
-    while (end < bands.frequency.size() &&
-           (freedom < kFewestFreedom ||
-            bands.frequency(end) < std::sqrt(2.0) * bands.frequency(begin))) {
-      const double c = bands.count(end);
-      freedom += c;
-      relative += power(end);
-      direction += std::sqrt(0.5 * c) * slopes.row(end).transpose();
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(all[begin].slope.size());
+    std::size_t end = begin;
+    while (end < all.size() && (freedom < kFewestFreedom ||
+                                all[end].frequency < std::sqrt(2.0) * all[begin].frequency)) {
+      freedom += all[end].freedom;
+      relative += all[end].relative;
+      direction += std::sqrt(0.5 * all[end].freedom) * all[end].slope;
       ++end;
     }
     if (freedom >= kFewestFreedom) {
-      BandMisfit one{bands.frequency(begin) * rate, bands.frequency(end - 1) * rate,
-                     relative / freedom, 0.0, 0};
+      BandMisfit one{all[begin].frequency, all[end - 1].frequency, relative / freedom, 0.0, 0};
       one.sigma = normal_score(one.ratio, freedom);
       out.push_back(one);
       directions.push_back(direction / std::sqrt(0.5 * freedom));
@@ -74,8 +93,7 @@ MisfitReport misfit_of(const Trial& trial) {
   const std::vector<BandedPower> remaining = trial.regression.residual(trial.fit.effects.value);
   const std::vector<Index> interior = parameter_sets(noise).interior;
   std::vector<Eigen::VectorXd> directions;
-  for (const BandedPower& bands : pooled(remaining))
-    add_bands(noise, bands, interior, out.bands, directions);
+  add_bands(measured(noise, pooled(remaining), interior), out.bands, directions);
   count_replicates(noise, remaining, out.bands);
   const auto n = static_cast<Index>(out.bands.size());
   Eigen::VectorXd z(n);

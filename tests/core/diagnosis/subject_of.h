@@ -13,9 +13,7 @@
 
 namespace imunoise {
 
-inline double wave(double hertz, double s) {
-  return std::sin(2.0 * std::numbers::pi * hertz * s);
-}
+inline double wave(double hertz, double s) { return std::sin(2.0 * std::numbers::pi * hertz * s); }
 
 /// Something that a test adds to a replicate: a sample's value from its time in s.
 using Addition = std::function<double(std::size_t replicate, double seconds)>;
@@ -24,6 +22,7 @@ struct MadeSubject {
   std::string model = "WN(sigma2=1) + RW(gamma2=1e-5)";
   std::size_t samples = 8192;
   std::size_t replicates = 4;
+  std::size_t shorter = 0;  ///< samples by which each replicate is shorter than the one before
   std::uint64_t seed = 1;
   Addition added = [](std::size_t, double) { return 0.0; };
   Addition temperature{};  ///< a witness "temperature", K, where there is one
@@ -35,9 +34,10 @@ inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
   std::vector<std::vector<double>> series;
   std::vector<std::vector<double>> witness;
   for (std::size_t k = 0; k < made.replicates; ++k) {
-    series.push_back(simulate(noise, made.samples, made.seed, static_cast<std::uint32_t>(k)));
-    witness.emplace_back(made.samples);
-    for (std::size_t t = 0; t < made.samples; ++t) {
+    const std::size_t samples = made.samples - k * made.shorter;
+    series.push_back(simulate(noise, samples, made.seed, static_cast<std::uint32_t>(k)));
+    witness.emplace_back(samples);
+    for (std::size_t t = 0; t < samples; ++t) {
       const double seconds = static_cast<double>(t) / kRate.value;
       series.back()[t] += made.added(k, seconds);
       if (made.temperature) witness.back()[t] = made.temperature(k, seconds);

@@ -51,6 +51,21 @@ TEST(SpectralView, AWaveStandsOutAtItsFrequency) {
   EXPECT_GT(best->peak / best->model, 20.0);  // A²n/4 = 82 shared by two neighbours at worst
 }
 
+TEST(Misfit, ReplicatesOfDifferentLengthsShareTheirHalfOctaves) {
+  const Looked at({.shorter = 400, .seed = 28, .added = [](std::size_t, double s) {
+                     return 0.5 * wave(7.123, s);
+                   }});
+  const MisfitReport misfit = misfit_of(at.trial);
+  for (std::size_t i = 1; i < misfit.bands.size(); ++i)
+    EXPECT_GE(misfit.bands[i].from, misfit.bands[i - 1].to);
+  const auto worst =
+      std::max_element(misfit.bands.begin(), misfit.bands.end(),
+                       [](const auto& a, const auto& b) { return a.sigma < b.sigma; });
+  EXPECT_LE(worst->from, 7.123);
+  EXPECT_GE(worst->to, 7.123);
+  EXPECT_EQ(worst->replicates, 4);
+}
+
 TEST(ScaleKurtosis, NormalNoiseHasNone) {
   const Looked at({.seed = 23});
   const auto scales = scale_kurtosis(innovations(at.trial.regression, at.trial.fit), 50.0);
