@@ -10,12 +10,10 @@ namespace {
 
 // What a recording of values on a grid looks like, in steps of that grid.
 struct Codes {
-  double step = 0.0;         // smallest difference between two values that occur
-  double spread = 0.0;       // standard deviation of the difference of neighbours
-  std::size_t distinct = 0;  // values that occur, counted up to kMany
-  std::size_t repeats = 0;   // samples equal to the one before
-  std::size_t longest = 0;   // run of equal samples
-  std::size_t longest_at = 0;
+  double step = 0.0;              // smallest difference between two values that occur
+  double spread = 0.0;            // standard deviation of the difference of neighbours
+  std::size_t distinct = 0;       // values that occur, counted up to kMany
+  std::size_t repeats = 0;        // samples equal to the one before
   std::size_t lowest = 0;         // samples at the smallest value
   std::size_t highest = 0;        // at the largest
   std::size_t below_highest = 0;  // at the value next to it
@@ -44,19 +42,13 @@ Codes codes_of(const Signal& signal) {
   std::map<double, std::size_t> counts;
   double squares = 0.0;
   double before = signal.value(0);
-  std::size_t run = 1;
   for (std::size_t t = 0; t < signal.size(); ++t) {
     const double value = signal.value(t);
     if (counts.size() < kMany) ++counts[value];
     if (t == 0) continue;
     const double difference = value - before;
     squares += difference * difference;
-    run = difference == 0.0 ? run + 1 : 1;
     out.repeats += difference == 0.0 ? 1 : 0;
-    if (run > out.longest) {
-      out.longest = run;
-      out.longest_at = t + 1 - run;
-    }
     before = value;
   }
   count_ends(signal, out);
@@ -71,7 +63,56 @@ Codes codes_of(const Signal& signal) {
   return out;
 }
 
+// Chance that a sample of normal noise falls on the code of the one before.
+double same_code(const Codes& codes) {
+  return std::min(0.9, codes.step / (codes.spread * std::sqrt(2.0 * std::numbers::pi)));
+}
+
+// Below half a step of noise, rounding is no longer white noise of step²/12.
+bool is_coarse(const Codes& codes) { return codes.step > 0.0 && codes.spread < 0.7 * codes.step; }
+
+constexpr std::size_t kFewestStuck = 8;  // samples
+
+// A run of L equal samples is expected n·same^(L-1) times.
+bool never_so_long(std::size_t run, double n, double same) {
+  constexpr double kNever = 1e-6;
+  return run >= kFewestStuck &&
+         std::log(n) + (static_cast<double>(run) - 1.0) * std::log(same) < std::log(kNever);
+}
+
+std::vector<StuckRun> long_runs(const Signal& signal) {
+  const std::size_t n = signal.size();
+  std::vector<StuckRun> out;
+  for (std::size_t begin = 0; begin < n;) {
+    std::size_t end = begin + 1;
+    const double value = signal.value(begin);
+    while (end < n && signal.value(end) == value) ++end;
+    if (end - begin >= kFewestStuck) out.push_back({begin, end - begin});
+    begin = end;
+  }
+  return out;
+}
+
+// Leaves the runs that noise of this step and size never makes.
+void drop_likely(std::vector<StuckRun>& runs, const Codes& codes, std::size_t samples) {
+  if (codes.distinct < 2) return;
+  const double same = same_code(codes);
+  std::erase_if(runs, [&](const StuckRun& run) {
+    return !never_so_long(run.count, static_cast<double>(samples), same);
+  });
+}
+
 }  // namespace
+
+std::vector<StuckRun> stuck_runs(const Signal& signal) {
+  std::vector<StuckRun> out = long_runs(signal);
+  if (out.empty()) return out;
+  const Codes codes = codes_of(signal);
+  // Where the noise is smaller than the step, to stand still is what it does.
+  if (codes.distinct > 1 && is_coarse(codes)) return {};
+  drop_likely(out, codes, signal.size());
+  return out;
+}
 
 std::vector<Defect> integrity(const Signal& signal) {
   std::vector<Defect> out;
@@ -79,22 +120,22 @@ std::vector<Defect> integrity(const Signal& signal) {
   const Codes codes = codes_of(signal);
   const auto n = static_cast<double>(signal.size());
   if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0}};
-  // Two neighbours of normal noise fall on the same code with about this chance.
-  const double same =
-      std::min(0.9, codes.step / (codes.spread * std::sqrt(2.0 * std::numbers::pi)));
+  const double same = same_code(codes);
   const double expected = n * same;
-  const auto repeats = static_cast<double>(codes.repeats);
+  std::vector<StuckRun> stuck = long_runs(signal);
+  drop_likely(stuck, codes, signal.size());
+  std::size_t repeated = codes.repeats;
+  for (const StuckRun& run : stuck) repeated -= run.count - 1;
+  const auto repeats = static_cast<double>(repeated);
   constexpr double kSurely = 6.0;  // standard deviations
   const double excess = repeats - expected;
   // The chance is an approximation: what is within a fifth of it is not called a defect.
   if (excess > kSurely * std::sqrt(expected) + 1.0 && excess > 0.2 * expected)
-    out.push_back({"duplicated_samples", codes.repeats, expected, 0});
-  // A run of L equal samples is expected n·same^(L-1) times.
-  const auto length = static_cast<double>(codes.longest);
-  constexpr double kNever = 1e-6;
-  constexpr double kFewest = 8.0;
-  if (length >= kFewest && std::log(n) + (length - 1.0) * std::log(same) < std::log(kNever))
-    out.push_back({"stuck", codes.longest, 0.0, codes.longest_at});
+    out.push_back({"duplicated_samples", repeated, expected, 0});
+  const auto longest = std::max_element(
+      stuck.begin(), stuck.end(),
+      [](const StuckRun& one, const StuckRun& other) { return one.count < other.count; });
+  if (longest != stuck.end()) out.push_back({"stuck", longest->count, 0.0, longest->first});
   // Noise thins out towards its extremes; a converter at its end piles samples up there.
   const auto piled = [](std::size_t at_end, std::size_t next_to_it) {
     return at_end >= 5 && at_end > 3 * next_to_it;
@@ -103,9 +144,7 @@ std::vector<Defect> integrity(const Signal& signal) {
     out.push_back({"saturation", codes.highest, static_cast<double>(codes.below_highest), 0});
   if (piled(codes.lowest, codes.above_lowest))
     out.push_back({"saturation", codes.lowest, static_cast<double>(codes.above_lowest), 0});
-  // Below half a step of noise, rounding is no longer white noise of step²/12.
-  if (codes.step > 0.0 && codes.spread < 0.7 * codes.step)
-    out.push_back({"quantisation", codes.distinct, 0.0, 0});
+  if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0});
   return out;
 }
 

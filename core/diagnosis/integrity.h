@@ -20,4 +20,11 @@ struct Defect {
 /// coarse that few codes are used. Empty where nothing is wrong.
 std::vector<Defect> integrity(const Signal& signal);
 
+/// Stretches in which the output stands still longer than noise of its step and size ever does.
+struct StuckRun {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+std::vector<StuckRun> stuck_runs(const Signal& signal);
+
 }  // namespace imunoise

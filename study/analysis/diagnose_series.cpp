@@ -15,6 +15,7 @@
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/series.h"
+#include "study/analysis/sound_parts.h"
 
 namespace imunoise::study {
 namespace {
@@ -185,15 +186,18 @@ std::vector<NamedChannel> named_by(const FullModel& model, std::vector<NamedChan
 
 }  // namespace
 
-Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recordings,
+Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recorded,
                                             std::size_t channel, const DiagnoseOptions& options,
                                             const Progress& progress) {
-  const Series series = series_of(recordings, channel);
-  for (std::size_t k = 0; k < series.replicates.size(); ++k) {
-    if (series.replicates[k].size() < kFewestSamples)
+  const Series whole = series_of(recorded, channel);
+  for (std::size_t k = 0; k < whole.replicates.size(); ++k) {
+    if (whole.replicates[k].size() < kFewestSamples)
       return fail(
-          fmt::format("{}: {} samples are too few", series.names[k], series.replicates[k].size()));
+          fmt::format("{}: {} samples are too few", whole.names[k], whole.replicates[k].size()));
   }
+  const SoundParts parts = sound_parts(recorded, channel);
+  const std::vector<recording::Replicate>& recordings = parts.replicates;
+  const Series series = series_of(recordings, channel);
   auto channels = witnesses_of(recordings, channel, options.witnesses);
   if (!channels) return tl::unexpected(channels.error());
   const Result<Chosen> start = current_model(series, options, progress.part(0.0, 0.2));
@@ -213,6 +217,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   out.set_rate_hz(subject->rate.value);
   for (const Witness& one : subject->witnesses) out.add_witnesses(one.name);
   if (!start->note.empty()) out.add_notes(start->note);
+  for (const std::string& note : parts.notes) out.add_notes(note);
   if (subject->replicates() == 1)
     out.add_notes(
         "One replicate: its four quarters stand in for replicates, each predicted from the others. "
@@ -225,7 +230,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
     judge(model, progress.part(0.4, 1.0), out);
     return out;
   }
-  add_integrity(series, out);
+  add_integrity(whole, out);
   LeftOver left = left_over(model);
   *out.mutable_before() = budget_of(model, left);
   *out.mutable_compared_before() = comparison_of(model, left, series.channel, series.names);

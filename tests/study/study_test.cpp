@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/model/model.h"
+#include "study/analysis/diagnose_series.h"
 #include "study/ladder/study_file.h"
 namespace imunoise::study {
 namespace {
@@ -123,6 +124,28 @@ TEST(Study, ItsFileIsReadAsItWasWritten) {
     write(broken);
     EXPECT_FALSE(read_study(file)) << broken;
   }
+}
+
+TEST(Diagnose, WhatStandsStillIsCutAndTold) {
+  auto recordings = *read({}, "");
+  auto held = std::get<std::vector<double>>(*recordings[1].channels[0].samples);
+  std::fill(held.begin() + 1000, held.begin() + 1500, held[1000]);
+  recordings[1].channels[0].samples = std::make_shared<recording::Samples>(held);
+  DiagnoseOptions options;
+  options.model = "WN + RW";
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_GT(report->integrity_size(), 0);
+  EXPECT_EQ(report->integrity(0).effect(), "stuck");
+  EXPECT_EQ(report->candidates(0).effect(), "stuck");
+  EXPECT_EQ(report->candidates(1).effect(), "quantisation");  // what the rest lacks
+  ASSERT_EQ(report->compared_before().replicates_size(), 4);
+  EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
+  EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
+  bool told = false;
+  for (const std::string& note : report->notes())
+    told = told || note.find("stands still for 500 samples") != std::string::npos;
+  EXPECT_TRUE(told);
 }
 
 }  // namespace

@@ -58,5 +58,24 @@ TEST(Integrity, EachDefectIsNamed) {
   EXPECT_EQ(effects(std::vector<double>(100, 3.0)), Names{"stuck"});
 }
 
+TEST(StuckRuns, AreFoundWhereTheyAre) {
+  std::vector<double> held = noise(0.01);
+  std::fill(held.begin() + 5000, held.begin() + 5020, held[5000]);
+  std::fill(held.begin() + 9000, held.begin() + 9400, held[9000]);
+  const auto runs = stuck_runs(Signal(std::span<const double>(held), Hertz{100.0}));
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].first, 5000U);
+  EXPECT_EQ(runs[0].count, 20U);
+  EXPECT_EQ(runs[1].first, 9000U);
+  EXPECT_EQ(runs[1].count, 400U);
+}
+
+TEST(StuckRuns, ACoarseConverterIsNotStuck) {
+  const std::vector<double> coarse = noise(4.0);
+  EXPECT_TRUE(stuck_runs(Signal(std::span<const double>(coarse), Hertz{100.0})).empty());
+  const std::vector<double> fine = noise(0.5);
+  EXPECT_TRUE(stuck_runs(Signal(std::span<const double>(fine), Hertz{100.0})).empty());
+}
+
 }  // namespace
 }  // namespace imunoise
