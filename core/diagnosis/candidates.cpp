@@ -96,6 +96,21 @@ bool is_slow(const TriedEffect& tried, const Current& current) {
   });
 }
 
+// Does what it says of time hold?
+bool is_steady(const TriedEffect& tried) {
+  constexpr double kUnsteady = 1e-3;
+  if (const auto* noise = std::get_if<NoiseChange>(&tried.suggestion.added)) {
+    if (tried.effect == "telegraph") return true;
+    return steadiness(tried.trial.regression, tried.trial.fit, noise->added).p_value > kUnsteady;
+  }
+  if (tried.effect != "telegraph") return true;
+  // Dwells too short to be seen move the levels between the others a little.
+  constexpr double kLittle = 0.05;
+  constexpr double kMoreThanTwo = 0.01;
+  const TestOutcome more = more_levels(tried.trial);
+  return more.p_value > kMoreThanTwo || 0.5 * more.statistic < kLittle * tried.likelihood_gain;
+}
+
 void name_better(TriedEffect& tried) {
   if (tried.effect != "gauss_markov") return;
   if (is_bandwidth(tried.trial.fit.model.noise)) {
@@ -146,12 +161,7 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
                                                                 : INFINITY;
     name_better(out);
     out.slow = is_slow(out, current);
-    if (const auto* noise = std::get_if<NoiseChange>(&one.added);
-        noise != nullptr && out.effect != "telegraph") {
-      constexpr double kUnsteady = 1e-3;
-      out.steady =
-          steadiness(out.trial.regression, out.trial.fit, noise->added).p_value > kUnsteady;
-    }
+    out.steady = is_steady(out);
     out.log_chance = log_chance(out.likelihood_gain, one.dof, out.freedom, one.power, one.search);
     out.gain = -out.log_chance;
     tried[i] = std::move(out);

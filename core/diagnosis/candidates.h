@@ -23,7 +23,7 @@ struct TriedEffect {
   double gain = 0.0;             ///< likelihood_gain less what such a search gains by chance, nats
   double freedom = 0.0;          ///< degrees of freedom behind the noise level there
   bool slow = false;             ///< heat could have done it, had nobody recorded the temperature
-  bool steady = true;            ///< if it is noise: it is there all the time
+  bool steady = true;            ///< noise: it is there all the time; jumps: between two levels
 };
 
 /// Every suggestion that is worth it, tried on the current model, best first.

@@ -103,9 +103,12 @@ Errors training_errors(const Trial& trial, const LeftOver& left) {
 }
 
 Errors heldout_errors(const Trial& trial) {
-  const Regression all = trial.regression.subject().replicates() > 1
-                             ? trial.regression
-                             : trial.regression.in_blocks(kBlocks);
+  const bool single = trial.regression.subject().replicates() == 1;
+  const Regression all = single ? trial.regression.in_blocks(kBlocks) : trial.regression;
+  const auto left_in = [&](const Eigen::VectorXd& coefficients, std::size_t k) -> Eigen::VectorXd {
+    if (single) return inverse_cosine_transform(all.residual_cosines(coefficients, k));
+    return all.residual_samples(coefficients, k);
+  };
   const std::size_t count = all.subject().replicates();
   Errors out{std::vector<double>(count), std::vector<double>(count)};
   for_each_index(count, [&](std::size_t k) {
@@ -121,8 +124,7 @@ Errors heldout_errors(const Trial& trial) {
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
-    out.error[k] = wavelet_error(
-        variance_of(inverse_cosine_transform(all.residual_cosines(at, k)), all.subject()), noise);
+    out.error[k] = wavelet_error(variance_of(left_in(at, k), all.subject()), noise);
     out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
   });
   return out;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/spectrum/cosine_transform.h"
+#include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -276,6 +277,30 @@ Trial with_two_levels(const Regression& regression, const JointFit& fit) {
     best = Trial{std::move(grown), std::move(with)};
   }
   return std::move(*best);
+}
+
+TestOutcome more_levels(const Trial& trial) {
+  const std::vector<StepProducts> steps = step_products(current_of(trial.regression, trial.fit));
+  const std::vector<TwoLevelCourse>& courses = trial.regression.subject().courses;
+  double chi = 0.0;
+  Index freedom = -1;
+  for (std::size_t k = 0; k < courses.size(); ++k) {
+    const std::vector<Index>& jumps = courses[k].jumps;
+    const auto count = static_cast<Index>(jumps.size());
+    if (count == 0) continue;
+    Eigen::VectorXd product(count);
+    Eigen::MatrixXd information(count, count);
+    for (Index i = 0; i < count; ++i) {
+      product(i) = steps[k].product(jumps[static_cast<std::size_t>(i)]);
+      for (Index j = 0; j < count; ++j) {
+        information(i, j) = steps[k].information(jumps[static_cast<std::size_t>(i)],
+                                                 jumps[static_cast<std::size_t>(j)]);
+      }
+    }
+    chi += product.dot(pseudo_inverse(information).matrix * product);
+    freedom += count;
+  }
+  return chi_square_test(chi, std::max<Index>(0, freedom));
 }
 
 }  // namespace imunoise

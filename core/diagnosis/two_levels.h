@@ -2,6 +2,7 @@
 
 #include "core/diagnosis/candidates.h"
 #include "core/diagnosis/step_products.h"
+#include "core/inference/goodness.h"
 
 namespace imunoise {
 
@@ -24,5 +25,10 @@ TwoLevels find_two_levels(const std::vector<StepProducts>& replicates);
 /// A fit with the effect `telegraph` more. The courses are sought under the noise of the fit, and
 /// again under that which they leave: noise that took their place hides them.
 Trial with_two_levels(const Regression& regression, const JointFit& fit);
+
+/// Has a fit with `telegraph` two levels only? What levels of their own between the jumps would
+/// explain besides, to first order: 2 × nats with a degree of freedom for each jump but one. Three
+/// levels, and bumps that decay, fail here, though two levels explain most of them.
+TestOutcome more_levels(const Trial& trial);
 
 }  // namespace imunoise

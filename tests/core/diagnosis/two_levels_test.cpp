@@ -81,5 +81,23 @@ TEST(TwoLevels, NoiseHasNone) {
   }
 }
 
+TEST(TwoLevels, MoreThanTwoAreNoticed) {
+  const auto two = [](std::size_t k, double s) { return 0.8 * level(k, s); };
+  const auto three = [](std::size_t k, double s) {
+    return 0.8 * (level(k, s) + level(k, s + 17.0));  // 0, 1 and 2
+  };
+  const auto bumps = [](std::size_t k, double s) {
+    return 1.5 * std::exp(-std::fmod(s + 11.0 * static_cast<double>(k), 53.0) / 6.0);
+  };
+  const auto seen = [](const Addition& added) {
+    const Trial plain =
+        fitted(subject_of({.model = "WN(sigma2=1)", .seed = 26, .added = added}), "WN");
+    return more_levels(with_two_levels(plain.regression, plain.fit));
+  };
+  EXPECT_GT(seen(two).p_value, 1e-3);
+  EXPECT_LT(seen(three).p_value, 1e-3);
+  EXPECT_LT(seen(bumps).p_value, 1e-3);
+}
+
 }  // namespace
 }  // namespace imunoise
