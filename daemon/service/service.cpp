@@ -48,8 +48,8 @@ class Service::Implementation {
         bench_(subjects.bench),
         records_(std::move(records)),
         studies_(options.studies),
-        jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }),
-        routes_(*v1::Refusal::descriptor()->file()) {
+        routes_(*v1::Refusal::descriptor()->file()),
+        jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }) {
     add_bench_methods(methods_, bench_, subjects.drivers);
     add_record_methods(methods_, *records_);
     add_study_methods(methods_, jobs_, studies_, *records_, options.largest_study);
@@ -178,9 +178,9 @@ class Service::Implementation {
   EventHub hub_;
   std::unique_ptr<Records> records_;
   StudyStore studies_;
-  Jobs jobs_;
   Routes routes_;
   Methods methods_;
+  Jobs jobs_;  // after the methods: its thread runs their code
   std::optional<Gate> gate_;
   mutable std::mutex server_mutex_;  // its first requests may come before it is known here
   std::unique_ptr<HttpServer> server_;

@@ -161,7 +161,8 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
       array_setup(sensors, options.model ? *options.model : kDefaultArrayModel, options.groups,
                   options.per_octave, progress.part(0.0, 0.6));
   if (!setup) return tl::unexpected(setup.error());
-  const auto& [written, layout, measured] = *setup;
+  const Model& written = setup->model;
+  const auto& measured = setup->measured;
   const std::size_t scales = measured.front().scales.size();
   const Result<Eigen::VectorXd> scale_weights = scale_weights_of(options.scales, scales);
   if (!scale_weights) return tl::unexpected(scale_weights.error());

@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "core/support/parallel.h"
 #include "recording/store/recorder.h"
 #include "recording/store/verify.h"
 #include "tests/recording/files.h"
@@ -87,6 +88,7 @@ class Kill : public FileTest {
 };
 
 TEST_F(Kill, AtRandomMoments) {
+  const ThreadLimit single(1);  // no thread but ours when it forks
   for (std::uint64_t seed = 1; seed <= IMUNOISE_KILLS; ++seed) {
     std::mt19937_64 random(seed);
     once(seed, std::chrono::microseconds(random() % 150'000));
