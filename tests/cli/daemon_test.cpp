@@ -86,10 +86,10 @@ TEST_F(Daemon, TellsWhatItDoesAndIsStoppedOnPurposeOnly) {
       << ask("campaigns").out;
   EXPECT_NE(ask("status").out.find("array: records replicate 1 of 2"), std::string::npos);
   EXPECT_NE(ask("status").out.find("left)"), std::string::npos) << ask("status").out;
-  for (int i = 0; i < 100 && ask("status").out.find("factor") == std::string::npos; ++i)
+  const std::string outlook = "  array imu0: averaging times up to";  // once enough samples came
+  for (int i = 0; i < 300 && ask("status").out.find(outlook) == std::string::npos; ++i)
     std::this_thread::sleep_for(100ms);
-  EXPECT_NE(ask("status").out.find("  array imu0: averaging times up to"), std::string::npos)
-      << ask("status").out;
+  EXPECT_NE(ask("status").out.find(outlook), std::string::npos) << ask("status").out;
   const std::string recording = state("array")["recording"];
 
   const std::string path = " --recording data/array/" + recording;

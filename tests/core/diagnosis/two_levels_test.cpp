@@ -84,7 +84,7 @@ TEST(TwoLevels, NoiseHasNone) {
 TEST(TwoLevels, MoreThanTwoAreNoticed) {
   const auto two = [](std::size_t k, double s) { return 0.8 * level(k, s); };
   const auto three = [](std::size_t k, double s) {
-    return 0.8 * (level(k, s) + level(k, s + 17.0));  // 0, 1 and 2
+    return 0.8 * (level(k, s) + level(k, s + 10.0));  // 0, 1 and 2, ten seconds each
   };
   const auto bumps = [](std::size_t k, double s) {
     return 1.5 * std::exp(-std::fmod(s + 11.0 * static_cast<double>(k), 53.0) / 6.0);
