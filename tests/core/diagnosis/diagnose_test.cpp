@@ -50,15 +50,10 @@ TEST(Diagnose, AWave) {
 }
 
 TEST(Diagnose, ATemperatureBehindALag) {
+  // temperature() through a lag of 5 s.
   const auto behind = [](std::size_t k, double s) {
-    // The wave of temperature() at 0.05 Hz and its swing, through a lag of 5 s: gain and delay.
-    const auto through = [&](double hertz, double at) {
-      const double w = 2.0 * std::numbers::pi * hertz * 5.0;
-      return wave(hertz, at - std::atan(w) / (2.0 * std::numbers::pi * hertz)) /
-             std::sqrt(1.0 + w * w);
-    };
-    return 0.5 * (2.0 * through(0.013 + 0.002 * static_cast<double>(k), s) +
-                  through(0.05, s + 3.0) + 0.01 * (s - 5.0));
+    return 0.5 * (2.0 * lagged_wave(0.013 + 0.002 * static_cast<double>(k), 5.0, s) +
+                  lagged_wave(0.05, 5.0, s + 3.0) + 0.01 * (s - 5.0));
   };
   const Diagnosis diagnosis = of({.seed = 5, .added = behind, .temperature = temperature});
   expect_found(diagnosis, "temperature");

@@ -15,6 +15,12 @@ namespace imunoise {
 
 inline double wave(double hertz, double s) { return std::sin(2.0 * std::numbers::pi * hertz * s); }
 
+/// The same through a first-order lag of `lag` seconds: lower, and late.
+inline double lagged_wave(double hertz, double lag, double s) {
+  const double w = 2.0 * std::numbers::pi * hertz;
+  return wave(hertz, s - std::atan(w * lag) / w) / std::sqrt(1.0 + w * w * lag * lag);
+}
+
 /// Something that a test adds to a replicate: a sample's value from its time in s.
 using Addition = std::function<double(std::size_t replicate, double seconds)>;
 

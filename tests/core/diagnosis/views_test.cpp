@@ -107,15 +107,9 @@ TEST(SensorPairs, WhatIsApartIsAsAlikeAsChance) {
 }
 
 TEST(LagCurves, PeakBehindTheWitnessThatCauses) {
-  // The witness's waves through a first-order lag of 5 s.
   const auto behind = [](std::size_t k, double s) {
-    const auto through = [&](double hertz, double at) {
-      const double w = 2.0 * std::numbers::pi * hertz * 5.0;
-      return wave(hertz, at - std::atan(w) / (2.0 * std::numbers::pi * hertz)) /
-             std::sqrt(1.0 + w * w);
-    };
-    return 0.5 *
-           (2.0 * through(0.013 + 0.002 * static_cast<double>(k), s) + through(0.05, s + 3.0));
+    return 0.5 * (2.0 * lagged_wave(0.013 + 0.002 * static_cast<double>(k), 5.0, s) +
+                  lagged_wave(0.05, 5.0, s + 3.0));
   };
   const Looked at({.seed = 27, .added = behind, .temperature = swing});
   const auto curves = lag_curves(at.current);
