@@ -43,4 +43,4 @@ echo
   --report "$out/diagnosis.html" 2> "$out/diagnose.txt"
 echo
 echo "The seal: $(cat "$out/sealed.txt")"
-echo "The page: file://$PWD/$out/diagnosis.html"
+echo "The page: file://$(realpath -m "$out")/diagnosis.html"

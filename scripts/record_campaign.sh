@@ -6,13 +6,14 @@
 set -euo pipefail
 build=$1
 out=$2
+absolute=$(realpath -m "$out")
 
 rm -rf "$out/bench" "$out/bench.toml"
 mkdir -p "$out/bench"
 # An ADIS16405 twenty times faster than real; the others keep time, at a higher rate.
 cat > "$out/bench.toml" << CAMPAIGN
 name = "bench"
-folder = "$PWD/$out/bench"
+folder = "$absolute/bench"
 length = "8 s"
 replicates = 6
 reserve = "100 MB"
@@ -56,4 +57,4 @@ echo
 echo "imunoise calibrate $recording --model \"WN + RW\" --no-diagnose --report $out/bench.html"
 "$build/imunoise" calibrate "$recording" --model "WN + RW" --no-diagnose --report "$out/bench.html" \
   2> "$out/calibrate.txt" | sed '/: \(fits\|does not fit\|no model\)$/,$d'
-echo "The page: file://$PWD/$out/bench.html"
+echo "The page: file://$absolute/bench.html"

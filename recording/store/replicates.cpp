@@ -120,10 +120,11 @@ class Importer {
     for (const Wanted& one : wanted_) {
       const v1::RecordedChannel& channel =
           device.device.streams(one.place.stream).channels(one.place.channel);
+      const bool other = one.place.stream != first.stream;
       const auto unit = resolve_unit(root_.string(), one.name, channel.units(), options_);
+      if (!unit && other) continue;  // a tick of a clock, arbitrary units: nothing that couples
       if (!unit) return tl::make_unexpected(unit.error());
       const double scale = channel.has_scale_factor() ? channel.scale_factor() : 1.0;
-      const bool other = one.place.stream != first.stream;
       Rows& own = device.streams[static_cast<std::size_t>(one.place.stream)];
       Numbers& numbers = own.channels[static_cast<std::size_t>(one.place.channel)];
       const auto samples = std::make_shared<const Samples>(

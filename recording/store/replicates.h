@@ -27,7 +27,8 @@ std::vector<ImportedStream> imported_streams(const v1::Manifest& manifest);
 /// kMinimumSamples are left out. Channels are named "gyro_x", or "imu0/imu/gyro_x" (device, stream)
 /// where a recording has several streams. `options`: channels, rate, unit and split_into, as for
 /// import_files(); int16 and int32 stay counts, other numbers become doubles. The rate is the
-/// nominal one. With options.beside the device's other streams come too, at_times() of that stream.
+/// nominal one. With options.beside the device's other streams come too, at_times() of that stream,
+/// less channels of unknown units.
 ///
 /// Errors: a recording that is not sound (imunoise verify says why), a channel that it has not,
 /// channels of several streams at once (the channels it has are listed), nothing long enough.

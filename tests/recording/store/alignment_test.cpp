@@ -25,21 +25,34 @@ TEST(AtTimes, AreZeroWhereNothingCame) {
             (std::vector<double>{0, 0}));
 }
 
-class OtherStreams : public FileTest {};
+class OtherStreams : public FileTest {
+ protected:
+  // Three seconds of a device whose slow stream has this unit, read beside its gyroscope.
+  Result<std::vector<Replicate>> beside_gyro(const std::string& slow_units) const {
+    const std::filesystem::path root = path("run");
+    RecordingPlan plan;
+    plan.devices = {test_device()};
+    plan.devices[0].mutable_streams(1)->mutable_channels(0)->set_units(slow_units);
+    const auto recorder = Recorder::start(posix_file_system(), root, plan);
+    if (!recorder) return tl::unexpected(recorder.error());
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE((*recorder)->push(0, slow_block(i)));
+    EXPECT_TRUE((*recorder)->push(0, imu_block(0, 300)));
+    EXPECT_TRUE((*recorder)->close());
+    ImportOptions options;
+    options.channels = {"imu0/imu/gyro_x"};
+    options.beside = true;
+    return import_recording(posix_file_system(), root, options);
+  }
+};
+
+TEST_F(OtherStreams, OfUnknownUnitAreLeftOut) {
+  const auto read = beside_gyro("ticks");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->front().channels.size(), 2U);
+}
 
 TEST_F(OtherStreams, AreReadBesideTheOneUnderStudy) {
-  const std::filesystem::path root = path("run");
-  RecordingPlan plan;
-  plan.devices = {test_device()};
-  const auto recorder = Recorder::start(posix_file_system(), root, plan);
-  ASSERT_TRUE(recorder);
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE((*recorder)->push(0, slow_block(i)));
-  EXPECT_TRUE((*recorder)->push(0, imu_block(0, 300)));
-  ASSERT_TRUE((*recorder)->close());
-  ImportOptions options;
-  options.channels = {"imu0/imu/gyro_x"};
-  options.beside = true;
-  const auto read = import_recording(posix_file_system(), root, options);
+  const auto read = beside_gyro("K");
   ASSERT_TRUE(read) << read.error().message;
   const std::vector<Channel>& channels = read->front().channels;
   ASSERT_EQ(channels.size(), 3U);
