@@ -131,20 +131,24 @@ v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
 std::string summary_of(const v1::Calibration& calibration) {
   int fitted = 0;
   int misfits = 0;
+  int doubts = 0;
   int effects = 0;
   int troubled = 0;
   for (const v1::ChannelCalibration& one : calibration.channels()) {
     fitted += one.has_fit() ? 1 : 0;
-    misfits += one.has_fit() && report::verdict(one.fit()) == report::Verdict::kFails ? 1 : 0;
+    if (one.has_fit()) {
+      const report::Verdict verdict = report::verdict(one.fit());
+      misfits += verdict == report::Verdict::kFails ? 1 : 0;
+      doubts += verdict == report::Verdict::kDoubtful ? 1 : 0;
+    }
     effects += one.diagnosis().verdict() != v1::none && one.has_diagnosis() ? 1 : 0;
     troubled += one.troubles().empty() ? 0 : 1;
   }
   std::string out =
       fmt::format("{} of {} channels have a model", fitted, calibration.channels_size());
-  if (fitted > 0) {
-    out +=
-        misfits == 0 ? ", and every model fits" : fmt::format("; {} of these do not fit", misfits);
-  }
+  if (misfits > 0) out += fmt::format("; {} of these do not fit", misfits);
+  if (doubts > 0) out += fmt::format("; of {} it is doubtful that they fit", doubts);
+  if (fitted > 0 && misfits + doubts == 0) out += ", and every model fits";
   if (calibration.settings().diagnose() && fitted > 0)
     out += effects == 0 ? "; no effect is missing" : fmt::format("; {} lack an effect", effects);
   if (troubled > 0) out += fmt::format("; {} had trouble", troubled);
