@@ -126,15 +126,18 @@ Regression Regression::in_blocks(std::size_t blocks) const {
   auto parts = std::make_shared<Subject>(Subject{subject_->rate, subject_->quantity, {}, {}, {}});
   parts->samples = cut(subject_->samples[0], blocks, length);
   parts->cosines = transformed(parts->samples);
-  for (const Witness& from : subject_->witnesses) {
+  // Columns are cut below; only noise that follows a witness needs the witness itself.
+  for (const EffectTerm& term : effects_) {
+    if (term.kind != EffectKind::kModulated || parts->find(term.witness) != nullptr) continue;
+    const Witness& from = *subject_->find(term.witness);
     Witness& to = parts->witnesses.emplace_back(Witness{from.name, from.quantity, {}, {}});
     // The level of a block is part of what it says about the noise there.
     for (std::size_t b = 0; b < blocks; ++b)
       to.samples.emplace_back(from.samples[0].segment(static_cast<Index>(b) * length, length));
     to.cosines = transformed(to.samples);
   }
-  for (const double nats : subject_->own_nats)
-    parts->own_nats.assign(blocks, nats / static_cast<double>(blocks));
+  if (!subject_->own_nats.empty())
+    parts->own_nats.assign(blocks, subject_->own_nats[0] / static_cast<double>(blocks));
   Regression out(parts);
   out.effects_ = effects_;
   out.first_ = first_;

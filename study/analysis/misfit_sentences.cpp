@@ -74,11 +74,12 @@ void add_scales(v1::DiagnosisReport& to) {
   for (const Place& place : places(budget.scales_size(), sigma)) {
     const double from = budget.scales_s(place.begin);
     const double until = budget.scales_s(place.end - 1);
-    const std::string where = from == until ? fmt::format("{:.3g} s", from)
-                                            : fmt::format("{:.3g} to {:.3g} s", from, until);
+    const std::string where =
+        from == until ? fmt::format("an averaging time of {:.3g} s", from)
+                      : fmt::format("averaging times of {:.3g} to {:.3g} s", from, until);
     v1::Misfit& misfit = add(
         to, "scale", sigma(place.worst),
-        fmt::format("At averaging times of {} the recording has {} variance than the model "
+        fmt::format("At {} the recording has {} variance than the model "
                     "({:.1f} sigma){}.",
                     where, percent_more(budget.measured(place.worst) / budget.model(place.worst)),
                     std::abs(sigma(place.worst)),

@@ -111,10 +111,10 @@ std::optional<Figure> pairs_figure(const v1::Comparison& compared) {
   for (const v1::SharedMotion& one : compared.pairs()) {
     // What was to be expected of the strongest of so many places has no colour.
     const double sigma = one.p() < 0.05 ? one.sigma() : 0.0;
-    const std::string middle =
-        tick_label(std::round(200.0 * std::sqrt(one.from_hz() * one.to_hz())) / 200.0);
+    const double middle = std::sqrt(one.from_hz() * one.to_hz());
     std::string mark = fmt::format("{:+.2f}", one.correlation());
-    if (sigma != 0.0 && names.size() <= 6) mark += fmt::format(" · {} Hz", middle);
+    if (sigma != 0.0 && names.size() <= 6)
+      mark += fmt::format(" · {} Hz", number(middle, 2, Digits::kTypeset));
     const std::size_t row = std::min(place(one.first()), place(one.second()));
     const std::size_t column = std::max(place(one.first()), place(one.second()));
     map.cells[row][column] = HeatCell{sigma, mark};

@@ -112,6 +112,7 @@ TEST(ComparisonFigures, TheStretchThatDeviatesIsColoured) {
   EXPECT_NE(figures[1].wide.find("+8.0"), std::string::npos);
   EXPECT_EQ(count_of(figures[3].wide, "cell minus4"), 3U);
   EXPECT_NE(figures[3].wide.find("-0.92"), std::string::npos);
+  EXPECT_NE(figures[3].wide.find("0.0020 Hz"), std::string::npos);  // the middle, however slow
 }
 
 TEST(ComparisonFigures, NothingIsDrawnOfNothing) {

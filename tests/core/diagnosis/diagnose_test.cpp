@@ -136,6 +136,18 @@ TEST(Diagnose, OneReplicateIsProvenOnItsQuarters) {
   EXPECT_TRUE(still.heldout);
 }
 
+TEST(Diagnose, NoiseThatFollowsAWitnessIsJudgedOnTheQuartersOfOneReplicate) {
+  const auto subject = subject_of({.replicates = 1, .seed = 18, .temperature = temperature});
+  const Trial trial = fitted(subject, "WN + RW + modulated(temperature)");
+  ASSERT_TRUE(can_hold_out(trial));
+  const Errors errors = heldout_errors(trial);
+  ASSERT_EQ(errors.error.size(), 4U);
+  EXPECT_TRUE(std::isfinite(errors.total_likelihood()));
+  // A slope that is not there costs what one number costs, and no more.
+  const Errors plain = heldout_errors(fitted(subject));
+  EXPECT_LT(std::abs(errors.total_likelihood() - plain.total_likelihood()), 10.0);
+}
+
 TEST(UselessTerm, GoesAndWhatIsNeededStays) {
   const auto subject =
       subject_of({.seed = 17, .added = [](std::size_t, double s) { return 0.1 * wave(7.123, s); }});
