@@ -158,15 +158,30 @@ std::optional<Errors> errors_held_out(const Trial& model) {
   return heldout_errors(model);
 }
 
-// A model that somebody wants to know the error of.
-void judge(const Trial& model, const Progress& progress, v1::DiagnosisReport& out) {
-  const LeftOver left = left_over(model);
-  progress.report(0.3);
+// The rung of a model that somebody wants to know the error of.
+v1::Rung judged(const Trial& model, const LeftOver& left, const Step& step,
+                const Progress& progress) {
   const std::optional<Errors> heldout = errors_held_out(model);
   progress.report(0.8);
-  *out.add_ladder() = rung_of(model, left, {}, 0.0, misfit_p_value(misfit_of(model)), heldout);
-  *out.mutable_before() = budget_of(model, left);
-  *out.mutable_after() = out.before();
+  return rung_of(model, left, step, 0.0, misfit_p_value(misfit_of(model)), heldout);
+}
+
+// Works out what the ladder would show were one of the best candidates added, exactly as adding it
+// does.
+void foretell(const Series& series, const std::shared_ptr<const Subject>& subject, int count,
+              const Progress& progress, v1::DiagnosisReport& to) {
+  for (v1::EffectCandidate& one : *to.mutable_candidates()) {
+    if (count == 0 || progress.stopped()) return;
+    if (one.term().empty()) continue;  // a defect of the samples
+    --count;
+    auto model = parse_full_model(fmt::format("{} + {}", to.model(), one.term()), subject->rate);
+    if (!model) continue;
+    const Result<Model> noise = started(model->noise, series, {});
+    if (!noise) continue;  // the scales are too few for it
+    model->noise = *noise;
+    const Trial trial = fit_full_model(subject, *model);
+    *one.mutable_next() = judged(trial, left_over(trial), {.added = one.term(), .why = ""}, {});
+  }
 }
 
 // Of the channels beside the one under study, those that a model names; all, if it names one that
@@ -226,13 +241,14 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   Trial model = fit_full_model(subject, start->model, progress.part(0.3, 0.35));
   out.set_model(print(model.fit.model));
   out.set_fitted_model(print_with_values(model.fit.model));
+  LeftOver left = left_over(model);
+  *out.mutable_before() = budget_of(model, left);
   if (!options.search) {
-    judge(model, progress.part(0.4, 1.0), out);
+    *out.mutable_after() = out.before();
+    *out.add_ladder() = judged(model, left, {}, progress.part(0.4, 1.0));
     return out;
   }
   add_integrity(whole, out);
-  LeftOver left = left_over(model);
-  *out.mutable_before() = budget_of(model, left);
   *out.mutable_compared_before() = comparison_of(model, left, series.channel, series.names);
   const double first = model.fit.log_likelihood;
   Step step{.added = "", .why = "The model as it was given."};
@@ -248,6 +264,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
       add_diagnosis(diagnosis, *subject, out);
       add_misfits(diagnosis.misfit, out);
       put_defects_first(out);
+      foretell(series, subject, options.foretold, progress, out);
     }
     if (!diagnosis.worth_adding) break;
     RankedEffect& best = diagnosis.effects.front();

@@ -17,6 +17,7 @@ struct DiagnoseOptions {
   std::vector<std::string> witnesses;  ///< names of channels; empty: all but the one diagnosed
   bool automatic = false;              ///< add what is found, and go on
   bool search = true;                  ///< false: fit the model and judge it, seek nothing
+  int foretold = 0;                    ///< of so many candidates the next rung is worked out
   double level = 0.05;                 ///< chance of a false alarm over all candidates
 };
 

@@ -10,6 +10,8 @@
 namespace imunoise::study {
 namespace {
 
+constexpr int kForetold = 4;  // candidates that are added at once when they are asked for
+
 Result<v1::DiagnosisReport> report_of(const v1::Study& study, const std::string& model, bool search,
                                       const ReadInput& read, const Progress& progress) {
   const auto recordings = read(study.input(), study.channel());
@@ -20,25 +22,50 @@ Result<v1::DiagnosisReport> report_of(const v1::Study& study, const std::string&
   if (!model.empty()) options.model = model;
   options.witnesses.assign(study.witnesses().begin(), study.witnesses().end());
   options.search = search;
+  options.foretold = search ? kForetold : 0;
   return diagnose_series(*recordings, *channel, options, progress);
 }
 
-// Appends an attempt and makes it the current one. Its likelihood is told over that of the first.
-Result<void> append(v1::Study& study, std::optional<std::uint32_t> parent, const std::string& model,
-                    const std::string& added, const ReadInput& read, const Progress& progress) {
+// A study tells likelihoods over that of its first model.
+void count_from_first(const v1::Study& study, v1::Rung& rung) {
+  rung.set_log_likelihood(rung.log_likelihood() - study.first_log_likelihood());
+}
+
+// Fits a model and judges it.
+Result<v1::Rung> climbed(v1::Study& study, const std::string& model, const std::string& added,
+                         const ReadInput& read, const Progress& progress) {
   auto report = report_of(study, model, false, read, progress);
   if (!report) return tl::unexpected(report.error());
   study.set_channel(report->channel());
+  v1::Rung rung = std::move(*report->mutable_ladder(0));
+  rung.set_added(added);
+  if (study.attempts_size() == 0) study.set_first_log_likelihood(rung.log_likelihood());
+  count_from_first(study, rung);
+  return rung;
+}
+
+// The rung that adding a term to an attempt gives, where that is known: it came with the current
+// model's candidates, or was tried before.
+std::optional<v1::Rung> known_rung(const v1::Study& study, std::uint32_t from,
+                                   const std::string& term) {
+  if (from == study.current()) {
+    for (const v1::EffectCandidate& one : study.diagnosis().candidates()) {
+      if (one.has_next() && one.term() == term) return one.next();
+    }
+  }
+  for (const v1::StudyAttempt& one : study.attempts()) {
+    if (one.has_parent() && one.parent() == from && one.rung().added() == term) return one.rung();
+  }
+  return std::nullopt;
+}
+
+// Makes a rung the current attempt.
+void append(v1::Study& study, std::optional<std::uint32_t> parent, v1::Rung rung) {
   v1::StudyAttempt& attempt = *study.add_attempts();
   if (parent) attempt.set_parent(*parent);
-  *attempt.mutable_rung() = report->ladder(0);
-  attempt.mutable_rung()->set_added(added);
-  const double likelihood = attempt.rung().log_likelihood();
-  if (!parent) study.set_first_log_likelihood(likelihood);
-  attempt.mutable_rung()->set_log_likelihood(likelihood - study.first_log_likelihood());
+  *attempt.mutable_rung() = std::move(rung);
   study.set_current(static_cast<std::uint32_t>(study.attempts_size() - 1));
   study.clear_diagnosis();
-  return {};
 }
 
 Result<void> open(v1::Study& study, const v1::StudyRequest::Open& request, const ReadInput& read,
@@ -48,7 +75,10 @@ Result<void> open(v1::Study& study, const v1::StudyRequest::Open& request, const
   *study.mutable_input() = request.input();
   study.set_channel(request.channel());
   *study.mutable_witnesses() = request.witnesses();
-  return append(study, std::nullopt, request.model(), "", read, progress);
+  auto rung = climbed(study, request.model(), "", read, progress);
+  if (!rung) return tl::unexpected(rung.error());
+  append(study, std::nullopt, std::move(*rung));
+  return {};
 }
 
 Result<void> add(v1::Study& study, const v1::StudyRequest::Add& request, const ReadInput& read,
@@ -57,9 +87,16 @@ Result<void> add(v1::Study& study, const v1::StudyRequest::Add& request, const R
   if (from >= static_cast<std::uint32_t>(study.attempts_size()))
     return fail(
         fmt::format("attempt {}: there are {}, counted from 0", from, study.attempts_size()));
-  const std::string model =
-      fmt::format("{} + {}", study.attempts(static_cast<int>(from)).rung().model(), request.term());
-  return append(study, from, model, request.term(), read, progress);
+  if (auto known = known_rung(study, from, request.term())) {
+    append(study, from, std::move(*known));
+    return {};
+  }
+  const std::string& model = study.attempts(static_cast<int>(from)).rung().model();
+  auto rung =
+      climbed(study, fmt::format("{} + {}", model, request.term()), request.term(), read, progress);
+  if (!rung) return tl::unexpected(rung.error());
+  append(study, from, std::move(*rung));
+  return {};
 }
 
 Result<void> undo(v1::Study& study) {
@@ -74,6 +111,9 @@ Result<void> undo(v1::Study& study) {
 Result<void> seek(v1::Study& study, const ReadInput& read, const Progress& progress) {
   auto report = report_of(study, current_model(study), true, read, progress);
   if (!report) return tl::unexpected(report.error());
+  for (v1::EffectCandidate& one : *report->mutable_candidates()) {
+    if (one.has_next()) count_from_first(study, *one.mutable_next());
+  }
   *study.mutable_diagnosis() = std::move(*report);
   return {};
 }

@@ -13,6 +13,26 @@
 namespace imunoise::hidden {
 namespace {
 
+// How often each effect's search over all nulls finds a chance as small as it says: where chances
+// are honest, the share at a familywise p is p over the number of searches, about 15.
+void print_calibration(const std::vector<Outcome>& nulls) {
+  constexpr double kLevels[] = {0.3, 0.1, 0.04, 0.01, 0.001};
+  std::map<std::string, std::vector<int>> counts;
+  for (const Outcome& outcome : nulls) {
+    for (const v1::EffectCandidate& one : outcome.report.candidates()) {
+      std::vector<int>& count = counts[one.effect()];
+      count.resize(std::size(kLevels));
+      for (std::size_t i = 0; i < count.size(); ++i) count[i] += one.familywise_p() < kLevels[i];
+    }
+  }
+  std::printf("familywise p in %zu nulls below 0.3, 0.1, 0.04, 0.01, 0.001:\n", nulls.size());
+  for (const auto& [effect, count] : counts) {
+    std::printf("  %-20s", effect.c_str());
+    for (const int one : count) std::printf(" %4d", one);
+    std::printf("\n");
+  }
+}
+
 TEST(HiddenEffectsTrial, Nothing) {
   const TrialPlan plan = trial_plan();
   if (!plan.only.empty())
@@ -39,6 +59,7 @@ TEST(HiddenEffectsTrial, Nothing) {
   for (const auto& [base, share] : by_base) {
     std::printf("  in %s: %s\n", name_of(base), to_string(share).c_str());
   }
+  print_calibration(outcomes);
   print_where("false alarms", outcomes, [](const Outcome& one) { return one.detected(); });
   EXPECT_LE(alarms.lower(), 0.05);
   if (alarms.count >= 600) {

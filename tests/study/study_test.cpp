@@ -81,6 +81,31 @@ TEST(Study, WhatIsAddedMakesTheErrorFallAndCanBeTakenBack) {
   EXPECT_EQ(other->attempts(2).parent(), 1u);
 }
 
+// What was worked out with the candidates, or tried before, is what adding would give, to the bit.
+TEST(Study, WhatIsKnownIsNotWorkedOutAgain) {
+  const v1::Study first = opened();
+  v1::StudyRequest seek;
+  seek.mutable_candidates();
+  const auto sought = apply(first, seek, read);
+  ASSERT_TRUE(sought) << sought.error().message;
+  const ReadInput nothing = [](const v1::StudyInput&, const std::string&) {
+    return Result<std::vector<recording::Replicate>>(fail("nothing may be read"));
+  };
+  for (int i = 0; i < 2; ++i) {
+    const v1::EffectCandidate& candidate = sought->diagnosis().candidates(i);
+    const auto slow = apply(first, adding(candidate.term()), read);
+    const auto quick = apply(*sought, adding(candidate.term()), nothing);
+    ASSERT_TRUE(slow && quick) << candidate.term();
+    EXPECT_EQ(study_text(*quick), study_text(*slow)) << candidate.term();
+    const auto back = apply(*quick, undoing(), nothing);
+    const auto again = apply(*back, adding(candidate.term()), nothing);
+    ASSERT_TRUE(again) << candidate.term();
+    EXPECT_EQ(again->attempts(2).rung().SerializeAsString(),
+              slow->attempts(1).rung().SerializeAsString());
+  }
+  EXPECT_FALSE(apply(*sought, adding("line(f=3)"), nothing)) << "known to nobody";
+}
+
 // Most moments of a search are no moment of its progress: another thread stops it.
 TEST(Study, AStopIsHeededWheneverItComes) {
   const v1::Study first = opened();
