@@ -31,8 +31,8 @@ mkdir -p "$out"
 echo "$hidden" > "$out/sealed.txt"
 echo "Recording three replicates of an emulated ADIS16405 with something hidden inside (seed $seed) ..."
 for replicate in 1 2 3; do
-  "$imunoise" record "$out/hidden" --replicate "$replicate" --duration 2 --device "emulated device=adis16405 \
-speed=0 seed=$((seed + replicate)) 'model=gyro: WN(sigma2=9e-6) + RW(gamma2=1e-11)' 'effect=$hidden'" \
+  "$imunoise" record "$out/hidden" --replicate "$replicate" --device "emulated device=adis16405 \
+speed=0 length=2400 seed=$((seed + replicate)) 'model=gyro: WN(sigma2=9e-6) + RW(gamma2=1e-11)' 'effect=$hidden'" \
     > "$out/record-$replicate.txt" 2>&1
 done
 

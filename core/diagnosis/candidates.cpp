@@ -121,7 +121,7 @@ void name_better(TriedEffect& tried) {
   constexpr double kClearly = 5.0;
   if (levels < kClearly) return;
   tried.effect = "telegraph";
-  tried.likelihood_gain += levels;
+  tried.likelihood_gain += levels - kClearly;  // so much chance may gain
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace {
 constexpr double kClearGap = 3.0;      // nats: less cannot tell two effects apart
 constexpr std::size_t kProven = 3;     // effects are proven on held-out replicates,
 constexpr std::size_t kMostTried = 8;  // of at most so many that are tried
-constexpr double kMisfitShare = 0.2;   // of the level is spent on misfits of unknown cause
+constexpr double kSpent = 0.8;         // of the level: chances are approximations
+constexpr double kMisfitShare = 0.2;   // of that is spent on misfits of unknown cause
 
 bool has_witness(const Subject& subject, std::string_view effect) {
   return std::any_of(subject.witnesses.begin(), subject.witnesses.end(), [&](const Witness& one) {
@@ -137,7 +138,8 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
         std::min(1.0, static_cast<double>(all.size()) * std::exp(one.tried.log_chance));
     out.effects.push_back(std::move(one));
   }
-  const double level = (1.0 - kMisfitShare) * options.level;
+  const double misfit_level = kSpent * kMisfitShare * options.level;
+  const double level = kSpent * options.level - misfit_level;
   out.misfit = misfit_of(model);
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);
@@ -166,7 +168,7 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
       out.verdict = out.effects[0].confused_with.empty() ? DiagnosisVerdict::kFound
                                                          : DiagnosisVerdict::kOneOf;
     }
-  } else if (out.misfit_p < kMisfitShare * options.level) {
+  } else if (out.misfit_p < misfit_level) {
     out.verdict = DiagnosisVerdict::kUnknown;
   }
   return out;

@@ -55,6 +55,8 @@ double gain_needed(double level, double dof, bool power, const Search& search) {
   return high;
 }
 
+double log_number(double count) { return count > 0.0 ? std::log(count * (count + 1.0)) : 0.0; }
+
 double path_length(const Eigen::MatrixXd& scores) {
   double out = 0.0;
   for (Eigen::Index i = 1; i < scores.cols(); ++i) {

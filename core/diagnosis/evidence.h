@@ -28,6 +28,10 @@ double log_chance(double gain_nats, double dof, double freedom, bool power, cons
 /// Nats that the best place of a search must gain for its chance to be `level`, the noise known.
 double gain_needed(double level, double dof, bool power, const Search& search);
 
+/// What a search pays for having chosen how many (samples, jumps) it needs, nats: log n(n + 1), by
+/// chances 1/(n(n + 1)) of each number, which add up to 1. 0 for none.
+double log_number(double count);
+
 /// The length of the path along the columns of a matrix (unit vectors up to their sign).
 double path_length(const Eigen::MatrixXd& scores);
 

@@ -31,7 +31,8 @@ Suggestions scan_samples(const Current& current) {
                    .added = EffectTerm{.kind = EffectKind::kOutliers, .above = above},
                    .score_nats = found.gain_nats,
                    .dof = count,
-                   .search = {.log_places = count * std::log(samples) - std::lgamma(count + 1.0)}});
+                   .search = {.log_places = count * std::log(samples) - std::lgamma(count + 1.0) +
+                                            log_number(count)}});
   }
   if (subject.replicates() > 1 && current.fit.own_powers.empty()) {
     const double dof =

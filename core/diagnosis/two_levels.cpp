@@ -251,8 +251,12 @@ TwoLevels find_two_levels(const std::vector<StepProducts>& replicates) {
 
 double log_places(const std::vector<TwoLevelCourse>& courses) {
   double out = 0.0;
-  for (const TwoLevelCourse& one : courses) out += one.log_places;
-  return out;
+  double jumps = 0.0;
+  for (const TwoLevelCourse& one : courses) {
+    out += one.log_places;
+    jumps += static_cast<double>(one.jumps.size());
+  }
+  return out + log_number(jumps);
 }
 
 Trial with_two_levels(const Regression& regression, const JointFit& fit) {

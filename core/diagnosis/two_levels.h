@@ -15,7 +15,8 @@ struct TwoLevels {
   std::size_t jumps = 0;                ///< of all replicates
 };
 
-/// Logarithm of how many courses have as many jumps as these.
+/// What courses pay for having been sought, nats: for their times, and for how many jumps they
+/// have.
 double log_places(const std::vector<TwoLevelCourse>& courses);
 
 /// The courses that explain what a fit leaves, each jump being worth its price: found by flipping

@@ -60,6 +60,12 @@ drivers::DriverInfo describe_driver() {
            .by_default = "1",
            .minimum = 0.0,
            .maximum = 1e6},
+          {.name = "length",
+           .type = kNumber,
+           .description = "adis16405: of its own time, after which it ends (default: never)",
+           .unit = "s",
+           .minimum = 0.001,
+           .maximum = 1e9},
           {.name = "preset",
            .type = kText,
            .description = "can: which IMU",
@@ -97,6 +103,7 @@ std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
   if (options.has("rate")) plan.source.rate = Hertz{options.number("rate")};
   plan.faults = options.texts("fault");
   plan.speed = options.number("speed");
+  if (options.has("length")) plan.length_s = options.number("length");
   plan.preset = options.text("preset");
   if (adis) return open_adis16405(plan, host);
   if (plan.speed != 1.0) {
@@ -104,6 +111,7 @@ std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
            " runs in real time; only an adis16405's time is "
            "emulated too");
   }
+  if (plan.length_s) refuse("length: only an emulated adis16405 ends by itself");
   const double rate = plan.source.rate.value;
   if (plan.driver == "xsens" && (rate < 2.0 || rate != std::floor(rate))) {
     refuse("rate: an MTi's is a whole number from 2 Hz on");

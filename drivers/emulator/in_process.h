@@ -3,6 +3,7 @@
 // Emulated devices behind the devices of their real drivers, in one process.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace imunoise::emulator {
 struct InProcessPlan {
   std::string driver;  ///< "adis16405", "xsens" or "can".
   SourceTexts source;
-  std::vector<std::string> faults;  ///< As parse_fault() takes them.
-  double speed = 1.0;               ///< adis16405: times real time; 0: as fast as it is read.
-  std::string preset = "mti600";    ///< can: which IMU.
+  std::vector<std::string> faults;      ///< As parse_fault() takes them.
+  double speed = 1.0;                   ///< adis16405: times real time; 0: as fast as it is read.
+  std::optional<double> length_s = {};  ///< adis16405: ends after so much of its own time.
+  std::string preset = "mti600";        ///< can: which IMU.
 };
 
 /// The driver's own device, started and configured as ever, with an emulated one at the other end

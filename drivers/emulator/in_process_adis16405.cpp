@@ -31,6 +31,7 @@ class EmulatedAdis16405 final : public plugin::Device {
         bus_(std::make_shared<EmulatedBus>(bridge_, begin_ns_)),
         speed_(plan.speed),
         rate_hz_(plan.source.rate.value),
+        length_(plan.length_s ? Time(std::llround(*plan.length_s * 1e9)) : kNever),
         faults_(std::move(faults)),
         device_(bus_, std::move(choice), host) {}
 
@@ -46,19 +47,22 @@ class EmulatedAdis16405 final : public plugin::Device {
       plugged_in_at_.reset();
     }
     go_wrong();
+    if (!end_) end_ = passed() + length_;  // what it took to start does not count
+    if (passed() >= *end_) return samples.end();
     if (!plugged_in_at_ && speed_ > 0.0 && !wait.until(due())) return;
     device_.read(samples, wait);
   }
 
  private:
+  static constexpr Time kNever = std::chrono::years(100);
+
   Time seconds(std::uint64_t samples) const {
     return Time(static_cast<std::int64_t>(static_cast<double>(samples) / rate_hz_ * 1e9));
   }
+  // Of the emulated time, since the device was opened.
+  Time passed() const { return Time(bus_->host_time_ns(bridge_.now()) - begin_ns_); }
   // When the host's clock shows what the emulated one does.
-  Clock::time_point due() const {
-    const std::int64_t passed = bus_->host_time_ns(bridge_.now()) - begin_ns_;
-    return begin_ + real_time(Time(passed));
-  }
+  Clock::time_point due() const { return begin_ + real_time(passed()); }
   Time real_time(Time emulated) const {
     if (speed_ == 0.0) return Time(0);
     return Time(std::llround(static_cast<double>(emulated.count()) / speed_));
@@ -100,6 +104,8 @@ class EmulatedAdis16405 final : public plugin::Device {
   std::shared_ptr<EmulatedBus> bus_;
   double speed_;
   double rate_hz_;
+  Time length_;
+  std::optional<Time> end_;
   std::vector<Fault> faults_;
   std::uint64_t unplugged_for_ = 0;  // samples
   std::optional<Clock::time_point> plugged_in_at_;

@@ -57,6 +57,18 @@ TEST_F(Emulate, ReplicatesHaveNumbersOfTheirOwn) {
   EXPECT_EQ(fit.status, 0) << fit.errors;
 }
 
+// The length is counted in the time of the device, so that a fast and a slow machine record alike.
+TEST_F(Emulate, TheSameSeedAndLengthAreTheSameSamples) {
+  const std::string device =
+      " --device 'emulated device=adis16405 speed=0 length=20 seed=4' --json";
+  const long first = stored(report(run("record monday" + device)), "imu");
+  EXPECT_NEAR(static_cast<double>(first), 20.0 * 102.4, 2.0);
+  EXPECT_EQ(stored(report(run("record tuesday" + device)), "imu"), first);
+  const std::string wv = " --channel emulated/imu/gyro_x --json";
+  EXPECT_EQ(json::parse(run("wv monday" + wv).out)["variance"],
+            json::parse(run("wv tuesday" + wv).out)["variance"]);
+}
+
 TEST_F(Emulate, RecordsAnAdis16405WhoseEffectsAreThere) {
   report(
       run("record monday --device \"emulated device=adis16405 speed=0 seed=2 "

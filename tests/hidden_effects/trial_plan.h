@@ -11,7 +11,8 @@
 namespace imunoise::hidden {
 
 /// A trial's size. Development seeds are 1, 2, …: the detector may be mended on what they show.
-/// Test seeds begin at 1,000,001 and are run once a release.
+/// Test seeds are run once, and lie in a million of their own for each time: what they show is then
+/// known.
 struct TrialPlan {
   bool test_seeds = false;  ///< IMUNOISE_TRIAL_SEEDS=test
   std::size_t repeats = 2;  ///< IMUNOISE_TRIAL_REPEATS: seeds for each effect and strength
@@ -20,7 +21,7 @@ struct TrialPlan {
   std::string only;  ///< IMUNOISE_TRIAL_ONLY: effects whose name holds this text
 
   std::uint64_t seed(std::size_t repeat) const {
-    return (test_seeds ? 1'000'001U : 1U) + static_cast<std::uint64_t>(repeat);
+    return (test_seeds ? 2'000'001U : 1U) + static_cast<std::uint64_t>(repeat);
   }
   bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }
 };

@@ -35,6 +35,33 @@ TEST(Evidence, AnUncertainLevelIsStudentsLaw) {
   EXPECT_NEAR(std::exp(log_chance(gain, 1.0, freedom, false)), 0.01, 1e-9);
 }
 
+// As many of 40 numbers as one likes: over all counts the chance is no larger than it says. 4,000
+// sets, binomial bound of four standard deviations.
+TEST(Evidence, HowManyIsPaidFor) {
+  constexpr int kSets = 4000;
+  constexpr int kNumbers = 40;
+  RandomStream rng(43);
+  int passed = 0;
+  for (int set = 0; set < kSets; ++set) {
+    std::vector<double> squares(kNumbers);
+    for (double& one : squares) one = std::pow(rng.normal(), 2);
+    std::sort(squares.rbegin(), squares.rend());
+    double least = 0.0;
+    double gain = 0.0;
+    for (int count = 1; count <= kNumbers; ++count) {
+      gain += 0.5 * squares[static_cast<std::size_t>(count) - 1];
+      const Search search{.log_places = std::lgamma(kNumbers + 1.0) - std::lgamma(count + 1.0) -
+                                        std::lgamma(kNumbers - count + 1.0) + log_number(count)};
+      least = std::min(least, log_chance(gain, count, INFINITY, false, search));
+    }
+    passed += least < std::log(0.05) ? 1 : 0;
+  }
+  EXPECT_LT(passed, kSets * 0.05 + 4.0 * std::sqrt(kSets * 0.05 * 0.95));
+  double all = 0.0;
+  for (int count = 1; count <= 100000; ++count) all += std::exp(-log_number(count));
+  EXPECT_NEAR(all, 1.0, 1e-4);
+}
+
 // The best frequency of a wave in white noise: how often it passes what the path says it does once
 // in twenty. 2,000 sets, binomial bounds of four standard deviations; the bound is an upper one
 // that is close for rare crossings.
