@@ -34,6 +34,7 @@ if [[ -z $build ]]; then
   quietly build/log/demo-configure.txt cmake --preset demo
   quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise imunoised imunoise_plugins
 fi
+out=$(realpath -m "$out")
 rm -rf "$out"
 mkdir -p "$out"
 
@@ -59,7 +60,7 @@ faults() {
 
 cat > "$out/soak.toml" << CAMPAIGN
 name = "soak"
-folder = "$PWD/$out/recordings"
+folder = "$out/recordings"
 length = "$length s"
 replicates = $((total / length + kills + 10))
 reserve = "100 MB"

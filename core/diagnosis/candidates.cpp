@@ -96,6 +96,18 @@ bool is_slow(const TriedEffect& tried, const Current& current) {
   });
 }
 
+bool is_course(const Suggestion& suggestion) {
+  const auto* term = std::get_if<EffectTerm>(&suggestion.added);
+  return term != nullptr && term->kind == EffectKind::kTelegraph;
+}
+
+// A level that is left and never taken again was no level of two.
+bool jumps_once(const Trial& trial) {
+  const std::vector<TwoLevelCourse>& courses = trial.regression.subject().courses;
+  return std::all_of(courses.begin(), courses.end(),
+                     [](const TwoLevelCourse& one) { return one.jumps.size() <= 1; });
+}
+
 // Does what it says of time hold?
 bool is_steady(const TriedEffect& tried) {
   constexpr double kUnsteady = 1e-3;
@@ -103,15 +115,18 @@ bool is_steady(const TriedEffect& tried) {
     if (tried.effect == "telegraph") return true;
     return steadiness(tried.trial.regression, tried.trial.fit, noise->added).p_value > kUnsteady;
   }
-  if (tried.effect != "telegraph") return true;
+  if (!is_course(tried.suggestion)) return true;
   // Dwells too short to be seen move the levels between the others a little.
   constexpr double kLittle = 0.05;
   constexpr double kMoreThanTwo = 0.01;
+  const double little = kLittle * tried.likelihood_gain;
   const TestOutcome more = more_levels(tried.trial);
-  return more.p_value > kMoreThanTwo || 0.5 * more.statistic < kLittle * tried.likelihood_gain;
+  if (!(more.p_value > kMoreThanTwo) && !(0.5 * more.statistic < little)) return false;
+  return jumps_left(tried.trial) < std::max(-std::log(kMoreThanTwo), little);
 }
 
 void name_better(TriedEffect& tried) {
+  if (is_course(tried.suggestion) && jumps_once(tried.trial)) tried.effect = "step";
   if (tried.effect != "gauss_markov") return;
   if (is_bandwidth(tried.trial.fit.model.noise)) {
     tried.effect = "low_pass";
@@ -152,8 +167,7 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
     Suggestion one = *worth[i];
     if (auto* term = std::get_if<EffectTerm>(&one.added)) *term = rounded(*term, one.shape_error);
     Trial trial = try_out(current, one);
-    if (one.effect == "telegraph")
-      one.search.log_places = log_places(trial.regression.subject().courses);
+    if (is_course(one)) one.search.log_places = log_places(trial.regression.subject().courses);
     TriedEffect out{std::string(one.effect), one, std::move(trial)};
     out.likelihood_gain = out.trial.fit.log_likelihood - current.fit.log_likelihood;
     const std::size_t effects = out.trial.regression.effects().size();

@@ -233,6 +233,18 @@ std::string_view coupling_effect(Quantity subject, const Witness& witness) {
   return "cross_axis";
 }
 
+std::vector<std::string_view> unrecorded_couplings(const Subject& subject) {
+  std::vector<std::string_view> out{
+      "temperature", "supply_voltage", "magnetic",
+      subject.quantity == Quantity::kAcceleration ? "cross_axis" : "g_sensitivity",
+      "common_vibration"};
+  for (const Witness& one : subject.witnesses) {
+    std::erase(out, coupling_effect(subject.quantity, one));
+    if (may_share_motion(subject.quantity, one)) std::erase(out, "common_vibration");
+  }
+  return out;
+}
+
 bool may_share_motion(Quantity subject, const Witness& witness) {
   return quantity_of(witness) == subject;
 }

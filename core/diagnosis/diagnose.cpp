@@ -17,10 +17,9 @@ constexpr std::size_t kMostTried = 8;  // of at most so many that are tried
 constexpr double kSpent = 0.8;         // of the level: chances are approximations
 constexpr double kMisfitShare = 0.2;   // of that is spent on misfits of unknown cause
 
-bool has_witness(const Subject& subject, std::string_view effect) {
-  return std::any_of(subject.witnesses.begin(), subject.witnesses.end(), [&](const Witness& one) {
-    return coupling_effect(subject.quantity, one) == effect;
-  });
+// Noise that is told by its spectrum alone: what couples in would look the same.
+bool told_by_spectrum(std::string_view effect) {
+  return effect == "gauss_markov" || effect == "flicker" || effect == "resonance";
 }
 
 void add_unique(std::vector<std::string>& to, std::string_view id, const std::string& self) {
@@ -45,6 +44,7 @@ bool rivals(const RankedEffect& one, const RankedEffect& other, double significa
 // Candidates whose evidence is as good, and what was not recorded.
 void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
                      double significant) {
+  const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
   for (std::size_t i = 0; i < effects.size(); ++i) {
     RankedEffect& one = effects[i];
     for (const RankedEffect& other : effects) {
@@ -54,8 +54,10 @@ void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
                                 : std::abs(one.tried.gain - other.tried.gain) < kClearGap;
       if (alike) add_unique(one.confused_with, other.tried.effect, one.tried.effect);
     }
-    if (one.tried.slow && !has_witness(subject, "temperature"))
-      add_unique(one.confused_with, "temperature", one.tried.effect);
+    for (const std::string_view id : unrecorded) {
+      const bool could = id == "temperature" ? one.tried.slow : told_by_spectrum(one.tried.effect);
+      if (could) add_unique(one.confused_with, id, one.tried.effect);
+    }
     if (one.tried.suggestion.backwards)
       add_unique(one.confused_with, "gauss_markov", one.tried.effect);
   }

@@ -138,7 +138,8 @@ Suggestions scan_lines(const Current& current) {
                                              .harmonics = static_cast<double>(count)},
                          .score_nats = kept,
                          .dof = line.dof * count,
-                         .search = line.search};
+                         .search = line.search,
+                         .shape_error = line.shape_error / order};
     harmonics.search.log_places = std::log(4.0 * most);
     out.push_back(std::move(harmonics));
     break;

@@ -307,4 +307,9 @@ TestOutcome more_levels(const Trial& trial) {
   return chi_square_test(chi, std::max<Index>(0, freedom));
 }
 
+double jumps_left(const Trial& trial) {
+  const TwoLevels other = find_two_levels(step_products(current_of(trial.regression, trial.fit)));
+  return other.gain_nats - log_places(other.courses);
+}
+
 }  // namespace imunoise

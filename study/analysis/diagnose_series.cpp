@@ -139,6 +139,7 @@ void put_defects_first(v1::DiagnosisReport& to) {
 
 Step step_of(const TriedEffect& effect) {
   return {.added = added_term(effect),
+          .effect = effect.effect,
           .why = fmt::format("{} explains {:.1f} nats ({:.1f} more than chance).", effect.effect,
                              effect.likelihood_gain, effect.gain)};
 }

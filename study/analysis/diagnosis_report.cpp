@@ -90,7 +90,17 @@ v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<E
   return to;
 }
 
-std::string summary_of(const Diagnosis& diagnosis) {
+// What else to record so that an effect can be told from couplings that nobody could see.
+std::string beside(const RankedEffect& best, const Subject& subject) {
+  const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
+  const bool some = std::any_of(unrecorded.begin(), unrecorded.end(), [&](std::string_view id) {
+    return std::find(best.confused_with.begin(), best.confused_with.end(), id) !=
+           best.confused_with.end();
+  });
+  return some ? ", and what it could couple to beside it" : "";
+}
+
+std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
   switch (diagnosis.verdict) {
     case DiagnosisVerdict::kFound: {
       const RankedEffect& best = diagnosis.effects.front();
@@ -100,9 +110,9 @@ std::string summary_of(const Diagnosis& diagnosis) {
     case DiagnosisVerdict::kOneOf: {
       const RankedEffect& best = diagnosis.effects.front();
       return fmt::format(
-          "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.",
+          "Something is missing: {}, or {}. These data cannot tell them apart. Record {}{}.",
           effect_info(best.tried.effect).title, titles(best.confused_with),
-          effect_info(best.tried.effect).record_next);
+          effect_info(best.tried.effect).record_next, beside(best, subject));
     }
     case DiagnosisVerdict::kUnknown:
       if (diagnosis.worth_adding) {
@@ -145,7 +155,7 @@ std::string added_term(const TriedEffect& effect) {
 
 void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to) {
   to.set_verdict(verdict_of(diagnosis.verdict));
-  to.set_summary(summary_of(diagnosis));
+  to.set_summary(summary_of(diagnosis, subject));
   for (std::size_t i = 0; i < std::min(kMostCandidates, diagnosis.effects.size()); ++i)
     *to.add_candidates() = candidate_of(diagnosis.effects[i], diagnosis.heldout, subject);
   for (const DetectionLimit& from : diagnosis.limits) {
@@ -174,6 +184,7 @@ v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, dou
   v1::Rung out;
   out.set_model(print(trial.fit.model));
   out.set_added(step.added);
+  out.set_effect(step.effect);
   for (const std::string& term : step.dropped) out.add_dropped(term);
   out.set_training_error(training_errors(trial, left).mean_error());
   if (heldout) {

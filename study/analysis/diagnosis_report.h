@@ -14,6 +14,7 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
 /// How the ladder came to a model.
 struct Step {
   std::string added;                   ///< term in the grammar; empty on the first rung
+  std::string effect{};                ///< id of what was added
   std::vector<std::string> dropped{};  ///< terms that it made useless
   std::string why;
 };

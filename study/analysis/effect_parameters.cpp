@@ -177,12 +177,18 @@ std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
       double jumps = 0.0;
       double seconds = 0.0;
       for (std::size_t k = 0; k < found.replicates(); ++k) {
-        jumps += static_cast<double>(found.courses[k].jumps.size());
+        const std::vector<Eigen::Index>& times = found.courses[k].jumps;
+        if (effect.effect == "step" && jumps == 0.0 && !times.empty()) {
+          const double first = static_cast<double>(times.front()) / found.rate.value;
+          out.push_back(parameter("time_s", first, "s"));
+          out.push_back(parameter("replicate", static_cast<double>(k + 1), "1"));
+        }
+        jumps += static_cast<double>(times.size());
         seconds += found.seconds(k);
       }
       add_shared(effect, unit, out);
       out.push_back(parameter("jumps", jumps, "1"));
-      out.push_back(parameter("dwell_s", seconds / jumps, "s"));
+      if (effect.effect != "step") out.push_back(parameter("dwell_s", seconds / jumps, "s"));
       break;
     }
     case EffectKind::kOutliers:

@@ -72,12 +72,30 @@ TEST(Diagnose, AStepInOneReplicate) {
   EXPECT_NEAR(term.time, 90.0, 1.0);
 }
 
-TEST(Diagnose, QuantisationNoiseAndAFastMarkovProcess) {
+// The same each time, as a relay's would be: two levels explain it, but none is taken again.
+TEST(Diagnose, AStepOfOneHeightInEachReplicate) {
+  expect_found(
+      of({.seed = 16,
+          .added = [](std::size_t k,
+                      double s) { return s >= 60.0 + 10.0 * static_cast<double>(k) ? 0.6 : 0.0; }}),
+      "step");
+}
+
+TEST(Diagnose, QuantisationNoise) {
   expect_found(of({.model = "WN(sigma2=1) + RW(gamma2=1e-5) + QN(q2=0.1)", .seed = 8}),
                "quantisation");
-  expect_found(
-      of({.model = "WN(sigma2=1) + RW(gamma2=1e-5) + AR1(phi=0.98, sigma2=0.002)", .seed = 9}),
-      "gauss_markov");
+}
+
+// A supply that wanders would look the same, and nobody recorded it. Heat is not so fast.
+TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
+  const Diagnosis diagnosis =
+      of({.model = "WN(sigma2=1) + RW(gamma2=1e-5) + AR1(phi=0.98, sigma2=0.002)", .seed = 9});
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
+  EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kOneOf);
+  const auto& confused = diagnosis.effects[0].confused_with;
+  EXPECT_EQ(std::count(confused.begin(), confused.end(), "supply_voltage"), 1);
+  EXPECT_EQ(std::count(confused.begin(), confused.end(), "temperature"), 0);
 }
 
 TEST(Diagnose, OutliersAreTakenOut) {

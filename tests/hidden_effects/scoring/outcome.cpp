@@ -138,13 +138,10 @@ Outcome diagnose(const CaseSpec& spec, const Questions& questions) {
 bool all_named(const Outcome& outcome) {
   for (const std::string& name : outcome.spec.effects) {
     const auto right = hidden::right_names(*find_effect(name), outcome.spec.withhold);
-    bool found = false;
-    for (const v1::EffectCandidate& one : outcome.report.candidates()) {
-      if (!contains(right, one.effect())) continue;
-      for (const v1::Rung& rung : outcome.report.ladder()) {
-        found = found || (!rung.added().empty() && rung.added() == one.term());
-      }
-    }
+    const auto& ladder = outcome.report.ladder();
+    const bool found = std::any_of(ladder.begin(), ladder.end(), [&](const v1::Rung& rung) {
+      return contains(right, rung.effect());
+    });
     if (!found) return false;
   }
   return true;

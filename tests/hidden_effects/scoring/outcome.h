@@ -65,7 +65,7 @@ struct Questions {
 /// Makes the case, tells the tool the base's model (without values), and keeps what it says.
 Outcome diagnose(const CaseSpec& spec, const Questions& questions = {});
 
-/// Whether every effect of a case is among what the tool added or put first, with `automatic`.
+/// Whether every effect of a case is among what the tool added, with `automatic`.
 bool all_named(const Outcome& outcome);
 
 }  // namespace imunoise::hidden
