@@ -17,7 +17,7 @@ constexpr double kLongestWait = 8.0;        // s
 
 class StudyMethods {
  public:
-  StudyMethods(Jobs& jobs, const StudyStore& studies, const Records& records,
+  StudyMethods(Jobs& jobs, StudyStore& studies, const Records& records,
                std::uint64_t largest_recording)
       : jobs_(jobs), studies_(studies), records_(records), largest_(largest_recording) {}
 
@@ -33,21 +33,20 @@ class StudyMethods {
     *open.mutable_witnesses() = request.witnesses();
     open.set_model(request.model());
     const auto work = [this, name = request.study(), asked](const Progress& progress) {
-      if (studies_.contains(name)) return Result<v1::Study>(fail("there is one of this name"));
-      return keep(name, apply({}, asked, progress));
+      return kept(name, apply({}, asked, progress), &StudyStore::create);
     };
     return begun("open", request.study(), work, request.wait_s());
   }
 
   // A request on a study that is there.
   Answer<v1::Job> change(const std::string& operation, const std::string& name,
-                         const v1::StudyRequest& asked, bool kept, double wait_s) {
+                         const v1::StudyRequest& asked, bool keep, double wait_s) {
     if (auto study = studies_.read(name); !study) return tl::unexpected(study.error());
-    const auto work = [this, name, asked, kept](const Progress& progress) -> Result<v1::Study> {
+    const auto work = [this, name, asked, keep](const Progress& progress) -> Result<v1::Study> {
       const auto study = studies_.read(name);
       if (!study) return fail(study.error().sentence);
       auto out = apply(*study, asked, progress);
-      return kept ? keep(name, std::move(out)) : out;
+      return keep ? kept(name, std::move(out), &StudyStore::replace) : out;
     };
     return begun(operation, name, work, wait_s);
   }
@@ -64,8 +63,7 @@ class StudyMethods {
         return fail(fmt::format("attempt {}: there are {}, counted from 0", from, count));
       if (from != study->current()) study->clear_diagnosis();
       study->set_current(from);
-      if (studies_.contains(request.name())) return fail("there is one of this name");
-      return keep(request.name(), std::move(*study));
+      return kept(request.name(), std::move(*study), &StudyStore::create);
     };
     return begun("branch", request.study(), work, request.wait_s());
   }
@@ -114,9 +112,10 @@ class StudyMethods {
     return recording::import_recording(records_.files(), input.files(0), options, only_stopping);
   }
 
-  Result<v1::Study> keep(const std::string& name, Result<v1::Study> study) const {
+  using Keep = Result<void> (StudyStore::*)(const std::string& name, const v1::Study& study);
+  Result<v1::Study> kept(const std::string& name, Result<v1::Study> study, Keep keep) {
     if (!study) return study;
-    if (auto done = studies_.write(name, *study); !done) return tl::unexpected(done.error());
+    if (auto done = (studies_.*keep)(name, *study); !done) return tl::unexpected(done.error());
     return study;
   }
 
@@ -133,7 +132,7 @@ class StudyMethods {
   }
 
   Jobs& jobs_;
-  const StudyStore& studies_;
+  StudyStore& studies_;
   const Records& records_;
   const std::uint64_t largest_;
   std::counting_semaphore<> waiting_{kMostWaiting};
@@ -171,13 +170,18 @@ void add_steps(Methods& methods, const std::shared_ptr<StudyMethods>& steps) {
 
 }  // namespace
 
-void add_study_methods(Methods& methods, Jobs& jobs, const StudyStore& studies,
-                       const Records& records, std::uint64_t largest_recording) {
+void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+                       std::uint64_t largest_recording) {
   add_steps(methods, std::make_shared<StudyMethods>(jobs, studies, records, largest_recording));
   methods.on<v1::ListStudiesRequest>(
       [&studies](const v1::ListStudiesRequest&) { return studies.list(); });
   methods.on<v1::GetStudyRequest>(
       [&studies](const v1::GetStudyRequest& request) { return studies.read(request.study()); });
+  methods.on<v1::DeleteStudyRequest>(
+      [&studies](const v1::DeleteStudyRequest& request) -> Answer<v1::DeletedStudy> {
+        if (auto done = studies.remove(request.study()); !done) return tl::unexpected(done.error());
+        return v1::DeletedStudy();
+      });
   methods.on<v1::ListJobsRequest>([&jobs](const v1::ListJobsRequest&) -> Answer<v1::JobList> {
     v1::JobList out;
     for (const v1::Job& job : jobs.list()) *out.add_jobs() = job;

@@ -9,7 +9,7 @@ namespace imunoise::service {
 
 /// Studies and jobs. `largest_recording`: bytes of a recording's chunks; a larger one would need
 /// too much memory beside recording.
-void add_study_methods(Methods& methods, Jobs& jobs, const StudyStore& studies,
-                       const Records& records, std::uint64_t largest_recording);
+void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+                       std::uint64_t largest_recording);
 
 }  // namespace imunoise::service
