@@ -33,7 +33,8 @@ class Replicate {
 
   Result<ReplicateOutcome> run() {
     auto opened = open_devices(
-        plan_.devices, [this](std::size_t i) { return open(i); }, plan_.patience, progress_);
+        plan_.devices, [this](std::size_t i) { return open(i, progress_.stop_token()); },
+        plan_.patience, progress_);
     if (!opened) return tl::make_unexpected(opened.error());
     describe(*opened);
     if (auto room = check_disk(); !room) return tl::make_unexpected(room.error());
@@ -55,10 +56,10 @@ class Replicate {
   }
 
  private:
-  Result<std::unique_ptr<drivers::Device>> open(std::size_t i) {
+  Result<std::unique_ptr<drivers::Device>> open(std::size_t i, const std::stop_token& stop) {
     drivers::WireHandler wire;
     if (!wires_.empty()) wire = [file = wires_[i].get()](auto bytes) { file->take(bytes); };
-    return open_device(plan_.devices[i], tell_, std::move(wire));
+    return open_device(plan_.devices[i], tell_, std::move(wire), stop);
   }
 
   void describe(const OpenDevices& opened) {
@@ -102,7 +103,7 @@ class Replicate {
                      {},
                      observer_of(readers_.size())};
       if (plan_.reopening) {
-        one.open = [this, i] { return open(i); };
+        one.open = [this, i](const std::stop_token& stop) { return open(i, stop); };
         one.reopening = *plan_.reopening;
       }
       readers_.push_back(

@@ -44,6 +44,12 @@ class RecordReplicate : public testing::Whims {
     return record_replicate(recording::posix_file_system(), plan_, {},
                             Progress({}, source_.get_token()));
   }
+  std::jthread stop_after(std::chrono::milliseconds time) {
+    return std::jthread([this, time] {
+      std::this_thread::sleep_for(time);
+      source_.request_stop();
+    });
+  }
   v1::ReplicateNote note_on_disk(int index = 0) const {
     return recording::read_manifest(recording::posix_file_system(), plan_.folder)
         .value()
@@ -189,13 +195,34 @@ TEST_F(RecordReplicate, WhenAllHaveFailedWithoutReopeningItIsInterrupted) {
   EXPECT_NE(note_on_disk().reason().find("broken"), std::string::npos);
 }
 
+TEST_F(RecordReplicate, StoppedItWaitsForNoDeviceThatIsBeingOpened) {
+  add("a", "deaf");
+  const std::jthread stopper = stop_after(300ms);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record();
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().message, "stopped while devices were being opened");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
+}
+
+TEST_F(RecordReplicate, StoppedItWaitsForNoDeviceThatIsBeingOpenedAgain) {
+  add("a");
+  add("b");
+  plan_.duration = 3600s;
+  const std::jthread stopper = stop_after(1s);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record({{300ms, "a", "broken"}, {340ms, "a", "deaf"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
+  const v1::ReplicateNote note = note_on_disk();
+  ASSERT_EQ(note.missing_size(), 1);
+  EXPECT_EQ(note.missing(0).reason(), "driver whims: the device is broken");
+}
+
 TEST_F(RecordReplicate, StoppedItIsInterruptedAndClosed) {
   add("a");
   plan_.duration = 3600s;
-  const std::jthread stopper([&](const std::stop_token&) {
-    std::this_thread::sleep_for(500ms);
-    source_.request_stop();
-  });
+  const std::jthread stopper = stop_after(500ms);
   const auto begin = std::chrono::steady_clock::now();
   const auto done = record();
   ASSERT_TRUE(done.has_value()) << done.error().message;
