@@ -101,6 +101,7 @@ Result<void> Device::start(const OptionValues& values) {
   std::int32_t status = guarded([&] {
     return driver_.table->open(values.data(), values.size(), &handlers_, &handle, error.table());
   });
+  handlers_.stopping.reset();  // also where the driver forgot to take it back
   if (status == IMUNOISE_OK && handle == nullptr) {
     return fail(failure(driver_, status, "open succeeded without a device"));
   }
