@@ -36,9 +36,10 @@ extern "C" {
 /* What an operation came to. Negative: an error, with its text in imunoise_error. */
 enum {
   IMUNOISE_OK = 0,
-  IMUNOISE_TIMEOUT = 1,   /* read: no sample came in time */
-  IMUNOISE_CANCELLED = 2, /* read: cancel was called; so will every later read say */
-  IMUNOISE_END = 3,       /* read: nothing will ever come again (a replay is over) */
+  IMUNOISE_TIMEOUT = 1, /* read: no sample came in time */
+  IMUNOISE_CANCELLED =
+      2,            /* read: cancel was called; so will every later read say; open: likewise */
+  IMUNOISE_END = 3, /* read: nothing will ever come again (a replay is over) */
 
   IMUNOISE_FAILED = -1,      /* none of the others */
   IMUNOISE_BAD_OPTION = -2,  /* open: a value that this device cannot do */
@@ -192,6 +193,11 @@ typedef struct imunoise_host {
    * nobody wants them, as a call without bytes asks; else 1. `context` as above. Appended later:
    * look at size first. */
   int32_t (*wire)(void* context, const uint8_t* bytes, uint64_t count);
+  /* For an open that waits: while it runs, the host calls cancel(argument) once nobody wants the
+   * device any more, from any thread, or here and now. Open then fails with IMUNOISE_CANCELLED as
+   * soon as it can. NULL takes the request back: no call is under way when this returns, and none
+   * follows; do so before open returns. `context` as above. Appended later: look at size first. */
+  void (*while_opening)(void* context, void (*cancel)(void* argument), void* argument);
 } imunoise_host;
 
 typedef struct imunoise_device imunoise_device; /* the driver's own */
@@ -210,7 +216,8 @@ typedef struct imunoise_driver {
       streams; /* what a device usually delivers; NULL if stream_count is 0 */
 
   /* Finds and starts the device. On IMUNOISE_OK *device is set and will be closed; else nothing is
-   * left behind. `context` is for imunoise_host.note. May take seconds. */
+   * left behind. `context` is for imunoise_host.note. May take seconds; what waits for longer than
+   * one asks for imunoise_host.while_opening. */
   int32_t (*open)(const imunoise_option_value* const* values, uint32_t value_count, void* context,
                   imunoise_device** device, imunoise_error* error);
 

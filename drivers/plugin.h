@@ -17,24 +17,23 @@
 /// Makes a shared object a driver. `describe` is a function that returns
 /// imunoise::drivers::DriverInfo; `open_function` one that is an imunoise::plugin::OpenFunction.
 /// Once a shared object, outside of namespaces.
-#define IMUNOISE_DRIVER(describe, open_function)                                               \
-  namespace {                                                                                  \
-  const imunoise_host* imunoise_the_host = nullptr;                                            \
-  std::int32_t imunoise_open(const imunoise_option_value* const* values, std::uint32_t count,  \
-                             void* context, imunoise_device** device, imunoise_error* error) { \
-    return ::imunoise::plugin::Operations::open(                                               \
-        open_function, ::imunoise::plugin::Host(imunoise_the_host, context), values, count,    \
-        device, error);                                                                        \
-  }                                                                                            \
-  }                                                                                            \
-  extern "C" const imunoise_driver* imunoise_driver_entry(std::uint32_t abi,                   \
-                                                          const imunoise_host* host) {         \
-    if (abi == IMUNOISE_DRIVER_ABI) imunoise_the_host = host;                                  \
-    try {                                                                                      \
-      static const auto* const driver =                                                        \
-          new ::imunoise::plugin::Driver(describe(), &imunoise_open);                          \
-      return driver->table();                                                                  \
-    } catch (const std::exception&) {                                                          \
-      return nullptr;                                                                          \
-    }                                                                                          \
+#define IMUNOISE_DRIVER(describe, open_function)                                                   \
+  namespace {                                                                                      \
+  const imunoise_host* imunoise_the_host = nullptr;                                                \
+  std::int32_t imunoise_open(const imunoise_option_value* const* values, std::uint32_t count,      \
+                             void* context, imunoise_device** device, imunoise_error* error) {     \
+    return ::imunoise::plugin::Operations::open(open_function, imunoise_the_host, context, values, \
+                                                count, device, error);                             \
+  }                                                                                                \
+  }                                                                                                \
+  extern "C" const imunoise_driver* imunoise_driver_entry(std::uint32_t abi,                       \
+                                                          const imunoise_host* host) {             \
+    if (abi == IMUNOISE_DRIVER_ABI) imunoise_the_host = host;                                      \
+    try {                                                                                          \
+      static const auto* const driver =                                                            \
+          new ::imunoise::plugin::Driver(describe(), &imunoise_open);                              \
+      return driver->table();                                                                      \
+    } catch (const std::exception&) {                                                              \
+      return nullptr;                                                                              \
+    }                                                                                              \
   }

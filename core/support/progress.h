@@ -25,6 +25,8 @@ class Progress {
 
   /// True when the caller wants the work to end early.
   bool stopped() const { return stop_.stop_requested(); }
+  /// For what can be told to stop while it waits.
+  const std::stop_token& stop_token() const { return stop_; }
 
   /// The same progress, restricted to a part of the whole: fraction f is told as begin + (end -
   /// begin)·f.

@@ -114,8 +114,8 @@ class Run {
   static std::string describe(const v1::ReplicateNote& note) {
     std::string out;
     for (const v1::MissingDevice& one : note.missing()) {
-      out +=
-          fmt::format("{}{} is missing ({})", out.empty() ? "" : "; ", one.device(), one.reason());
+      out += fmt::format("{}{} {} ({})", out.empty() ? "" : "; ", one.device(),
+                         one.joined_ns() > 0 ? "came late" : "is missing", one.reason());
     }
     if (note.disturbances_size() > 0) {
       out += fmt::format(

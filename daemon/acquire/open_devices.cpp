@@ -22,13 +22,14 @@ void wait(std::chrono::duration<double> time, const Progress& progress) {
 }  // namespace
 
 Result<std::unique_ptr<drivers::Device>> open_device(const DevicePlan& plan, const DeviceNote& note,
-                                                     drivers::WireHandler wire) {
+                                                     drivers::WireHandler wire,
+                                                     std::stop_token stop) {
   auto device = drivers::Device::open(
       plan.driver, plan.options,
       [note, name = plan.name](std::string_view text) {
         if (note) note(name, text);
       },
-      std::move(wire));
+      std::move(wire), std::move(stop));
   if (!device) return fail(fmt::format("{}: {}", plan.name, device.error().message));
   return device;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ using DeviceNote = std::function<void(const std::string& device, std::string_vie
 
 /// Opens one device. Error: names it.
 Result<std::unique_ptr<drivers::Device>> open_device(const DevicePlan& plan, const DeviceNote& note,
-                                                     drivers::WireHandler wire);
+                                                     drivers::WireHandler wire,
+                                                     std::stop_token stop);
 
 struct OpenDevices {
   std::vector<std::unique_ptr<drivers::Device>> devices;  ///< As the plans; null: missing.

@@ -29,7 +29,7 @@ Reader::Reader(recording::Recorder& recorder, ReaderPlan plan,
 void Reader::stop() {
   {
     const std::lock_guard lock(mutex_);
-    stop_ = true;
+    stop_.request_stop();
     if (device_) device_->cancel();
   }
   stopping_.notify_all();
@@ -94,12 +94,12 @@ bool Reader::open_again() {
   lost_.assign(lost_.size(), true);
   std::unique_lock lock(mutex_);
   device_.reset();
-  while (!stopping_.wait_for(lock, pause_, [&] { return stop_; })) {
+  while (!stopping_.wait_for(lock, pause_, [&] { return stop_.stop_requested(); })) {
     pause_ = std::min(2 * pause_, plan_.reopening.longest);
     lock.unlock();
     auto opened = same_device();
     lock.lock();
-    if (stop_) return false;
+    if (stop_.stop_requested()) return false;
     if (opened) {
       device_ = std::move(*opened);
       disconnection_ = std::exchange(failure_, std::nullopt)->message;
@@ -112,7 +112,7 @@ bool Reader::open_again() {
 
 // Error: it does not open, or is another device now.
 Result<std::unique_ptr<drivers::Device>> Reader::same_device() const {
-  auto device = plan_.open();
+  auto device = plan_.open(stop_.get_token());
   if (!device) return device;
   const v1::RecordedDevice now =
       recorded_device(plan_.device.name(), plan_.driver, (*device)->info());

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,7 +34,7 @@ struct ReaderPlan {
   v1::RecordedDevice device;
   std::string driver;
   /// Opens the device once more; without it a failure ends the reader.
-  std::function<Result<std::unique_ptr<drivers::Device>>()> open;
+  std::function<Result<std::unique_ptr<drivers::Device>>(const std::stop_token&)> open;
   Reopening reopening;
   /// Sees what is recorded; may be empty.
   std::function<void(const recording::Block&)> observe;
@@ -47,8 +48,8 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// From any thread; waits for the reader's end: for the driver's answer to cancel(), or for an
-  /// attempt to open it that is under way.
+  /// From any thread; waits for the reader's end: for the driver's answer to cancel(), or to the
+  /// end of an attempt to open it.
   void stop();
   /// Nothing will come any more.
   bool ended() const { return ended_; }
@@ -88,7 +89,7 @@ class Reader {
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable stopping_;
-  bool stop_ = false;
+  std::stop_source stop_;
   std::unique_ptr<drivers::Device> device_;
 
   std::thread thread_;  // last: it uses all of the above

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 #include <utility>
 
 #include "daemon/acquire/clock.h"
+#include "daemon/acquire/latecomer.h"
 #include "daemon/acquire/recorded_device.h"
 #include "daemon/acquire/wire_file.h"
 #include "recording/store/layout.h"
@@ -33,7 +35,8 @@ class Replicate {
 
   Result<ReplicateOutcome> run() {
     auto opened = open_devices(
-        plan_.devices, [this](std::size_t i) { return open(i); }, plan_.patience, progress_);
+        plan_.devices, [this](std::size_t i) { return open(i, progress_.stop_token()); },
+        plan_.patience, progress_);
     if (!opened) return tl::make_unexpected(opened.error());
     describe(*opened);
     if (auto room = check_disk(); !room) return tl::make_unexpected(room.error());
@@ -55,10 +58,10 @@ class Replicate {
   }
 
  private:
-  Result<std::unique_ptr<drivers::Device>> open(std::size_t i) {
+  Result<std::unique_ptr<drivers::Device>> open(std::size_t i, const std::stop_token& stop) {
     drivers::WireHandler wire;
     if (!wires_.empty()) wire = [file = wires_[i].get()](auto bytes) { file->take(bytes); };
-    return open_device(plan_.devices[i], tell_, std::move(wire));
+    return open_device(plan_.devices[i], tell_, std::move(wire), stop);
   }
 
   void describe(const OpenDevices& opened) {
@@ -66,13 +69,18 @@ class Replicate {
     recorded_.replicate = plan_.replicate;
     recorded_.started_ns = now_ns();
     for (std::size_t i = 0; i < opened.devices.size(); ++i) {
-      if (!opened.devices[i]) continue;
-      const DevicePlan& device = plan_.devices[i];
-      recorded_.devices.push_back(
-          recorded_device(device.name, device.driver.info.name, opened.devices[i]->info()));
+      if (opened.devices[i]) recorded_.devices.push_back(describe(i, *opened.devices[i]));
     }
+    note_.set_replicate(plan_.replicate);
+    note_.set_state(v1::open);
+    note_.set_started_ns(recorded_.started_ns);
     note_.mutable_missing()->Add(opened.missing.begin(), opened.missing.end());
     recorded_.note = note_;
+  }
+
+  v1::RecordedDevice describe(std::size_t i, const drivers::Device& device) const {
+    const DevicePlan& plan = plan_.devices[i];
+    return recorded_device(plan.name, plan.driver.info.name, device.info());
   }
 
   // With an end in sight, everything that is to come must fit.
@@ -94,22 +102,58 @@ class Replicate {
 
   void read(recording::Recorder& recorder, OpenDevices& opened) {
     for (std::size_t i = 0; i < opened.devices.size(); ++i) {
-      if (!opened.devices[i]) continue;
-      ReaderPlan one{readers_.size(),
-                     recorded_.devices[readers_.size()],
-                     plan_.devices[i].driver.info.name,
-                     {},
-                     {},
-                     observer_of(readers_.size())};
-      if (plan_.reopening) {
-        one.open = [this, i] { return open(i); };
-        one.reopening = *plan_.reopening;
+      if (opened.devices[i]) {
+        start_reading(recorder, i, std::move(opened.devices[i]));
+      } else if (plan_.reopening) {
+        latecomers_[i] = std::make_unique<Latecomer>(
+            [this, i](const std::stop_token& stop) { return open(i, stop); }, *plan_.reopening);
       }
-      readers_.push_back(
-          std::make_unique<Reader>(recorder, std::move(one), std::move(opened.devices[i])));
     }
-    wait();
+    wait(recorder);
+    latecomers_.clear();
     for (const auto& reader : readers_) reader->stop();
+  }
+
+  // Reads device i of the plan, which is described as the last of the recorded ones that have no
+  // reader yet.
+  void start_reading(recording::Recorder& recorder, std::size_t i,
+                     std::unique_ptr<drivers::Device> device) {
+    const std::size_t index = readers_.size();
+    ReaderPlan one{index, recorded_.devices[index], plan_.devices[i].driver.info.name, {},
+                   {},    observer_of(index)};
+    if (plan_.reopening) {
+      one.open = [this, i](const std::stop_token& stop) { return open(i, stop); };
+      one.reopening = *plan_.reopening;
+    }
+    readers_.push_back(std::make_unique<Reader>(recorder, std::move(one), std::move(device)));
+  }
+
+  // Those that have come take part from now on.
+  void welcome(recording::Recorder& recorder) {
+    std::erase_if(latecomers_, [&](auto& one) {
+      auto device = one.second->take();
+      const bool came = device != nullptr;
+      if (came) join(recorder, one.first, std::move(device));
+      return came;
+    });
+  }
+
+  void join(recording::Recorder& recorder, std::size_t i, std::unique_ptr<drivers::Device> device) {
+    v1::RecordedDevice described = describe(i, *device);
+    v1::MissingDevice& missing =
+        *std::find_if(note_.mutable_missing()->begin(), note_.mutable_missing()->end(),
+                      [&](const auto& one) { return one.device() == described.name(); });
+    missing.set_joined_ns(now_ns());
+    recorder.annotate(note_);
+    const auto added = recorder.add(described);
+    if (!added) {
+      missing.clear_joined_ns();
+      missing.set_reason(added.error().message);
+      return;
+    }
+    recorded_.devices.push_back(std::move(described));
+    if (plan_.observer != nullptr) plan_.observer->join(recorded_.devices.back());
+    start_reading(recorder, i, std::move(device));
   }
 
   std::function<void(const recording::Block&)> observer_of(std::size_t device) const {
@@ -118,7 +162,7 @@ class Replicate {
   }
 
   // Until the plan's end, the readers', the disk's, or that of the caller's patience.
-  void wait() {
+  void wait(recording::Recorder& recorder) {
     const Steady::time_point begin = Steady::now();
     Steady::time_point looked = begin;
     const auto over = [&] {
@@ -138,7 +182,10 @@ class Replicate {
       progress_.report(std::min(1.0, passed / *plan_.duration));
       return passed >= *plan_.duration;
     };
-    while (!over()) std::this_thread::sleep_for(kWatchEvery);
+    while (!over()) {
+      welcome(recorder);
+      std::this_thread::sleep_for(kWatchEvery);
+    }
   }
 
   bool reserve_is_reached() {
@@ -169,8 +216,6 @@ class Replicate {
     if (interruption_.empty() && failed == readers_.size()) {
       interruption_ = note_.missing(note_.missing_size() - 1).reason();
     }
-    note_.set_replicate(plan_.replicate);
-    note_.set_started_ns(recorded_.started_ns);
     note_.set_ended_ns(now_ns());
     note_.set_state(interruption_.empty() ? v1::complete : v1::interrupted);
     note_.set_reason(interruption_);
@@ -201,6 +246,7 @@ class Replicate {
   v1::ReplicateNote note_;  // what the manifest will say
   std::vector<std::unique_ptr<Reader>> readers_;
   std::string interruption_;
+  std::map<std::size_t, std::unique_ptr<Latecomer>> latecomers_;  // by device of the plan
 };
 
 }  // namespace

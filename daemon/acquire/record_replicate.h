@@ -18,13 +18,15 @@ namespace imunoise::acquire {
 
 struct ReplicatePlan;
 
-/// Sees a replicate while it is recorded. take() comes from a thread a device, between begin() and
-/// end().
+/// Sees a replicate while it is recorded. take() comes from a thread a device, the others from one,
+/// between begin() and end().
 class ReplicateObserver {
  public:
   virtual ~ReplicateObserver() = default;
   virtual void begin(const ReplicatePlan& plan, const std::vector<v1::RecordedDevice>& devices) = 0;
-  /// `device` is an index in begin()'s.
+  /// One more device, whose index is the next.
+  virtual void join(const v1::RecordedDevice& device) = 0;
+  /// `device` is an index in begin()'s, or of one that joined.
   virtual void take(std::size_t device, const recording::Block& block) = 0;
   virtual void end() = 0;
 };
@@ -38,7 +40,8 @@ struct ReplicatePlan {
   /// Keeps what comes over each device's wire, where its driver tells, in "replicate-1/imu0.wire".
   bool wire = false;
   std::string campaign;  ///< For the manifest.
-  /// Set: a device that has not opened by then is missing, unless all are. Unset: it is an error.
+  /// Set: a device that has not opened by then is missing, unless all are, and joins the others
+  /// when it comes, if `reopening` is set. Unset: it is an error.
   std::optional<std::chrono::duration<double>> patience;
   /// Set: a device that fails is opened again. Unset: it is given up.
   std::optional<Reopening> reopening;
@@ -59,7 +62,7 @@ struct DeviceOutcome {
 };
 
 struct ReplicateOutcome {
-  std::vector<DeviceOutcome> devices;  ///< Without those that are missing from the beginning.
+  std::vector<DeviceOutcome> devices;  ///< Without those that never came.
   v1::ReplicateNote note;              ///< As the manifest has it.
 };
 

@@ -5,12 +5,15 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <iostream>
 #include <memory>
+#include <string_view>
 
 #include "daemon/app/arguments.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/log.h"
 #include "daemon/app/service_manager.h"
+#include "daemon/app/study_process.h"
 #include "daemon/app/supervisor.h"
 #include "daemon/service/service.h"
 #include "drivers/host/load.h"
@@ -64,6 +67,7 @@ std::unique_ptr<service::Service> serve(const Arguments& arguments, const Campai
   options.tokens = arguments.tokens;
   options.hosts = arguments.hosts;
   options.studies = arguments.studies;
+  options.compute = compute_in_child();
   options.version = IMUNOISE_VERSION;
   service::ServiceSubjects subjects{bench, drivers, {}};
   for (const CampaignFile& one : files.found) subjects.campaigns.push_back(one.campaign);
@@ -113,6 +117,8 @@ int record(const Arguments& arguments, const CampaignFiles& files, const drivers
 }
 
 int run(int argc, const char* const* argv) {
+  if (argc == 2 && argv[1] == std::string_view(kComputeWord))
+    return compute_for_parent(std::cin, std::cout);
   const auto parsed = parse_arguments(argc, argv);
   if (const int* const status = std::get_if<int>(&parsed)) return *status;
   const auto& arguments = std::get<Arguments>(parsed);

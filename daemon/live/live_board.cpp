@@ -16,6 +16,11 @@ void LiveReplicate::begin(const acquire::ReplicatePlan& plan,
   for (const v1::RecordedDevice& one : devices) devices_.push_back(std::make_shared<Watched>(one));
 }
 
+void LiveReplicate::join(const v1::RecordedDevice& device) {
+  const std::lock_guard lock(mutex_);
+  devices_.push_back(std::make_shared<Watched>(device));
+}
+
 // The reader's own lock alone: devices do not wait for each other.
 void LiveReplicate::take(std::size_t device, const recording::Block& block) {
   const std::shared_ptr<Watched> to = devices().at(device);

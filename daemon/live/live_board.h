@@ -22,6 +22,7 @@ class LiveReplicate : public acquire::ReplicateObserver {
 
   void begin(const acquire::ReplicatePlan& plan,
              const std::vector<v1::RecordedDevice>& devices) override;
+  void join(const v1::RecordedDevice& device) override;
   void take(std::size_t device, const recording::Block& block) override;
   void end() override;
 

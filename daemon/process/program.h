@@ -2,8 +2,9 @@
 
 // Another program, run beside us at the lowest priority.
 
-#include <stop_token>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/support/progress.h"
@@ -11,10 +12,19 @@
 
 namespace imunoise::process {
 
+/// What a program is told, and who listens to it.
+struct Talk {
+  std::string input = {};  ///< All that it reads on standard input.
+  /// Takes each line of its standard output, on the caller's thread; empty: that is part of what it
+  /// said, as standard errors are.
+  std::function<void(std::string_view line)> hear = {};
+};
+
 /// Runs a program to its end: `command` is its path and its arguments. It yields the processor and,
 /// where memory is short, its life to everybody else. The caller's wish to stop ends it with
 /// SIGTERM, after three seconds with SIGKILL. Error: it cannot be run, was ended by a signal, or
 /// its exit status was not 0: then with the last of what it said.
-Result<void> run_program(const std::vector<std::string>& command, const Progress& progress);
+Result<void> run_program(const std::vector<std::string>& command, const Progress& progress,
+                         const Talk& talk = {});
 
 }  // namespace imunoise::process

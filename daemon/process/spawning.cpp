@@ -31,9 +31,13 @@ void Spawning::print_to(const std::filesystem::path& log) {
   posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
 }
 
-void Spawning::print_to(int descriptor) {
-  posix_spawn_file_actions_adddup2(&actions_, descriptor, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions_, descriptor, STDERR_FILENO);
+void Spawning::read_from(int descriptor) {
+  posix_spawn_file_actions_adddup2(&actions_, descriptor, STDIN_FILENO);
+}
+
+void Spawning::print_to(int output, int errors) {
+  posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
 }
 
 Result<pid_t> Spawning::start(const std::vector<std::string>& words) const {

@@ -18,10 +18,13 @@ class Spawning {
   Spawning(const Spawning&) = delete;
   Spawning& operator=(const Spawning&) = delete;
 
+  /// Standard input comes from an open descriptor.
+  void read_from(int descriptor);
   /// Standard output and errors are appended to a file,
   void print_to(const std::filesystem::path& log);
-  /// or go to an open descriptor.
-  void print_to(int descriptor);
+  /// or go to an open descriptor, or to one each.
+  void print_to(int descriptor) { print_to(descriptor, descriptor); }
+  void print_to(int output, int errors);
   /// Starts `words[0]`, found along PATH, with the others as arguments. Error: it cannot be run.
   Result<pid_t> start(const std::vector<std::string>& words) const;
 

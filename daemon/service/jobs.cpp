@@ -1,9 +1,6 @@
 #include "daemon/service/jobs.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,7 +9,6 @@
 namespace imunoise::service {
 namespace {
 
-constexpr int kNice = 10;
 constexpr std::ptrdiff_t kKept = 32;  // that are over
 constexpr std::chrono::milliseconds kTellEvery{250};
 
@@ -22,7 +18,7 @@ v1::Job without_result(const v1::Job& job) {
   return out;
 }
 
-// A computation that runs out of memory must not take recording with it.
+// Whatever is thrown must not take recording with it.
 Result<v1::Study> guarded(const Jobs::Work& work, const Progress& progress) {
   try {
     return work(progress);
@@ -38,12 +34,9 @@ bool over(const v1::Job& job) {
 }
 
 Jobs::Jobs(std::size_t waiting, Changed changed)
-    : waiting_(waiting), changed_(std::move(changed)), thread_([this](const std::stop_token& stop) {
-        // Of this thread alone; where that is not allowed, jobs run as everything else does.
-        static_cast<void>(
-            ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), kNice));
-        run(stop);
-      }) {}
+    : waiting_(waiting),
+      changed_(std::move(changed)),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Jobs::~Jobs() {
   thread_.request_stop();

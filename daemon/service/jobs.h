@@ -21,7 +21,7 @@
 
 namespace imunoise::service {
 
-/// Thread-safe. Its thread has a low priority.
+/// Thread-safe.
 class Jobs {
  public:
   using Work = std::function<Result<v1::Study>(const Progress& progress)>;

@@ -5,6 +5,7 @@
 #include <google/protobuf/descriptor_database.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 
@@ -236,11 +237,16 @@ std::string operation(const Route& route, Schemas& schemas) {
   return out.add("responses", responses(route, schemas)).text();
 }
 
+// As OpenAPI writes verbs.
+std::string lower(std::string verb) {
+  for (char& c : verb) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return verb;
+}
+
 std::string paths(const Routes& routes, Schemas& schemas) {
   std::map<std::string, JsonObject> by_path;
   for (const Route& route : routes.all()) {
-    by_path[plain_path(route)].add(route.verb == "POST" ? "post" : "get",
-                                   operation(route, schemas));
+    by_path[plain_path(route)].add(lower(route.verb), operation(route, schemas));
   }
   JsonObject out;
   for (const auto& [path, operations] : by_path) out.add(path, operations.text());

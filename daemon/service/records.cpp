@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> folders(const std::map<std::string, fs::path>& roots) {
-  std::vector<fs::path> out;
-  for (const auto& [campaign, root] : roots) out.push_back(root);
-  return out;
-}
-
 // Nothing in it leads anywhere but down.
 bool leads_down(const std::string& folder) {
   const fs::path path(folder);
@@ -53,10 +47,16 @@ Result<std::unique_ptr<Records>> Records::open(const std::vector<v1::Campaign>& 
   return std::unique_ptr<Records>(new Records(std::move(roots), std::move(*catalogue), freshness));
 }
 
+std::vector<fs::path> Records::folders() const {
+  std::vector<fs::path> out;
+  for (const auto& [campaign, root] : roots_) out.push_back(root);
+  return out;
+}
+
 Records::Records(std::map<std::string, fs::path> roots, catalogue::Catalogue catalogue,
                  std::chrono::milliseconds freshness)
     : roots_(std::move(roots)),
-      files_(confined_files(folders(roots_))),
+      files_(confined_files(folders())),
       freshness_(freshness),
       catalogue_(std::move(catalogue)) {}
 

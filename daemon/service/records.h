@@ -40,6 +40,8 @@ class Records {
   Answer<std::filesystem::path> path_of(const std::string& campaign,
                                         const std::string& folder) const;
   const recording::FileSystem& files() const { return *files_; }
+  /// What files() sees: of each campaign one.
+  std::vector<std::filesystem::path> folders() const;
 
  private:
   Records(std::map<std::string, std::filesystem::path> roots, catalogue::Catalogue catalogue,

@@ -2,6 +2,7 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include <initializer_list>
 #include <optional>
 
 namespace imunoise::service {
@@ -31,8 +32,13 @@ Route route_of(const google::protobuf::MethodDescriptor& method) {
   Route out;
   out.method = &method;
   out.http = method.options().GetExtension(v1::http);
-  out.verb = out.http.get().empty() ? "POST" : "GET";
-  out.path = out.http.get().empty() ? out.http.post() : out.http.get();
+  const std::initializer_list<std::pair<const char*, const std::string&>> ways = {
+      {"GET", out.http.get()}, {"POST", out.http.post()}, {"DELETE", out.http.delete_()}};
+  for (const auto& [verb, path] : ways) {
+    if (path.empty()) continue;
+    out.verb = verb;
+    out.path = path;
+  }
   out.parts = parts_of(out.path);
   return out;
 }

@@ -26,7 +26,7 @@ struct PathPart {
 
 struct Route {
   const google::protobuf::MethodDescriptor* method = nullptr;
-  std::string verb;  ///< "GET" or "POST"
+  std::string verb;  ///< "GET", "POST" or "DELETE"
   std::string path;  ///< As the option has it.
   std::vector<PathPart> parts;
   v1::Http http;

@@ -52,7 +52,7 @@ class Service::Implementation {
         jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }) {
     add_bench_methods(methods_, bench_, subjects.drivers);
     add_record_methods(methods_, *records_);
-    add_study_methods(methods_, jobs_, studies_, *records_, options.largest_study);
+    add_study_methods(methods_, jobs_, studies_, *records_, options.largest_study, options.compute);
     add_own_methods();
     gate_.emplace(routes_, methods_, std::move(gate));
   }

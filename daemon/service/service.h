@@ -14,6 +14,7 @@
 #include "core/support/result.h"
 #include "daemon/service/bench.h"
 #include "daemon/service/http_server.h"
+#include "daemon/service/study_computation.h"
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
 
@@ -28,6 +29,7 @@ struct ServiceOptions {
   /// Largest recording that is studied here, bytes of its chunks: what is read of it takes several
   /// times as much memory.
   std::uint64_t largest_study = std::uint64_t{256} << 20U;
+  ComputeStudy compute = compute_here;        ///< What jobs do.
   std::chrono::milliseconds freshness{1000};  ///< Of lists of recordings.
   std::chrono::milliseconds tick{1000};  ///< From one event of a recording campaign to the next.
   std::size_t waiting_jobs = 16;

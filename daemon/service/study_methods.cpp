@@ -6,8 +6,6 @@
 #include <semaphore>
 
 #include "daemon/config/quantity_text.h"
-#include "recording/store/replicates.h"
-#include "study/ladder/study.h"
 
 namespace imunoise::service {
 namespace {
@@ -17,9 +15,13 @@ constexpr double kLongestWait = 8.0;        // s
 
 class StudyMethods {
  public:
-  StudyMethods(Jobs& jobs, const StudyStore& studies, const Records& records,
-               std::uint64_t largest_recording)
-      : jobs_(jobs), studies_(studies), records_(records), largest_(largest_recording) {}
+  StudyMethods(Jobs& jobs, StudyStore& studies, const Records& records,
+               std::uint64_t largest_recording, ComputeStudy compute)
+      : jobs_(jobs),
+        studies_(studies),
+        records_(records),
+        largest_(largest_recording),
+        compute_(std::move(compute)) {}
 
   Answer<v1::Job> open(const v1::OpenStudyRequest& request) {
     if (auto good = check_new(request.study()); !good) return tl::unexpected(good.error());
@@ -33,21 +35,20 @@ class StudyMethods {
     *open.mutable_witnesses() = request.witnesses();
     open.set_model(request.model());
     const auto work = [this, name = request.study(), asked](const Progress& progress) {
-      if (studies_.contains(name)) return Result<v1::Study>(fail("there is one of this name"));
-      return keep(name, apply({}, asked, progress));
+      return kept(name, compute({}, asked, progress), &StudyStore::create);
     };
     return begun("open", request.study(), work, request.wait_s());
   }
 
   // A request on a study that is there.
   Answer<v1::Job> change(const std::string& operation, const std::string& name,
-                         const v1::StudyRequest& asked, bool kept, double wait_s) {
+                         const v1::StudyRequest& asked, bool keep, double wait_s) {
     if (auto study = studies_.read(name); !study) return tl::unexpected(study.error());
-    const auto work = [this, name, asked, kept](const Progress& progress) -> Result<v1::Study> {
-      const auto study = studies_.read(name);
+    const auto work = [this, name, asked, keep](const Progress& progress) -> Result<v1::Study> {
+      auto study = studies_.read(name);
       if (!study) return fail(study.error().sentence);
-      auto out = apply(*study, asked, progress);
-      return kept ? keep(name, std::move(out)) : out;
+      auto out = compute(std::move(*study), asked, progress);
+      return keep ? kept(name, std::move(out), &StudyStore::replace) : out;
     };
     return begun(operation, name, work, wait_s);
   }
@@ -64,8 +65,7 @@ class StudyMethods {
         return fail(fmt::format("attempt {}: there are {}, counted from 0", from, count));
       if (from != study->current()) study->clear_diagnosis();
       study->set_current(from);
-      if (studies_.contains(request.name())) return fail("there is one of this name");
-      return keep(request.name(), std::move(*study));
+      return kept(request.name(), std::move(*study), &StudyStore::create);
     };
     return begun("branch", request.study(), work, request.wait_s());
   }
@@ -93,30 +93,19 @@ class StudyMethods {
     return records_.path_of(campaign, folder);
   }
 
-  Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& asked,
-                          const Progress& progress) const {
-    const auto read = [&](const v1::StudyInput& input, const std::string& channel) {
-      return read_recording(input, channel, progress);
-    };
-    return study::apply(study, asked, read, progress);
+  Result<v1::Study> compute(v1::Study study, const v1::StudyRequest& asked,
+                            const Progress& progress) const {
+    v1::JobOrder order;
+    *order.mutable_study() = std::move(study);
+    *order.mutable_request() = asked;
+    for (const auto& one : records_.folders()) order.add_folders(one.string());
+    return compute_(order, progress);
   }
 
-  Result<std::vector<recording::Replicate>> read_recording(const v1::StudyInput& input,
-                                                           const std::string& channel,
-                                                           const Progress& progress) const {
-    if (input.files_size() != 1)
-      return fail("the study is of several files; imunoise study works with it");
-    recording::ImportOptions options;
-    options.beside = true;
-    if (!channel.empty()) options.channels = {channel};
-    options.split_into = std::max(1U, input.split_into());
-    const Progress only_stopping = progress.part(0.0, 0.0);
-    return recording::import_recording(records_.files(), input.files(0), options, only_stopping);
-  }
-
-  Result<v1::Study> keep(const std::string& name, Result<v1::Study> study) const {
+  using Keep = Result<void> (StudyStore::*)(const std::string& name, const v1::Study& study);
+  Result<v1::Study> kept(const std::string& name, Result<v1::Study> study, Keep keep) {
     if (!study) return study;
-    if (auto done = studies_.write(name, *study); !done) return tl::unexpected(done.error());
+    if (auto done = (studies_.*keep)(name, *study); !done) return tl::unexpected(done.error());
     return study;
   }
 
@@ -133,9 +122,10 @@ class StudyMethods {
   }
 
   Jobs& jobs_;
-  const StudyStore& studies_;
+  StudyStore& studies_;
   const Records& records_;
   const std::uint64_t largest_;
+  const ComputeStudy compute_;
   std::counting_semaphore<> waiting_{kMostWaiting};
 };
 
@@ -171,13 +161,19 @@ void add_steps(Methods& methods, const std::shared_ptr<StudyMethods>& steps) {
 
 }  // namespace
 
-void add_study_methods(Methods& methods, Jobs& jobs, const StudyStore& studies,
-                       const Records& records, std::uint64_t largest_recording) {
-  add_steps(methods, std::make_shared<StudyMethods>(jobs, studies, records, largest_recording));
+void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+                       std::uint64_t largest_recording, ComputeStudy compute) {
+  add_steps(methods, std::make_shared<StudyMethods>(jobs, studies, records, largest_recording,
+                                                    std::move(compute)));
   methods.on<v1::ListStudiesRequest>(
       [&studies](const v1::ListStudiesRequest&) { return studies.list(); });
   methods.on<v1::GetStudyRequest>(
       [&studies](const v1::GetStudyRequest& request) { return studies.read(request.study()); });
+  methods.on<v1::DeleteStudyRequest>(
+      [&studies](const v1::DeleteStudyRequest& request) -> Answer<v1::DeletedStudy> {
+        if (auto done = studies.remove(request.study()); !done) return tl::unexpected(done.error());
+        return v1::DeletedStudy();
+      });
   methods.on<v1::ListJobsRequest>([&jobs](const v1::ListJobsRequest&) -> Answer<v1::JobList> {
     v1::JobList out;
     for (const v1::Job& job : jobs.list()) *out.add_jobs() = job;

@@ -3,13 +3,14 @@
 #include "daemon/service/jobs.h"
 #include "daemon/service/methods.h"
 #include "daemon/service/records.h"
+#include "daemon/service/study_computation.h"
 #include "daemon/service/study_store.h"
 
 namespace imunoise::service {
 
 /// Studies and jobs. `largest_recording`: bytes of a recording's chunks; a larger one would need
-/// too much memory beside recording.
-void add_study_methods(Methods& methods, Jobs& jobs, const StudyStore& studies,
-                       const Records& records, std::uint64_t largest_recording);
+/// too much memory beside recording. `compute` does the work of the jobs.
+void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+                       std::uint64_t largest_recording, ComputeStudy compute);
 
 }  // namespace imunoise::service

@@ -63,14 +63,41 @@ Answer<v1::StudyList> StudyStore::list() const {
   return out;
 }
 
-Answer<v1::Study> StudyStore::read(const std::string& name) const {
-  if (auto good = check_study_name(name); !good) return tl::unexpected(good.error());
+Answer<void> StudyStore::check_known(const std::string& name) const {
+  if (auto good = check_study_name(name); !good) return good;
   if (!contains(name)) return refuse(404, fmt::format("there is no study '{}'", name));
+  return {};
+}
+
+Answer<v1::Study> StudyStore::read(const std::string& name) const {
+  if (auto known = check_known(name); !known) return tl::unexpected(known.error());
   const auto text = files_->read(file_of(name));
   if (!text) return refuse(500, text.error().message);
   auto study = study::parse_study(*text);
   if (!study) return refuse(500, fmt::format("study '{}': {}", name, study.error().message));
   return std::move(*study);
+}
+
+Result<void> StudyStore::create(const std::string& name, const v1::Study& study) {
+  const std::lock_guard lock(changing_);
+  if (contains(name)) return fail("there is one of this name");
+  return write(name, study);
+}
+
+Result<void> StudyStore::replace(const std::string& name, const v1::Study& study) {
+  const std::lock_guard lock(changing_);
+  if (!contains(name)) return fail("the study was deleted meanwhile");
+  return write(name, study);
+}
+
+Answer<void> StudyStore::remove(const std::string& name) {
+  const std::lock_guard lock(changing_);
+  if (auto known = check_known(name); !known) return known;
+  recording::FileSystem& disk = recording::posix_file_system();
+  auto done = disk.remove(file_of(name));
+  if (done) done = disk.sync_folder(folder_);
+  if (!done) return refuse(500, done.error().message);
+  return {};
 }
 
 Result<void> StudyStore::write(const std::string& name, const v1::Study& study) const {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "daemon/service/answer.h"
@@ -15,7 +16,7 @@ namespace imunoise::service {
 /// Letters, digits, '_', '-' and '.', the first no '.', at most 64. Error: 400.
 Answer<void> check_study_name(const std::string& name);
 
-/// Thread-safe, but for two threads that change one study.
+/// Thread-safe.
 class StudyStore {
  public:
   explicit StudyStore(std::filesystem::path folder);
@@ -24,14 +25,23 @@ class StudyStore {
   /// Error: 400 for a name that is none, 404, 500 where the file is damaged.
   Answer<v1::Study> read(const std::string& name) const;
   bool contains(const std::string& name) const;
-  /// Replaces the file; after a power cut there is the old or the new one. Makes the folder.
-  Result<void> write(const std::string& name, const v1::Study& study) const;
+  /// Makes the folder, too. After a power cut there is nothing or the whole study. Error: there is
+  /// one of this name; the disk's.
+  Result<void> create(const std::string& name, const v1::Study& study);
+  /// After a power cut there is the old or the new one. Error: it was deleted since it was read;
+  /// the disk's.
+  Result<void> replace(const std::string& name, const v1::Study& study);
+  /// For good, also where its file is damaged. Error: as read(), but for the damage.
+  Answer<void> remove(const std::string& name);
 
  private:
+  Result<void> write(const std::string& name, const v1::Study& study) const;
+  Answer<void> check_known(const std::string& name) const;
   std::filesystem::path file_of(const std::string& name) const;
 
   std::filesystem::path folder_;
   std::unique_ptr<recording::FileSystem> files_;
+  std::mutex changing_;
 };
 
 }  // namespace imunoise::service

@@ -42,8 +42,7 @@ CanDevice::CanDevice(Settings settings, const plugin::Host& host)
 }
 
 void CanDevice::listen() {
-  const plugin::CancelSignal never;
-  const plugin::Wait wait(never, settings_.listen);
+  const plugin::Wait wait(host_.opening(), settings_.listen);
   while (wait.ready(socket_->descriptor())) {
     while (const auto received = socket_->receive()) {
       if (received->frame.error) {
@@ -53,6 +52,8 @@ void CanDevice::listen() {
       }
     }
   }
+  if (wait.cancelled())
+    throw plugin::DeviceError(IMUNOISE_CANCELLED, settings_.interface + ": cancelled");
   const CanStream* const missing = streams_.missing();
   if (missing != nullptr && settings_.all_required) refuse_silence(missing);
   streams_.settle(settings_.rate_hz);

@@ -72,8 +72,8 @@ bool all_finite(std::span<const Number> numbers) {
 
 }  // namespace
 
-Device::Device(Driver driver, DeviceHandlers handlers)
-    : driver_(std::move(driver)), handlers_(std::move(handlers)) {}
+Device::Device(Driver driver, NoteHandler note, WireHandler wire, std::stop_token stop)
+    : driver_(std::move(driver)), handlers_{std::move(note), std::move(wire), std::move(stop)} {}
 
 Device::~Device() {
   if (handle_ == nullptr) return;
@@ -85,10 +85,11 @@ Device::~Device() {
 
 Result<std::unique_ptr<Device>> Device::open(const Driver& driver,
                                              std::span<const OptionText> options, NoteHandler note,
-                                             WireHandler wire) {
+                                             WireHandler wire, std::stop_token stop) {
   const Result<OptionValues> values = OptionValues::make(driver.info.options, options);
   if (!values) return fail(failure(driver, IMUNOISE_BAD_OPTION, values.error().message));
-  std::unique_ptr<Device> device(new Device(driver, {std::move(note), std::move(wire)}));
+  std::unique_ptr<Device> device(
+      new Device(driver, std::move(note), std::move(wire), std::move(stop)));
   const Result<void> started = device->start(*values);
   if (!started) return tl::make_unexpected(started.error());
   return device;
@@ -100,6 +101,7 @@ Result<void> Device::start(const OptionValues& values) {
   std::int32_t status = guarded([&] {
     return driver_.table->open(values.data(), values.size(), &handlers_, &handle, error.table());
   });
+  handlers_.stopping.reset();  // also where the driver forgot to take it back
   if (status == IMUNOISE_OK && handle == nullptr) {
     return fail(failure(driver_, status, "open succeeded without a device"));
   }

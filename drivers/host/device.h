@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -31,11 +32,13 @@ enum class ReadOutcome {
 /// One thread at a time calls it, except for cancel().
 class Device {
  public:
-  /// Finds and starts the device that the options name; may take seconds. Errors: an option that
-  /// the driver has not or does not allow, what the driver says, a description that makes no sense.
+  /// Finds and starts the device that the options name; may take seconds, but not once `stop` asks
+  /// for an end (unless the driver does not listen to it). Errors: an option that the driver has
+  /// not or does not allow, what the driver says, a description that makes no sense, the end.
   static Result<std::unique_ptr<Device>> open(const Driver& driver,
                                               std::span<const OptionText> options = {},
-                                              NoteHandler note = {}, WireHandler wire = {});
+                                              NoteHandler note = {}, WireHandler wire = {},
+                                              std::stop_token stop = {});
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   /// Stops the device. No read or cancel may be running.
@@ -57,7 +60,7 @@ class Device {
   void cancel() noexcept;
 
  private:
-  Device(Driver driver, DeviceHandlers handlers);
+  Device(Driver driver, NoteHandler note, WireHandler wire, std::stop_token stop);
   Result<void> start(const OptionValues& values);
   Result<ReadOutcome> outcome(std::int32_t status, const Block& block, std::string_view text);
   Result<void> check_samples(const Block& block) const;

@@ -1,6 +1,7 @@
 #include "drivers/host/services.h"
 
 #include <chrono>
+
 namespace imunoise::drivers {
 namespace {
 
@@ -22,11 +23,17 @@ std::int32_t wire(void* context, const std::uint8_t* bytes, std::uint64_t count)
   return 1;
 }
 
+void while_opening(void* context, void (*cancel)(void* argument), void* argument) {
+  auto& handlers = *static_cast<DeviceHandlers*>(context);
+  handlers.stopping.reset();
+  if (cancel != nullptr) handlers.stopping.emplace(handlers.stop, [=] { cancel(argument); });
+}
+
 }  // namespace
 
 const imunoise_host& host_services() {
-  static const imunoise_host kServices = {sizeof(imunoise_host), IMUNOISE_DRIVER_ABI, &now_ns,
-                                          &note, &wire};
+  static const imunoise_host kServices = {
+      sizeof(imunoise_host), IMUNOISE_DRIVER_ABI, &now_ns, &note, &wire, &while_opening};
   return kServices;
 }
 

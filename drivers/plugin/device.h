@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -36,6 +37,9 @@ class Host {
  public:
   Host(const imunoise_host* table, void* context) : table_(table), context_(context) {}
 
+  /// Set once nobody wants the device any more that is being opened: waits of its constructor go
+  /// through Wait(host.opening(), ...), and end in a DeviceError of IMUNOISE_CANCELLED.
+  const CancelSignal& opening() const { return *opening_; }
   /// The host's clock: ns since 1970-01-01 UTC.
   std::int64_t now_ns() const { return table_->now_ns(); }
   /// Tells what a person should know of the device: "reset after 3 bad checksums".
@@ -51,8 +55,31 @@ class Host {
   }
 
  private:
+  friend class Opening;
   const imunoise_host* table_;
   void* context_;
+  std::shared_ptr<CancelSignal> opening_ = std::make_shared<CancelSignal>();
+};
+
+/// While it lives, the host may end the opening.
+class Opening {
+ public:
+  explicit Opening(const Host& host) : host_(host) {
+    watch([](void* signal) { static_cast<CancelSignal*>(signal)->set(); });
+  }
+  Opening(const Opening&) = delete;
+  Opening& operator=(const Opening&) = delete;
+  ~Opening() { watch(nullptr); }
+
+ private:
+  void watch(void (*cancel)(void*)) const {
+    constexpr std::size_t kNeeded =
+        offsetof(imunoise_host, while_opening) + sizeof(imunoise_host::while_opening);
+    if (host_.table_->size < kNeeded) return;
+    host_.table_->while_opening(host_.context_, cancel, host_.opening_.get());
+  }
+
+  const Host host_;
 };
 
 /// An open device. The base calls one function at a time, from one thread at a time, except

@@ -96,10 +96,12 @@ struct Operations {
   static OpenDevice& device(imunoise_device* handle) {
     return *static_cast<OpenDevice*>(static_cast<void*>(handle));
   }
-  static std::int32_t open(OpenFunction function, const Host& host,
+  static std::int32_t open(OpenFunction function, const imunoise_host* table, void* context,
                            const imunoise_option_value* const* values, std::uint32_t count,
                            imunoise_device** handle, imunoise_error* error) noexcept {
     return at_the_edge(error, [&] {
+      const Host host(table, context);
+      const Opening opening(host);
       auto device = std::make_unique<OpenDevice>(function(Options(values, count), host));
       *handle = static_cast<imunoise_device*>(static_cast<void*>(device.release()));
       return IMUNOISE_OK;

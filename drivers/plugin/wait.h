@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <stop_token>
 #include <system_error>
 
 namespace imunoise::plugin {
@@ -27,18 +27,20 @@ class CancelSignal {
   ~CancelSignal() { ::close(descriptor_); }
 
   void set() noexcept {
-    set_.store(true);
+    set_.request_stop();
     const std::uint64_t one = 1;
     // Fails only where the counter is full, and then it is readable already.
     [[maybe_unused]] const ssize_t written = ::write(descriptor_, &one, sizeof one);
   }
-  bool is_set() const noexcept { return set_.load(); }
+  bool is_set() const noexcept { return set_.stop_requested(); }
+  /// The same for libraries that take one.
+  std::stop_token token() const noexcept { return set_.get_token(); }
   /// Readable from set() on.
   int descriptor() const noexcept { return descriptor_; }
 
  private:
   int descriptor_;
-  std::atomic<bool> set_ = false;
+  std::stop_source set_;
 };
 
 /// How long a read may wait: until its deadline, or until it is cancelled.

@@ -110,8 +110,9 @@ std::unique_ptr<plugin::Device> open_files(const std::vector<std::string>& names
   if (options.has("unit")) import.unit = plugin::or_throw(parse_unit(options.text("unit")));
   import.split_into = static_cast<std::size_t>(options.integer("split_into"));
   const std::vector<std::filesystem::path> files(names.begin(), names.end());
-  return std::make_unique<ReplayDevice>(plugin::or_throw(recording::import_files(files, import)),
-                                        pace_of(options), host);
+  const Progress until({}, host.opening().token());
+  return std::make_unique<ReplayDevice>(
+      plugin::or_throw(recording::import_files(files, import, until)), pace_of(options), host);
 }
 
 std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,

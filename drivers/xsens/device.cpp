@@ -65,7 +65,7 @@ XsensDevice::Started XsensDevice::start_again() const {
 
 XsensDevice::XsensDevice(Settings settings, const plugin::Host& host)
     : settings_(std::move(settings)), host_(host), wire_(host.wire_tap()) {
-  Started started = start(settings_, closing_, wire_);
+  Started started = start(settings_, host_.opening(), wire_);
   setup_ = started.setup;
   rows_ = RowMaker::make(setup_);
   period_ns_ = std::llround(1e9 / rows_->streams().front().nominal_rate_hz);

@@ -42,7 +42,7 @@ Answer Dialogue::wait_for(std::uint8_t acknowledgement, milliseconds patience) {
     }
     if (!wait.ready(port_.descriptor())) {
       if (!wait.cancelled()) return {};
-      throw plugin::DeviceError(IMUNOISE_FAILED, port_.path() + ": cancelled");
+      throw plugin::DeviceError(IMUNOISE_CANCELLED, port_.path() + ": cancelled");
     }
     std::array<std::uint8_t, 4096> bytes;
     const std::size_t count = port_.read(bytes);

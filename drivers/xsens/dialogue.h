@@ -23,7 +23,7 @@ struct Answer {
 };
 
 /// Requests and their answers, among whatever else comes over the line. Throws plugin::DeviceError:
-/// IMUNOISE_DISCONNECTED, or IMUNOISE_FAILED once it is cancelled. Borrows port and signal.
+/// IMUNOISE_DISCONNECTED, or IMUNOISE_CANCELLED once it is cancelled. Borrows port and signal.
 class Dialogue {
  public:
   Dialogue(transport::SerialPort& port, const plugin::CancelSignal& cancel)

@@ -17,6 +17,24 @@ std::uint64_t leading_number(const std::string& name) {
 
 }  // namespace
 
+Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem::path& root,
+                                        std::uint32_t replicate, const std::string& device) {
+  const std::string parent = replicate_folder(replicate);
+  DeviceFolder out{root, parent + "/" + device};
+  if (auto done = files.make_folder(root / parent); !done) return tl::make_unexpected(done.error());
+  if (auto done = files.sync_folder(root); !done) return tl::make_unexpected(done.error());
+  if (auto done = files.make_folder(out.path()); !done) return tl::make_unexpected(done.error());
+  if (auto done = files.sync_folder(root / parent); !done) {
+    return tl::make_unexpected(done.error());
+  }
+  const auto names = files.list(out.path());
+  if (!names) return tl::make_unexpected(names.error());
+  if (names->empty()) return out;
+  return fail(
+      fmt::format("{}: is recorded already; record another replicate, or into another folder",
+                  out.path().string()));
+}
+
 Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
                                                       const std::filesystem::path& root) {
   const auto names = files.list(root);

@@ -14,6 +14,10 @@ namespace imunoise::recording {
 /// Checksums that a manifest lists, by the chunk's path inside the recording.
 using Checksums = std::map<std::string, std::string>;
 
+/// Makes a device's folder durably. Error: the disk's; it holds a recording already.
+Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem::path& root,
+                                        std::uint32_t replicate, const std::string& device);
+
 /// The folders of all devices in all replicates, replicates in order. Error: the root cannot be
 /// listed.
 Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,

@@ -8,9 +8,9 @@
 #include <thread>
 #include <utility>
 
+#include "recording/store/device_folder.h"
 #include "recording/store/format_version.h"
 #include "recording/store/intake.h"
-#include "recording/store/layout.h"
 #include "recording/store/recover.h"
 
 namespace imunoise::recording {
@@ -45,38 +45,23 @@ Result<v1::Manifest> open_manifest(FileSystem& files, const std::filesystem::pat
   return manifest;
 }
 
+// Of a device beside others, to whose names its own is added.
+Result<void> check_new(const v1::RecordedDevice& device, std::set<std::string>& names) {
+  if (auto good = check_device(device); !good)
+    return fail(fmt::format("device {}: {}", device.name(), good.error().message));
+  if (!names.insert(device.name()).second)
+    return fail(fmt::format("two devices are named '{}'; rename one", device.name()));
+  return {};
+}
+
 Result<void> check_plan(const RecordingPlan& plan) {
   if (plan.devices.empty()) return fail("no device is to be recorded; name one");
   if (plan.replicate == 0) return fail("replicates are numbered from 1");
   std::set<std::string> names;
   for (const v1::RecordedDevice& device : plan.devices) {
-    if (auto good = check_device(device); !good) {
-      return fail(fmt::format("device {}: {}", device.name(), good.error().message));
-    }
-    if (!names.insert(device.name()).second) {
-      return fail(fmt::format("two devices are named '{}'; rename one", device.name()));
-    }
+    if (auto good = check_new(device, names); !good) return good;
   }
   return {};
-}
-
-// Makes a device's folder durably. Error: it holds a recording already.
-Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem::path& root,
-                                        std::uint32_t replicate, const std::string& device) {
-  const std::string parent = replicate_folder(replicate);
-  DeviceFolder out{root, parent + "/" + device};
-  if (auto done = files.make_folder(root / parent); !done) return tl::make_unexpected(done.error());
-  if (auto done = files.sync_folder(root); !done) return tl::make_unexpected(done.error());
-  if (auto done = files.make_folder(out.path()); !done) return tl::make_unexpected(done.error());
-  if (auto done = files.sync_folder(root / parent); !done) {
-    return tl::make_unexpected(done.error());
-  }
-  const auto names = files.list(out.path());
-  if (!names) return tl::make_unexpected(names.error());
-  if (names->empty()) return out;
-  return fail(
-      fmt::format("{}: is recorded already; record another replicate, or into another folder",
-                  out.path().string()));
 }
 
 }  // namespace
@@ -84,29 +69,37 @@ Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem
 class Recorder::Threads {
  public:
   Threads(FileSystem& files, std::filesystem::path folder, std::unique_ptr<FolderLock> lock,
-          v1::Manifest manifest)
+          v1::Manifest manifest, std::uint32_t replicate, const RecorderOptions& options)
       : files_(files),
         folder_(std::move(folder)),
         lock_(std::move(lock)),
-        manifest_(std::move(manifest)) {}
+        manifest_(std::move(manifest)),
+        replicate_(replicate),
+        options_(options) {}
 
   ~Threads() { (void)close(); }
 
-  Result<void> add_devices(const RecordingPlan& plan, const RecorderOptions& options) {
-    for (std::size_t i = 0; i < plan.devices.size(); ++i) {
-      const v1::RecordedDevice& device = plan.devices[i];
-      auto where = make_device_folder(files_, folder_, plan.replicate, device.name());
+  Result<void> add_devices(const std::vector<v1::RecordedDevice>& devices) {
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+      auto where = make_device_folder(files_, folder_, replicate_, devices[i].name());
       if (!where) return tl::make_unexpected(where.error());
-      const double share = static_cast<double>(i + 1) / static_cast<double>(plan.devices.size());
-      devices_.push_back(device);
-      intakes_.emplace_back(device, options.waiting_rows);
-      journals_.emplace_back(files_, where->path(), device, JournalPlace{plan.replicate, 1, 1},
-                             options.segments, share);
-      lines_.push_back({std::move(*where), {}, 0, {}});
+      const double share = static_cast<double>(i + 1) / static_cast<double>(devices.size());
+      append(devices[i], std::move(*where), share);
     }
-    acknowledged_.assign(devices_.size(), 0);
-    sync_every_ = options.sync_every;
     return {};
+  }
+
+  Result<std::size_t> add(const v1::RecordedDevice& device) {
+    std::set<std::string> names;  // only this function adds to them, once it records
+    for (const v1::RecordedDevice& one : devices_) names.insert(one.name());
+    if (auto good = check_new(device, names); !good) return tl::make_unexpected(good.error());
+    auto where = make_device_folder(files_, folder_, replicate_, device.name());
+    if (!where) return tl::make_unexpected(where.error());
+    add_device(manifest_, device);
+    if (auto done = write_manifest(files_, folder_, manifest_); !done)
+      return tl::make_unexpected(done.error());
+    append(device, std::move(*where), 1.0);
+    return devices_.size() - 1;
   }
 
   Result<void> run() {
@@ -175,10 +168,29 @@ class Recorder::Threads {
   }
 
  private:
-  Result<void> check(std::size_t device, const Block& block) const {
-    auto good = check_block(devices_[device], block);
+  // `first_share` of the limits ends its first segment.
+  void append(const v1::RecordedDevice& device, DeviceFolder where, double first_share) {
+    const std::lock_guard guard(mutex_);
+    devices_.push_back(device);
+    intakes_.emplace_back(device, options_.waiting_rows);
+    journals_.emplace_back(files_, where.path(), device, JournalPlace{replicate_, 1, 1},
+                           options_.segments, first_share);
+    lines_.push_back({std::move(where), {}, 0, {}});
+    acknowledged_.push_back(0);
+  }
+
+  // What a deque holds stays where it is; only finding it needs the lock.
+  template <class Element>
+  Element& found(std::deque<Element>& in, std::size_t device) {
+    const std::lock_guard guard(mutex_);
+    return in[device];
+  }
+
+  Result<void> check(std::size_t device, const Block& block) {
+    const v1::RecordedDevice& of = found(devices_, device);
+    auto good = check_block(of, block);
     if (good) return good;
-    return fail(fmt::format("device {}: {}", devices_[device].name(), good.error().message));
+    return fail(fmt::format("device {}: {}", of.name(), good.error().message));
   }
 
   // The lock is held. What is not urgent waits for the next round.
@@ -192,6 +204,7 @@ class Recorder::Threads {
   void run_journals() {
     auto next = std::chrono::steady_clock::now();
     for (bool last = false; !last;) {
+      std::size_t devices = 0;
       {
         std::unique_lock guard(mutex_);
         journal_.wait(guard, [&] { return work_; });
@@ -199,18 +212,19 @@ class Recorder::Threads {
         work_ = false;
         urgent_ = false;
         last = closing_;
+        devices = journals_.size();
       }
-      next = std::chrono::steady_clock::now() + sync_every_;
-      for (std::size_t i = 0; i < journals_.size(); ++i) write_journal(i, last);
+      next = std::chrono::steady_clock::now() + options_.sync_every;
+      for (std::size_t i = 0; i < devices; ++i) write_journal(i, last);
     }
   }
 
   // Writes what waits of one device. After a failure nothing more is taken until a retry succeeds,
   // so that no more than the queue's capacity ever waits twice.
   void write_journal(std::size_t device, bool last) {
-    Journal& journal = journals_[device];
+    Journal& journal = found(journals_, device);
     Result<void> done;
-    if (journal.pending()) done = synced(device);
+    if (journal.pending()) done = synced(journal, device);
     if (done) {
       std::deque<Block> blocks;
       {
@@ -219,7 +233,7 @@ class Recorder::Threads {
         room_.notify_all();
       }
       for (const Block& block : blocks) journal.append(block);
-      if (journal.pending()) done = synced(device);
+      if (journal.pending()) done = synced(journal, device);
     }
     if (last) journal.end_segment();
     const std::vector<std::uint64_t> ended = journal.take_ended();
@@ -229,12 +243,12 @@ class Recorder::Threads {
     chunks_.notify_one();
   }
 
-  Result<void> synced(std::size_t device) {
-    const Result<void> done = journals_[device].sync();
+  Result<void> synced(Journal& journal, std::size_t device) {
+    const Result<void> done = journal.sync();
     const std::lock_guard guard(mutex_);
     if (done) {
       intakes_[device].acknowledge();
-      acknowledged_[device] = journals_[device].acknowledged();
+      acknowledged_[device] = journal.acknowledged();
       trouble_.reset();
     } else {
       trouble_ = done.error();
@@ -253,7 +267,7 @@ class Recorder::Threads {
       }
       last = journals_done_;
       failed_ = 0;
-      for (ChunkLine& line : lines_) seal_line(line, guard);
+      for (std::size_t i = 0; i < lines_.size(); ++i) seal_line(lines_[i], guard);
     }
   }
 
@@ -299,12 +313,13 @@ class Recorder::Threads {
   std::filesystem::path folder_;
   std::unique_ptr<FolderLock> lock_;
   v1::Manifest manifest_;
-  std::vector<v1::RecordedDevice> devices_;
-  std::deque<Journal> journals_;  // of the journal thread
-  std::chrono::nanoseconds sync_every_{};
+  const std::uint32_t replicate_;
+  const RecorderOptions options_;
   Result<void> outcome_;
 
   mutable std::mutex mutex_;  // guards what follows
+  std::deque<v1::RecordedDevice> devices_;
+  std::deque<Journal> journals_;  // each used by the journal thread
   std::condition_variable journal_;
   std::condition_variable chunks_;
   std::condition_variable room_;
@@ -336,8 +351,9 @@ Result<std::unique_ptr<Recorder>> Recorder::start(FileSystem& files,
   if (!lock) return tl::make_unexpected(lock.error());
   auto manifest = open_manifest(files, folder, plan);
   if (!manifest) return tl::make_unexpected(manifest.error());
-  auto threads = std::make_unique<Threads>(files, folder, std::move(*lock), std::move(*manifest));
-  if (auto done = threads->add_devices(plan, options); !done) {
+  auto threads = std::make_unique<Threads>(files, folder, std::move(*lock), std::move(*manifest),
+                                           plan.replicate, options);
+  if (auto done = threads->add_devices(plan.devices); !done) {
     return tl::make_unexpected(done.error());
   }
   if (auto done = threads->run(); !done) return tl::make_unexpected(done.error());
@@ -355,6 +371,10 @@ Result<void> Recorder::push(std::size_t device, const Block& block) {
 RecorderState Recorder::state() const { return threads_->state(); }
 
 void Recorder::annotate(const v1::ReplicateNote& note) { threads_->annotate(note); }
+
+Result<std::size_t> Recorder::add(const v1::RecordedDevice& device) {
+  return threads_->add(device);
+}
 
 Result<void> Recorder::close() { return threads_->close(); }
 

@@ -73,9 +73,14 @@ class Recorder {
 
   RecorderState state() const;
 
-  /// What the manifest will say of the replicate once it is closed. Not while another function
-  /// runs.
+  /// What the manifest says of the replicate from its next writing on: by add() or close(). Not
+  /// while one of these runs.
   void annotate(const v1::ReplicateNote& note);
+
+  /// Records one more device from now on; its number for offer() and push(). The manifest is
+  /// written. One thread at a time. Error: as start()'s of a device, or the disk's; the others are
+  /// recorded on.
+  Result<std::size_t> add(const v1::RecordedDevice& device);
 
   /// Writes everything out, makes the last chunks, closes the manifest. Rows that no disk took are
   /// not_written in the state that follows (should a failing disk hold them after all, a recovery

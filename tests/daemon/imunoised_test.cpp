@@ -215,6 +215,18 @@ TEST_F(Imunoised, SigtermClosesWithinFiveSecondsAndARestartGoesOn) {
   expect_sound(found->folder);
 }
 
+TEST_F(Imunoised, SigtermWaitsForNoDeviceThatIsBeingOpened) {
+  campaign("bench", "length = \"3 s\"\n" + device("a"));
+  tell("a", "deaf");
+  start({"bench.toml"});
+  ASSERT_TRUE(comes("records replicate 1 of 1")) << read("errors");
+  std::this_thread::sleep_for(200ms);
+  const auto begin = Clock::now();
+  signal(SIGTERM);
+  EXPECT_EQ(wait(), 0);
+  EXPECT_LT(Clock::now() - begin, 5s);
+}
+
 TEST_F(Imunoised, KilledItGoesOnToo) {
   campaign("bench", "length = \"3 s\"\nreplicates = 2\n" + device("a"));
   start({"bench.toml"});

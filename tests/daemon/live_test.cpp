@@ -193,6 +193,9 @@ TEST(LiveBoard, ShowsReplicatesWhileTheyLast) {
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].find("bench: imu0: imu: samples were refused or lost"), 0U) << told[0];
   EXPECT_TRUE(board.new_warnings().empty()) << "once";
+  replicate.join(device());
+  replicate.take(1, source.block(500));
+  EXPECT_EQ(board.state()[0].devices(1).samples(), 500U);
   replicate.end();
   EXPECT_TRUE(board.state().empty());
   EXPECT_TRUE(board.new_warnings().empty());

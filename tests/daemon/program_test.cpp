@@ -35,7 +35,22 @@ TEST(Program, KeepsTheLastOfMuchThatIsSaid) {
 
 TEST(Program, StepsBack) {
   EXPECT_EQ(error_of("sleep 0.1; test $(ps -o ni= -p $$) -eq 19"), "");
+  EXPECT_EQ(error_of("sleep 0.1; test $(ps -o cls= -p $$) = B"), "");
   EXPECT_EQ(error_of("sleep 0.1; test $(cat /proc/$$/oom_score_adj) -eq 1000"), "");
+}
+
+TEST(Program, IsToldMuchAndHeardLineByLine) {
+  std::string input;
+  for (int i = 0; i < 100000; ++i) input += std::to_string(i) + "\n";
+  std::string heard;
+  const Talk talk{input, [&](std::string_view line) { heard += std::string(line) + "\n"; }};
+  EXPECT_TRUE(run_program({"/bin/cat"}, {}, talk));
+  EXPECT_EQ(heard, input);
+  const auto done = run_program({"/bin/sh", "-c", "echo a line; echo why >&2; exit 1"}, {}, talk);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "/bin/sh: exit status 1: why");
+  EXPECT_TRUE(heard.ends_with("\na line\n"));
+  EXPECT_TRUE(run_program({"/bin/true"}, {}, talk)) << "what it does not read is no matter";
 }
 
 TEST(Program, StopsWhenItIsAsked) {

@@ -2,6 +2,8 @@
 
 #include "daemon/acquire/record_replicate.h"
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -43,6 +45,12 @@ class RecordReplicate : public testing::Whims {
     });
     return record_replicate(recording::posix_file_system(), plan_, {},
                             Progress({}, source_.get_token()));
+  }
+  std::jthread stop_after(std::chrono::milliseconds time) {
+    return std::jthread([this, time] {
+      std::this_thread::sleep_for(time);
+      source_.request_stop();
+    });
   }
   v1::ReplicateNote note_on_disk(int index = 0) const {
     return recording::read_manifest(recording::posix_file_system(), plan_.folder)
@@ -121,6 +129,56 @@ TEST_F(RecordReplicate, ADeviceThatComesInTimeTakesPart) {
   EXPECT_EQ(note_on_disk().missing_size(), 0);
 }
 
+// Remembers which devices there were.
+class Onlooker : public ReplicateObserver {
+ public:
+  void begin(const ReplicatePlan&, const std::vector<v1::RecordedDevice>& devices) override {
+    for (const auto& one : devices) join(one);
+  }
+  void join(const v1::RecordedDevice& device) override { seen_ += device.name() + " "; }
+  void take(std::size_t device, const recording::Block&) override { latest_[device] = true; }
+  void end() override {}
+
+  std::string seen_;
+  std::array<std::atomic<bool>, 2> latest_ = {};
+};
+
+TEST_F(RecordReplicate, ADeviceThatComesLateJoins) {
+  add("a", "absent");
+  add("b");
+  plan_.duration = 2s;
+  Onlooker onlooker;
+  plan_.observer = &onlooker;
+  const auto done = record({{800ms, "a", "here"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  ASSERT_EQ(done->devices.size(), 2U);
+  EXPECT_EQ(done->devices[1].device.name(), "a");
+  EXPECT_GT(done->devices[1].streams[0].stored, 50U);
+  EXPECT_LT(done->devices[1].streams[0].stored + 20, done->devices[0].streams[0].stored);
+  EXPECT_EQ(onlooker.seen_, "b a ");
+  EXPECT_TRUE(onlooker.latest_[1]);
+  const v1::ReplicateNote note = note_on_disk();
+  EXPECT_EQ(note.state(), v1::complete);
+  ASSERT_EQ(note.missing_size(), 1);
+  EXPECT_EQ(note.missing(0).device(), "a");
+  EXPECT_GT(note.missing(0).joined_ns(), note.started_ns());
+  EXPECT_LT(note.missing(0).joined_ns(), note.ended_ns());
+  EXPECT_TRUE(
+      recording::verify_recording(recording::posix_file_system(), plan_.folder, false)->sound());
+}
+
+TEST_F(RecordReplicate, StoppedItWaitsForNoLatecomer) {
+  add("a", "absent");
+  add("b");
+  plan_.duration = 3600s;
+  const std::jthread stopper = stop_after(1s);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record({{400ms, "a", "deaf"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
+  EXPECT_EQ(note_on_disk().missing(0).joined_ns(), 0);
+}
+
 TEST_F(RecordReplicate, WithoutAnyDeviceNothingIsMade) {
   add("a", "absent");
   const auto done = record();
@@ -189,13 +247,34 @@ TEST_F(RecordReplicate, WhenAllHaveFailedWithoutReopeningItIsInterrupted) {
   EXPECT_NE(note_on_disk().reason().find("broken"), std::string::npos);
 }
 
+TEST_F(RecordReplicate, StoppedItWaitsForNoDeviceThatIsBeingOpened) {
+  add("a", "deaf");
+  const std::jthread stopper = stop_after(300ms);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record();
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().message, "stopped while devices were being opened");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
+}
+
+TEST_F(RecordReplicate, StoppedItWaitsForNoDeviceThatIsBeingOpenedAgain) {
+  add("a");
+  add("b");
+  plan_.duration = 3600s;
+  const std::jthread stopper = stop_after(1s);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record({{300ms, "a", "broken"}, {340ms, "a", "deaf"}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
+  const v1::ReplicateNote note = note_on_disk();
+  ASSERT_EQ(note.missing_size(), 1);
+  EXPECT_EQ(note.missing(0).reason(), "driver whims: the device is broken");
+}
+
 TEST_F(RecordReplicate, StoppedItIsInterruptedAndClosed) {
   add("a");
   plan_.duration = 3600s;
-  const std::jthread stopper([&](const std::stop_token&) {
-    std::this_thread::sleep_for(500ms);
-    source_.request_stop();
-  });
+  const std::jthread stopper = stop_after(500ms);
   const auto begin = std::chrono::steady_clock::now();
   const auto done = record();
   ASSERT_TRUE(done.has_value()) << done.error().message;

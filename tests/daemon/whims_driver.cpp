@@ -1,8 +1,9 @@
 // A device that does as a file tells it, for tests: the file's word is looked at whenever the
 // device is opened or read. "here": a sample of noise every 10 ms; "gone": it is unplugged, and
 // found again as soon as the word is another; "broken": it fails for good; "absent": it does not
-// open; "other": as "here", but opened then it is another device; "knock": as "here", a hundred
-// times as loud. With speed=20 twenty samples come instead of one, and its time runs as fast.
+// open; "deaf": its opening waits for as long as it may; "other": as "here", but opened then it is
+// another device; "knock": as "here", a hundred times as loud. With speed=20 twenty samples come
+// instead of one, and its time runs as fast.
 
 #include <chrono>
 #include <fstream>
@@ -30,6 +31,7 @@ class Whims : public plugin::Device {
       : file_(std::move(file)), speed_(speed), time_ns_(host.now_ns()), next_(Clock::now()) {
     const std::string word = word_in(file_);
     if (word == "absent") throw plugin::DeviceError(IMUNOISE_NOT_FOUND, "the device is absent");
+    if (word == "deaf") wait_in_vain(host);
     serial_ = word == "other" ? "2" : "1";
   }
 
@@ -57,6 +59,12 @@ class Whims : public plugin::Device {
   }
 
  private:
+  static void wait_in_vain(const plugin::Host& host) {
+    const plugin::Wait wait(host.opening(), std::chrono::hours(1));
+    wait.until(wait.deadline());
+    throw plugin::DeviceError(IMUNOISE_CANCELLED, "the device is deaf");
+  }
+
   std::string file_;
   std::int64_t speed_;
   std::int64_t time_ns_;  // of the last sample

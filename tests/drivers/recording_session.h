@@ -32,7 +32,8 @@ class RecordingSession {
   /// Opens a device of a driver in `folder`; with what comes over its wire where that is wanted.
   static Result<std::unique_ptr<RecordingSession>> open(
       const std::string& folder, const std::string& driver,
-      const std::vector<drivers::OptionText>& options, bool with_wire = false) {
+      const std::vector<drivers::OptionText>& options, bool with_wire = false,
+      std::stop_token stop = {}) {
     static const drivers::Drivers kDrivers = drivers::load_drivers({folder});
     const auto found = kDrivers.find(driver);
     if (!found) return tl::make_unexpected(found.error());
@@ -47,7 +48,7 @@ class RecordingSession {
           const std::lock_guard lock(to->mutex_);
           to->notes_.emplace_back(text);
         },
-        std::move(wire));
+        std::move(wire), std::move(stop));
     if (!device) return tl::make_unexpected(device.error());
     out->device_ = std::move(*device);
     out->rows_.resize(out->device_->info().streams.size());

@@ -262,6 +262,34 @@ TEST_F(Api, ANameIsTakenOnce) {
       "attempt 7: there are 1, counted from 0");
 }
 
+TEST_F(Api, AStudyIsDeletedForGood) {
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  EXPECT_TRUE(delete_json("/v1/studies/gyro").empty());
+  refusal("/v1/studies/gyro", 404);
+  EXPECT_TRUE(get_json("/v1/studies")["studies"].empty());
+  EXPECT_EQ(delete_json("/v1/studies/gyro", 404)["error"], "there is no study 'gyro'");
+  delete_json("/v1/studies/.s", 400);
+  delete_json("/v1/jobs/job-1", 405);
+  EXPECT_EQ(open_study("gyro")["state"], "done") << "the name is free again";
+}
+
+TEST_F(Api, ADamagedStudyCanBeDeletedAndALinkTakesNothingWithIt) {
+  serve();
+  std::filesystem::create_directories(options_.studies);
+  const auto outside = folder_.path() / "outside";
+  std::ofstream(outside) << "{";
+  std::filesystem::create_symlink(outside, options_.studies / "link.study");
+  std::ofstream(options_.studies / "damaged.study") << "{";
+  for (const char* const name : {"link", "damaged"}) {
+    refusal(std::string("/v1/studies/") + name, 500);
+    delete_json(std::string("/v1/studies/") + name);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(options_.studies));
+  EXPECT_TRUE(std::filesystem::exists(outside));
+}
+
 TEST_F(Api, EventsBeginWithWhatThereIs) {
   options_.tick = 50ms;
   serve();
@@ -389,6 +417,9 @@ TEST_F(Api, TheDocumentDescribesEveryRoute) {
   EXPECT_NE(body["recording"]["description"].get<std::string>().find("interrupted"),
             std::string::npos);
   EXPECT_TRUE(document["paths"]["/v1/recordings/{campaign}/{folder}"].contains("get"));
+  const json& deletion = document["paths"]["/v1/studies/{study}"]["delete"];
+  EXPECT_EQ(deletion["x-role"], "operator");
+  EXPECT_FALSE(deletion.contains("requestBody"));
 }
 
 // Every reference leads to a schema, and every schema of a message is there once.
@@ -422,7 +453,7 @@ TEST_F(Api, EveryRouteHasARoleASentenceAndAFunction) {
     EXPECT_NE(route.http.role(), v1::role_unspecified) << route.path;
     EXPECT_TRUE(route.http.summary().ends_with(".")) << route.path;
     EXPECT_TRUE(route.path.starts_with("/")) << route.path;
-    EXPECT_EQ(route.verb == "POST", route.http.role() == v1::operator_) << route.path;
+    EXPECT_EQ(route.verb != "GET", route.http.role() == v1::operator_) << route.path;
     EXPECT_TRUE(paths.insert(route.verb + route.path).second) << route.path << ": twice";
   }
   EXPECT_EQ(get_json("/healthz")["status"], "ok");

@@ -14,6 +14,7 @@
 #include "daemon/service/listen_address.h"
 #include "daemon/service/origin.h"
 #include "daemon/service/request_rate.h"
+#include "daemon/service/study_store.h"
 #include "daemon/service/tokens.h"
 #include "imunoise/v1/service.pb.h"
 #include "tests/study/simulated_recording.h"
@@ -238,6 +239,7 @@ TEST_F(Requests, TakeTheirFieldsFromPathQueryAndBody) {
             "device: \"7\" channel: \"a\" channel: \"b\" level: 0.05");
   const auto add = request("POST", "/v1/studies/s/add", R"({"term": "QN", "branch_from": 2})");
   EXPECT_EQ((*add)->ShortDebugString(), "study: \"s\" term: \"QN\" branch_from: 2");
+  EXPECT_EQ((*request("DELETE", "/v1/studies/s"))->ShortDebugString(), "study: \"s\"");
   EXPECT_TRUE(request("POST", "/v1/studies/s/undo").has_value());
   EXPECT_TRUE(request("POST", "/v1/studies/s/undo", R"({"study": "s"})").has_value());
 }
@@ -263,9 +265,23 @@ TEST_F(Requests, FindTheirRoutes) {
   EXPECT_EQ(find("PUT", "/v1/campaigns/a").allowed, "GET");
   EXPECT_EQ(find("GET", "/v1/studies").allowed, "GET");
   EXPECT_EQ(find("DELETE", "/v1/studies").allowed, "GET, POST");
+  EXPECT_EQ(find("POST", "/v1/studies/s").allowed, "GET, DELETE");
   for (const char* const absent :
        {"/", "/v1", "/v1/campaigns/a/b", "/v1/recordings/a", "/v2/campaigns"})
     EXPECT_EQ(find("GET", absent).allowed, "") << absent;
+}
+
+// Whatever a job that read it before then makes of it.
+TEST(StudyStore, ADeletedStudyDoesNotComeBack) {
+  const testing::TemporaryFolder folder;
+  StudyStore studies(folder.path() / "studies");
+  ASSERT_TRUE(studies.create("s", {}).has_value());
+  EXPECT_EQ(studies.create("s", {}).error().message, "there is one of this name");
+  EXPECT_TRUE(studies.replace("s", {}).has_value());
+  ASSERT_TRUE(studies.remove("s").has_value());
+  EXPECT_EQ(studies.remove("s").error().status, 404U);
+  EXPECT_EQ(studies.replace("s", {}).error().message, "the study was deleted meanwhile");
+  EXPECT_FALSE(studies.contains("s"));
 }
 
 TEST(JsonText, IsJson) {

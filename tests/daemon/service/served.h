@@ -76,6 +76,11 @@ class Served : public ::testing::Test {
     EXPECT_EQ(response.status, status) << target << ": " << response.body;
     return json::parse(response.body);
   }
+  json delete_json(const std::string& target, int status = 200) const {
+    const RawResponse response = testing::send_one(local_, testing::request_text("DELETE", target));
+    EXPECT_EQ(response.status, status) << target << ": " << response.body;
+    return json::parse(response.body);
+  }
   // The error of a response of this status.
   std::string refusal(const std::string& target, int status) const {
     return get_json(target, status)["error"];

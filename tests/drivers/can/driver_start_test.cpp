@@ -23,6 +23,21 @@ TEST_F(CanStart, TheInterfaceIsMissingOrDown) {
   expect_refused({{"preset", "mti600"}}, "can7: no such network interface; see: ip");
 }
 
+TEST_F(CanStart, StopsListeningWhenNobodyWantsTheDevice) {
+  std::stop_source stop;
+  const std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop.request_stop();
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  const auto device = testing::RecordingSession::open(
+      IMUNOISE_DRIVER_FOLDER, "can",
+      {{"interface", "can7"}, {"preset", "mti600"}, {"listen", "60"}}, false, stop.get_token());
+  ASSERT_FALSE(device.has_value());
+  EXPECT_EQ(device.error().message, "driver can: can7: cancelled");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1500));
+}
+
 TEST_F(CanStart, NothingComes) {
   expect_refused({{"preset", "mti600"}, {"listen", "0.1"}},
                  "no message of the IMU in 0.1 s; is it powered");

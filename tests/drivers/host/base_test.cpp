@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "drivers/host/services.h"
@@ -204,6 +206,53 @@ TEST(DriverBase, AWireIsTappedOnlyWhereTheHostWantsIt) {
   older.size = offsetof(imunoise_host, wire);
   older.wire = nullptr;
   EXPECT_FALSE(plugin::Host(&older, &keeps).wire_tap());
+}
+
+// Waits for an answer that never comes.
+void wait_in_vain(const plugin::Host& host) {
+  const Wait wait(host.opening(), 1min);
+  wait.until(wait.deadline());
+  throw plugin::DeviceError(wait.cancelled() ? IMUNOISE_CANCELLED : IMUNOISE_NOT_FOUND,
+                            wait.cancelled() ? "cancelled" : "no answer");
+}
+
+TEST(DriverBase, AnOpeningEndsOnceNobodyWantsTheDevice) {
+  for (const auto after : {0ms, 100ms}) {
+    std::stop_source stop;
+    if (after == 0ms) stop.request_stop();
+    const std::jthread stopper([&] {
+      std::this_thread::sleep_for(after);
+      stop.request_stop();
+    });
+    const auto begin = Wait::Clock::now();
+    const auto device = testing::open({two_streams(), {}, &wait_in_vain}, {}, stop.get_token());
+    ASSERT_FALSE(device.has_value());
+    EXPECT_EQ(device.error().message, "driver pretend: cancelled");
+    EXPECT_LT(Wait::Clock::now() - begin, 10s);
+  }
+}
+
+TEST(DriverBase, AnOpenDeviceCaresNoMoreForItsOpening) {
+  std::stop_source stop;
+  std::optional<plugin::Host> host;
+  testing::Pretend pretend = steps({[](Samples& samples) { samples.add(1, {}).set(0, 1.0); }});
+  pretend.opening = [&](const plugin::Host& of) { host = of; };
+  const auto device = testing::open(pretend, {}, stop.get_token());
+  ASSERT_TRUE(device) << device.error().message;
+  stop.request_stop();
+  EXPECT_FALSE(host->opening().is_set());
+  Block block = (*device)->make_block(1);
+  EXPECT_EQ(*(*device)->read(1s, block), ReadOutcome::kSamples);
+}
+
+TEST(DriverBase, AnOlderHostWaitsForEveryOpening) {
+  imunoise_host older = drivers::host_services();
+  older.size = offsetof(imunoise_host, while_opening);
+  older.while_opening = nullptr;
+  drivers::DeviceHandlers handlers;
+  const plugin::Host host(&older, &handlers);
+  const plugin::Opening opening(host);
+  EXPECT_FALSE(host.opening().is_set());
 }
 
 TEST(DriverBase, AsksOnceWhereTheHostDoesNotWait) {

@@ -44,13 +44,15 @@ IMUNOISE_DRIVER(imunoise::testing::describe_driver, imunoise::testing::open_devi
 
 namespace imunoise::testing {
 
-Result<std::unique_ptr<drivers::Device>> open(Pretend pretend, drivers::NoteHandler note) {
+Result<std::unique_ptr<drivers::Device>> open(Pretend pretend, drivers::NoteHandler note,
+                                              std::stop_token stop) {
   next() = std::move(pretend);
   const imunoise_driver* const table =
       imunoise_driver_entry(IMUNOISE_DRIVER_ABI, &drivers::host_services());
   const Result<drivers::DriverInfo> info = drivers::check_driver(table);
   if (!info) return tl::make_unexpected(info.error());
-  return drivers::Device::open({*info, "inside the test", table}, {}, std::move(note));
+  return drivers::Device::open({*info, "inside the test", table}, {}, std::move(note), {},
+                               std::move(stop));
 }
 
 }  // namespace imunoise::testing

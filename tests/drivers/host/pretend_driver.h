@@ -18,6 +18,7 @@ struct Pretend {
 };
 
 /// Opens a device that does this, through the C interface and the host.
-Result<std::unique_ptr<drivers::Device>> open(Pretend pretend, drivers::NoteHandler note = {});
+Result<std::unique_ptr<drivers::Device>> open(Pretend pretend, drivers::NoteHandler note = {},
+                                              std::stop_token stop = {});
 
 }  // namespace imunoise::testing

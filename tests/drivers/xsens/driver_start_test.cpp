@@ -91,6 +91,22 @@ TEST_F(MtiStart, SaysThatAPortIsSilent) {
   expect_refused({}, "silent at every baud rate; is the device powered");
 }
 
+// Knocking at every baud rate takes longer than anybody who wants an end should wait.
+TEST_F(MtiStart, StopsKnockingWhenNobodyWantsTheDevice) {
+  const emulator::Pty nobody(link());
+  std::stop_source stop;
+  const std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    stop.request_stop();
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  const auto device = testing::RecordingSession::open(IMUNOISE_DRIVER_FOLDER, "xsens",
+                                                      {{"port", port()}}, false, stop.get_token());
+  ASSERT_FALSE(device.has_value());
+  EXPECT_NE(device.error().message.find("cancelled"), std::string::npos) << device.error().message;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1500));
+}
+
 TEST_F(MtiStart, SaysThatSomethingElseTalks) {
   const emulator::Pty line(link());
   std::jthread talker([&](const std::stop_token& stop) {

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <thread>
+
 #include "recording/store/layout.h"
 #include "recording/store/recover.h"
 #include "recording/store/verify.h"
@@ -81,6 +84,35 @@ TEST_F(OnDisk, SeveralDevicesAndReplicatesComeBack) {
   ASSERT_TRUE(report);
   EXPECT_TRUE(report->sound()) << report->DebugString();
   EXPECT_EQ(report->streams_size(), 8);
+}
+
+TEST_F(OnDisk, ADeviceMayComeWhileOthersAreRecorded) {
+  FileSystem& files = posix_file_system();
+  const auto root = path("run");
+  const auto recorder = Recorder::start(files, root, plan({test_device("imu0")}), small_segments());
+  ASSERT_TRUE(recorder) << recorder.error().message;
+  std::jthread first([&] {
+    for (int i = 0; i < 400; ++i) EXPECT_TRUE((*recorder)->push(0, imu_block(10 * i, 10)));
+  });
+  std::deque<std::jthread> late;
+  for (const char* const name : {"imu1", "imu2"}) {
+    const auto added = (*recorder)->add(test_device(name));
+    ASSERT_TRUE(added) << added.error().message;
+    EXPECT_EQ(*added, late.size() + 1);
+    EXPECT_EQ(read_manifest(files, root)->value().devices_size(), static_cast<int>(*added) + 1);
+    late.emplace_back([&, device = *added] {
+      for (int i = 0; i < 200; ++i) EXPECT_TRUE((*recorder)->push(device, imu_block(10 * i, 10)));
+    });
+  }
+  EXPECT_FALSE((*recorder)->add(test_device("imu1"))) << "it is recorded already";
+  first.join();
+  late.clear();
+  ASSERT_TRUE((*recorder)->close());
+  expect_accounted(**recorder);
+  EXPECT_TRUE(verify_recording(files, root, false)->sound());
+  EXPECT_TRUE(holds_rows(row_indices(read_back(files, root).streams[0]), 4000));
+  for (const char* folder : {"replicate-1/imu1", "replicate-1/imu2"})
+    EXPECT_TRUE(holds_rows(row_indices(read_back(files, root, folder).streams[0]), 2000));
 }
 
 TEST_F(OnDisk, TwoRecordersDoNotShareAFolder) {
