@@ -122,7 +122,10 @@ bool is_steady(const TriedEffect& tried) {
   const double little = kLittle * tried.likelihood_gain;
   const TestOutcome more = more_levels(tried.trial);
   if (!(more.p_value > kMoreThanTwo) && !(0.5 * more.statistic < little)) return false;
-  return jumps_left(tried.trial) < std::max(-std::log(kMoreThanTwo), little);
+  // Net of their places, jumps that are none lose: 27 of 28 development cases lost more than this,
+  // while three levels of a strength to tell them by lost less.
+  constexpr double kNoJumps = -6.0;
+  return jumps_left(tried.trial) < kNoJumps;
 }
 
 void name_better(TriedEffect& tried) {
