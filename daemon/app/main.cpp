@@ -83,6 +83,21 @@ std::unique_ptr<service::Service> serve(const Arguments& arguments, const Campai
   return std::move(*out);
 }
 
+// Threads come and go with every replicate, and what they free malloc keeps in pieces, more of them
+// every hour: few arenas, and what is free goes back once a minute.
+class Memory {
+ public:
+  Memory() { mallopt(M_ARENA_MAX, 2); }
+  /// To be called five times a second.
+  void keep_flat() {
+    constexpr int kMinute = 300;
+    if (++calls_ % kMinute == 0) malloc_trim(0);
+  }
+
+ private:
+  int calls_ = 0;
+};
+
 int record(const Arguments& arguments, const CampaignFiles& files, const drivers::Drivers& drivers,
            const sigset_t& signals) {
   Log log;
@@ -90,6 +105,7 @@ int record(const Arguments& arguments, const CampaignFiles& files, const drivers
     for (const std::string& problem : files.problems) log.error(problem);
     return 1;
   }
+  Memory memory;
   ServiceManager manager;
   Supervisor supervisor(files.found, drivers,
                         arguments.once ? acquire::RunMode::kOnce : acquire::RunMode::kScheduled,
@@ -109,19 +125,13 @@ int record(const Arguments& arguments, const CampaignFiles& files, const drivers
     }
     manager.alive();
     supervisor.tell_warnings();
+    memory.keep_flat();
     if (const std::string status = supervisor.status(); status != told) {
       manager.status(status);
       told = status;
     }
   }
   return 0;
-}
-
-// Threads come and go with every replicate; with an arena for each the heap grows for hours, in
-// pieces that nobody uses.
-void keep_memory_flat() {
-  constexpr int kArenas = 2;
-  mallopt(M_ARENA_MAX, kArenas);
 }
 
 int run(int argc, const char* const* argv) {
@@ -136,7 +146,6 @@ int run(int argc, const char* const* argv) {
   const CampaignFiles files = read_campaigns(arguments.campaigns, drivers);
   if (arguments.check_config) return check_config(files, drivers);
   if (arguments.print_timer) return print_timer(files);
-  keep_memory_flat();
   return record(arguments, files, drivers, signals);
 }
 
