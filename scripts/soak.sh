@@ -115,13 +115,13 @@ while (($(now_ms) - begin < total * 1000)); do
     sleep "$((RANDOM % 3))"
     start_daemon
   fi
-  resident=$(awk '/^VmRSS/ {print $2}' "/proc/$daemon/status" 2> /dev/null || true)
-  if [[ -z $resident ]]; then
+  own=$(awk '/^(RssAnon|VmSwap)/ {sum += $2} END {print sum}' "/proc/$daemon/status" 2> /dev/null || true)
+  if [[ -z $own ]]; then
     echo "imunoised ended by itself; the end of $out/daemon.log:" >&2
     tail -n 20 "$out/daemon.log" >&2
     exit 1
   fi
-  echo "$second $resident $daemon" >> "$out/memory.txt"
+  echo "$second $own $daemon" >> "$out/memory.txt"
   sleep 1
 done
 kill -TERM "$daemon"

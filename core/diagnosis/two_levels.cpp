@@ -227,18 +227,6 @@ Eigen::VectorXd samples_of(const Course& course, Index n) {
   return out;
 }
 
-// Jumps that nothing else explained were taken for slow noise, which now hides them.
-Model with_less_colour(Model noise) {
-  constexpr double kShare = 0.1;
-  for (Term& term : noise.terms) {
-    if (std::holds_alternative<WhiteNoise>(term.process)) continue;
-    std::vector<double> numbers = values(term.process);
-    numbers[0] *= kShare;  // the power
-    set_values(term.process, numbers);
-  }
-  return noise;
-}
-
 }  // namespace
 
 TwoLevels find_two_levels(const std::vector<StepProducts>& replicates) {
@@ -317,22 +305,6 @@ TestOutcome more_levels(const Trial& trial) {
     freedom += count;
   }
   return chi_square_test(chi, std::max<Index>(0, freedom));
-}
-
-double jumps_left(const Trial& trial) {
-  const Subject& subject = trial.regression.subject();
-  auto left = std::make_shared<Subject>(Subject{subject.rate, subject.quantity, {}, {}, {}});
-  for (std::size_t k = 0; k < subject.replicates(); ++k) {
-    left->samples.push_back(trial.regression.residual_samples(trial.fit.effects.value, k));
-    left->cosines.push_back(trial.regression.residual_cosines(trial.fit.effects.value, k));
-  }
-  const Regression plain(left);
-  const JointFit without = joint_fit(plain, trial.fit.model.noise);
-  JointFit under = without;
-  under.model.noise = with_less_colour(under.model.noise);
-  const Trial other = with_two_levels(plain, under);
-  return other.fit.log_likelihood - without.log_likelihood -
-         log_places(other.regression.subject().courses);
 }
 
 }  // namespace imunoise

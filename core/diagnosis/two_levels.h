@@ -32,8 +32,4 @@ Trial with_two_levels(const Regression& regression, const JointFit& fit);
 /// levels, and bumps that decay, fail here, though two levels explain most of them.
 TestOutcome more_levels(const Trial& trial);
 
-/// What another two levels gain on what those of a fit leave, net of their places: nats.
-/// Levels that its course takes for one show here.
-double jumps_left(const Trial& trial);
-
 }  // namespace imunoise
