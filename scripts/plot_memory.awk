@@ -1,4 +1,4 @@
-# Resident memory of a soak over its hours, as SVG: awk -v speed= -f plot_memory.awk kills.txt memory.txt
+# Memory of its own of the daemon in a soak over its hours, as SVG: awk -v speed= -f plot_memory.awk kills.txt memory.txt
 function x(second) { return left + width * second / last }
 function y(mb) { return top + height * (1 - mb / ceiling) }
 FILENAME ~ /kills/ { killed[++kills] = $1; next }
@@ -10,7 +10,7 @@ END {
   hours = last * speed / 3600
   print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 360\" font-family=\"sans-serif\" font-size=\"13\">"
   print "<rect width=\"900\" height=\"360\" fill=\"#fff\"/>"
-  print "<text x=\"60\" y=\"22\" font-size=\"15\">Resident memory of imunoised; dashed: killed and started again</text>"
+  print "<text x=\"60\" y=\"22\" font-size=\"15\">Memory of imunoised; dashed: killed and started again</text>"
   for (v = 0; v <= ceiling; v += step) {
     printf "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#ddd\"/>", left, left + width, y(v), y(v)
     printf "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%d MB</text>\n", left - 6, y(v) + 4, v

@@ -163,7 +163,8 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
   for_each_index(worth.size(), [&](std::size_t i) {
     if (progress.stopped()) return;
     Suggestion one = *worth[i];
-    if (auto* term = std::get_if<EffectTerm>(&one.added)) *term = rounded(*term, one.shape_error);
+    if (auto* term = std::get_if<EffectTerm>(&one.added))
+      *term = rounded(*term, one.shape_error, current.subject().rate);
     Trial trial = try_out(current, one);
     if (is_course(one)) one.search.log_places = log_places(trial.regression.subject().courses);
     TriedEffect out{std::string(one.effect), one, std::move(trial)};

@@ -238,9 +238,11 @@ std::vector<std::string_view> unrecorded_couplings(const Subject& subject) {
       "temperature", "supply_voltage", "magnetic",
       subject.quantity == Quantity::kAcceleration ? "cross_axis" : "g_sensitivity",
       "common_vibration"};
-  for (const Witness& one : subject.witnesses) {
-    std::erase(out, coupling_effect(subject.quantity, one));
-    if (may_share_motion(subject.quantity, one)) std::erase(out, "common_vibration");
+  for (const auto* const recorded : {&subject.witnesses, &subject.still}) {
+    for (const Witness& one : *recorded) {
+      std::erase(out, coupling_effect(subject.quantity, one));
+      if (may_share_motion(subject.quantity, one)) std::erase(out, "common_vibration");
+    }
   }
   return out;
 }

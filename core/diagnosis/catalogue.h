@@ -25,7 +25,7 @@ const EffectInfo& effect_info(std::string_view id);
 
 /// What a coupling to a witness is called: by the witness's quantity, else by its name.
 std::string_view coupling_effect(Quantity subject, const Witness& witness);
-/// Couplings to surroundings that no witness shows.
+/// Couplings to surroundings that nobody recorded: what stood still is no suspect.
 std::vector<std::string_view> unrecorded_couplings(const Subject& subject);
 /// True where both sensors could feel the same motion, so that it need not be the one leaking into
 /// the other.

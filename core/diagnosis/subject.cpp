@@ -47,9 +47,12 @@ Subject make_subject(const std::vector<Signal>& replicates,
     samples = centred_samples(channel == 0 ? replicates[k] : witnesses[channel - 1].replicates[k]);
     cosines = cosine_transform(samples);
   });
-  std::erase_if(out.witnesses, [](const Witness& one) {
-    return std::all_of(one.samples.begin(), one.samples.end(),
-                       [](const Eigen::VectorXd& x) { return x.size() == 0 || x.isZero(0.0); });
+  std::erase_if(out.witnesses, [&](const Witness& one) {
+    const bool still =
+        std::all_of(one.samples.begin(), one.samples.end(),
+                    [](const Eigen::VectorXd& x) { return x.size() == 0 || x.isZero(0.0); });
+    if (still) out.still.push_back({one.name, one.quantity, {}, {}});
+    return still;
   });
   return out;
 }

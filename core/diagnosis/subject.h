@@ -35,6 +35,7 @@ struct Subject {
   std::vector<Eigen::VectorXd> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
   std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
   std::vector<Witness> witnesses;
+  std::vector<Witness> still{};  ///< recorded too, but they never change: no samples are kept
   std::vector<TwoLevelCourse> courses{};  ///< a replicate each, once found; see with_two_levels()
   /// Nats that numbers found in a replicate itself (outliers, jumps) would gain by chance; empty:
   /// none were sought.
@@ -57,7 +58,7 @@ struct NamedChannel {
 };
 
 /// Precondition: at least one replicate, each of at least kFewestSamples samples; witnesses have
-/// the same replicates. Witnesses that never change are left out. Stopped, it is not whole, and of
+/// the same replicates. Stopped, it is not whole, and of
 /// no use.
 Subject make_subject(const std::vector<Signal>& replicates,
                      const std::vector<NamedChannel>& witnesses, const Progress& progress = {});

@@ -194,17 +194,20 @@ Result<FullModel> parse_full_model(std::string_view text, Hertz rate) {
   return out;
 }
 
-EffectTerm rounded(EffectTerm term, double frequency_error) {
-  const auto to_step = [](double value, double step) { return std::round(value / step) * step; };
+EffectTerm rounded(EffectTerm term, double frequency_error, Hertz rate) {
+  // To the decimal place that is not coarser than `fine`.
+  const auto to_decimals = [](double value, double fine) {
+    const double step = std::pow(10.0, std::floor(std::log10(fine)));
+    return std::stod(fmt::format("{:.12g}", std::round(value / step) * step));
+  };
   for (double EffectTerm::*const member : {&EffectTerm::tau, &EffectTerm::lag, &EffectTerm::from,
                                            &EffectTerm::to, &EffectTerm::above}) {
     const double value = term.*member;
     if (value > 0.0 && std::isfinite(value)) term.*member = std::stod(fmt::format("{:.4g}", value));
   }
-  if (term.frequency > 0.0 && frequency_error > 0.0) {
-    const double step = std::pow(10.0, std::floor(std::log10(frequency_error / 50.0)));
-    term.frequency = std::stod(fmt::format("{:.12g}", to_step(term.frequency, step)));
-  }
+  if (term.frequency > 0.0 && frequency_error > 0.0)
+    term.frequency = to_decimals(term.frequency, frequency_error / 50.0);
+  if (term.time > 0.0) term.time = to_decimals(term.time, 1.0 / rate.value);
   return term;
 }
 

@@ -55,9 +55,9 @@ struct FullModel {
 /// an effect.
 Result<FullModel> parse_full_model(std::string_view text, Hertz rate);
 
-/// The term with numbers that are worth reading: times to four digits, a frequency to a fiftieth of
-/// its error in Hz.
-EffectTerm rounded(EffectTerm term, double frequency_error);
+/// The term with numbers that are worth reading: time constants to four digits, a frequency to a
+/// fiftieth of its error in Hz, a step's time to as few as still mean the same sample.
+EffectTerm rounded(EffectTerm term, double frequency_error, Hertz rate);
 
 std::string print(const EffectTerm& term);
 std::string print(const FullModel& model);

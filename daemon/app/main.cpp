@@ -83,15 +83,20 @@ std::unique_ptr<service::Service> serve(const Arguments& arguments, const Campai
   return std::move(*out);
 }
 
-// Threads come and go with every replicate, and what they free malloc keeps in pieces, more of them
-// every hour: few arenas, and what is free goes back once a minute.
+// Threads come and go with every replicate, and what they free malloc would keep in pieces, more of
+// them every hour. Few arenas; what is large (a chunk being sealed) lies outside them, for which
+// malloc would else stop after the first; what is free goes back every ten seconds.
 class Memory {
  public:
-  Memory() { mallopt(M_ARENA_MAX, 2); }
+  Memory() {
+    constexpr int kLarge = 128 * 1024;
+    mallopt(M_ARENA_MAX, 2);
+    mallopt(M_MMAP_THRESHOLD, kLarge);
+  }
   /// To be called five times a second.
   void keep_flat() {
-    constexpr int kMinute = 300;
-    if (++calls_ % kMinute == 0) malloc_trim(0);
+    constexpr int kTenSeconds = 50;
+    if (++calls_ % kTenSeconds == 0) malloc_trim(0);
   }
 
  private:

@@ -185,6 +185,13 @@ void foretell(const Series& series, const std::shared_ptr<const Subject>& subjec
   }
 }
 
+std::string names_of(const std::vector<Witness>& witnesses) {
+  std::string out;
+  for (const Witness& one : witnesses)
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", one.name);
+  return out;
+}
+
 // Of the channels beside the one under study, those that a model names; all, if it names one that
 // there is not, so that it can be said which there are.
 std::vector<NamedChannel> named_by(const FullModel& model, std::vector<NamedChannel> channels) {
@@ -232,6 +239,9 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   out.set_unit(std::string(si_symbol(subject->quantity)));
   out.set_rate_hz(subject->rate.value);
   for (const Witness& one : subject->witnesses) out.add_witnesses(one.name);
+  if (!subject->still.empty())
+    out.add_notes(
+        fmt::format("Never changes, so that nothing can follow it: {}.", names_of(subject->still)));
   if (!start->note.empty()) out.add_notes(start->note);
   for (const std::string& note : parts.notes) out.add_notes(note);
   if (subject->replicates() == 1)
@@ -266,6 +276,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
       add_misfits(diagnosis.misfit, out);
       put_defects_first(out);
       foretell(series, subject, options.foretold, progress, out);
+      if (progress.stopped()) return fail("stopped");
     }
     if (!diagnosis.worth_adding) break;
     RankedEffect& best = diagnosis.effects.front();

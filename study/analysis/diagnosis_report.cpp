@@ -97,7 +97,7 @@ std::string beside(const RankedEffect& best, const Subject& subject) {
     return std::find(best.confused_with.begin(), best.confused_with.end(), id) !=
            best.confused_with.end();
   });
-  return some ? ", and what it could couple to beside it" : "";
+  return some ? " Record with it whatever could couple in." : "";
 }
 
 std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
@@ -110,7 +110,7 @@ std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
     case DiagnosisVerdict::kOneOf: {
       const RankedEffect& best = diagnosis.effects.front();
       return fmt::format(
-          "Something is missing: {}, or {}. These data cannot tell them apart. Record {}{}.",
+          "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.{}",
           effect_info(best.tried.effect).title, titles(best.confused_with),
           effect_info(best.tried.effect).record_next, beside(best, subject));
     }

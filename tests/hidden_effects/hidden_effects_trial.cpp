@@ -14,7 +14,7 @@ namespace imunoise::hidden {
 namespace {
 
 // How often each effect's search over all nulls finds a chance as small as it says: where chances
-// are honest, the share at a familywise p is p over the number of searches, about 15.
+// are honest, the share at a familywise p is p over the number of searches, about 34.
 void print_calibration(const std::vector<Outcome>& nulls) {
   constexpr double kLevels[] = {0.3, 0.1, 0.04, 0.01, 0.001};
   std::map<std::string, std::vector<int>> counts;

@@ -134,6 +134,18 @@ TEST(Diagnose, ASlowRampMayBeATemperatureThatNobodyRecorded) {
   EXPECT_NE(std::find(with.begin(), with.end(), "temperature"), with.end());
 }
 
+TEST(Diagnose, ATemperatureThatStoodStillIsNoSuspect) {
+  const Diagnosis diagnosis = of({.model = "WN(sigma2=1)",
+                                  .seed = 12,
+                                  .added = [](std::size_t, double s) { return 0.01 * s; },
+                                  .temperature = [](std::size_t, double) { return 300.0; }},
+                                 "WN");
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.effect, "rate_ramp");
+  const auto& with = diagnosis.effects[0].confused_with;
+  EXPECT_EQ(std::find(with.begin(), with.end(), "temperature"), with.end());
+}
+
 TEST(Diagnose, WhatWasFoundIsGoneOnceItIsInTheModel) {
   const MadeSubject made{.seed = 4,
                          .added = [](std::size_t, double s) { return 0.1 * wave(7.123, s); }};

@@ -2,7 +2,10 @@
 
 #include "core/model/effect_term.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace imunoise {
 namespace {
@@ -30,6 +33,16 @@ TEST(EffectTerm, EffectsMayStandAnywhereAndADriftIsARampOfEachReplicate) {
       parse_full_model("line(f=2e+0)+WN( sigma2=1e+0 ) + DR", kEffectRate);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(print(*read), "WN(sigma2=1) + line(f=2) + ramp(own)");
+}
+
+TEST(EffectTerm, TheTimeOfAStepIsRoundedWithinItsSample) {
+  const Hertz rate{819.2};
+  for (int sample = 1; sample < 100'000; sample += 7) {
+    EffectTerm step{.kind = EffectKind::kStep, .replicate = 1, .time = sample / rate.value};
+    step = rounded(step, 0.0, rate);
+    EXPECT_EQ(std::lround(step.time * rate.value), sample);
+    EXPECT_LE(fmt::format("{}", step.time).size(), std::string_view("122.123").size());
+  }
 }
 
 TEST(EffectTerm, WhatIsWrongIsSaid) {

@@ -81,6 +81,27 @@ class Served : public ::testing::Test {
     EXPECT_EQ(response.status, status) << target << ": " << response.body;
     return json::parse(response.body);
   }
+  json job_over(const std::string& id) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    for (;;) {
+      json job = get_json("/v1/jobs/" + id);
+      const std::string state = job["state"];
+      if ((state != "queued" && state != "working") || std::chrono::steady_clock::now() > deadline)
+        return job;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  // Asks for a job and waits for its end, however slow this machine is.
+  json finished(const std::string& target, const json& body) const {
+    return job_over(post_json(target, body, 202)["job"]);
+  }
+  json open_study(const std::string& name) const {
+    return finished("/v1/studies", {{"study", name},
+                                    {"campaign", "array"},
+                                    {"folder", "monday"},
+                                    {"channel", "gyro_x"},
+                                    {"model", "WN"}});
+  }
   // The error of a response of this status.
   std::string refusal(const std::string& target, int status) const {
     return get_json(target, status)["error"];
