@@ -102,6 +102,30 @@ void drop_likely(std::vector<StuckRun>& runs, const Codes& codes, std::size_t sa
   });
 }
 
+// Samples that repeat the one before, but for those of an output that stands still.
+std::vector<WrongSample> repeats_of(const Signal& signal, const std::vector<StuckRun>& stuck) {
+  std::vector<WrongSample> out;
+  auto run = stuck.begin();
+  for (std::size_t t = 1; t < signal.size(); ++t) {
+    while (run != stuck.end() && t >= run->first + run->count) ++run;
+    const bool still = run != stuck.end() && t >= run->first;
+    if (!still && signal.value(t) == signal.value(t - 1)) out.push_back({t, 0});
+  }
+  return out;
+}
+
+// Samples at the end of the range on the side of `beyond`.
+std::vector<WrongSample> cut_off(const Signal& signal, int beyond) {
+  double end = signal.value(0);
+  for (std::size_t t = 1; t < signal.size(); ++t)
+    end = beyond > 0 ? std::max(end, signal.value(t)) : std::min(end, signal.value(t));
+  std::vector<WrongSample> out;
+  for (std::size_t t = 0; t < signal.size(); ++t) {
+    if (signal.value(t) == end) out.push_back({t, beyond});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<StuckRun> stuck_runs(const Signal& signal) {
@@ -119,7 +143,7 @@ std::vector<Defect> integrity(const Signal& signal) {
   if (signal.size() < 2) return out;
   const Codes codes = codes_of(signal);
   const auto n = static_cast<double>(signal.size());
-  if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0}};
+  if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0, {}}};
   const double same = same_code(codes);
   const double expected = n * same;
   std::vector<StuckRun> stuck = long_runs(signal);
@@ -127,24 +151,29 @@ std::vector<Defect> integrity(const Signal& signal) {
   std::size_t repeated = codes.repeats;
   for (const StuckRun& run : stuck) repeated -= run.count - 1;
   const auto repeats = static_cast<double>(repeated);
-  constexpr double kSurely = 6.0;  // standard deviations
+  constexpr double kSurely = 6.0;     // standard deviations
+  constexpr double kFewSound = 0.05;  // of those that repeat
+  using Wrong = std::vector<WrongSample>;
   const double excess = repeats - expected;
   // The chance is an approximation: what is within a fifth of it is not called a defect.
   if (excess > kSurely * std::sqrt(expected) + 1.0 && excess > 0.2 * expected)
-    out.push_back({"duplicated_samples", repeated, expected, 0});
+    out.push_back({"duplicated_samples", repeated, expected, 0,
+                   expected < kFewSound * repeats ? repeats_of(signal, stuck) : Wrong{}});
   const auto longest = std::max_element(
       stuck.begin(), stuck.end(),
       [](const StuckRun& one, const StuckRun& other) { return one.count < other.count; });
-  if (longest != stuck.end()) out.push_back({"stuck", longest->count, 0.0, longest->first});
+  if (longest != stuck.end()) out.push_back({"stuck", longest->count, 0.0, longest->first, {}});
   // Noise thins out towards its extremes; a converter at its end piles samples up there.
   const auto piled = [](std::size_t at_end, std::size_t next_to_it) {
     return at_end >= 5 && at_end > 3 * next_to_it;
   };
   if (piled(codes.highest, codes.below_highest))
-    out.push_back({"saturation", codes.highest, static_cast<double>(codes.below_highest), 0});
+    out.push_back({"saturation", codes.highest, static_cast<double>(codes.below_highest), 0,
+                   cut_off(signal, 1)});
   if (piled(codes.lowest, codes.above_lowest))
-    out.push_back({"saturation", codes.lowest, static_cast<double>(codes.above_lowest), 0});
-  if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0});
+    out.push_back({"saturation", codes.lowest, static_cast<double>(codes.above_lowest), 0,
+                   cut_off(signal, -1)});
+  if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0, {}});
   return out;
 }
 

@@ -7,12 +7,20 @@
 
 namespace imunoise {
 
+/// A sample that is known to be wrong.
+struct WrongSample {
+  std::size_t at = 0;
+  int beyond = 0;  ///< 1: the truth lies at or above its value, -1: at or below it, 0: anywhere
+};
+
 /// A defect of the samples themselves, which every model would be blamed for.
 struct Defect {
   std::string effect;     ///< its id in the catalogue
   std::size_t count = 0;  ///< samples concerned
   double expected = 0.0;  ///< of them without the defect
   std::size_t first = 0;  ///< place of the first
+  /// The samples, rising, where few of them can be sound; else empty.
+  std::vector<WrongSample> wrong{};
 };
 
 /// What the values alone can tell: samples that repeat more often than noise of this step and size

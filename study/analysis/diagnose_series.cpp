@@ -117,7 +117,7 @@ void add_integrity(const Series& series, v1::DiagnosisReport& to) {
 
 // Defects of the samples look like anything: they are the verdict, and what else seems missing
 // comes after them.
-void put_defects_first(v1::DiagnosisReport& to) {
+void put_defects_first(bool mended, v1::DiagnosisReport& to) {
   if (to.integrity_size() == 0) return;
   const v1::IntegrityFinding& finding = to.integrity(0);
   const EffectInfo& about = effect_info(finding.effect());
@@ -132,9 +132,10 @@ void put_defects_first(v1::DiagnosisReport& to) {
   all.MergeFrom(to.candidates());
   to.mutable_candidates()->Swap(&all);
   to.set_verdict(v1::found);
-  to.set_summary(fmt::format(
-      "The samples themselves are defective: {} Mend this first; it can look like any effect.",
-      finding.sentence()));
+  to.set_summary(
+      fmt::format("The samples themselves are defective: {} {}", finding.sentence(),
+                  mended ? "What follows is of the samples as they were mended: see the notes."
+                         : "Mend this first; it can look like any effect."));
 }
 
 Step step_of(const TriedEffect& effect) {
@@ -274,7 +275,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
     if (rung == 0) {
       add_diagnosis(diagnosis, *subject, out);
       add_misfits(diagnosis.misfit, out);
-      put_defects_first(out);
+      put_defects_first(parts.changed, out);
       foretell(series, subject, options.foretold, progress, out);
       if (progress.stopped()) return fail("stopped");
     }

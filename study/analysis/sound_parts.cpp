@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "core/diagnosis/integrity.h"
+#include "core/diagnosis/mend.h"
 #include "core/spectrum/cross_power.h"
 
 namespace imunoise::study {
 namespace {
 
-recording::Replicate part_of(const recording::Replicate& whole, std::size_t begin,
-                             std::size_t count) {
-  recording::Replicate out = whole;
+using recording::Replicate;
+
+Replicate part_of(const Replicate& whole, std::size_t begin, std::size_t count) {
+  Replicate out = whole;
   for (recording::Channel& channel : out.channels) {
     channel.begin += begin;
     channel.count = count;
@@ -18,38 +23,75 @@ recording::Replicate part_of(const recording::Replicate& whole, std::size_t begi
   return out;
 }
 
+void cut(const Replicate& whole, std::size_t channel, SoundParts& to) {
+  const Signal signal = whole.channels[channel].signal();
+  const std::vector<StuckRun> runs = stuck_runs(signal);
+  if (runs.empty()) {
+    to.replicates.push_back(whole);
+    return;
+  }
+  std::vector<Replicate> parts;
+  std::size_t begin = 0;
+  std::size_t lost = 0;
+  const auto keep_until = [&](std::size_t end) {
+    if (end - begin >= kFewestSamples) parts.push_back(part_of(whole, begin, end - begin));
+  };
+  for (const StuckRun& run : runs) {
+    keep_until(run.first);
+    begin = run.first + run.count;
+    lost += run.count;
+  }
+  keep_until(signal.size());
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    parts[i].name = fmt::format("{}#{}", whole.name, i + 1);
+  to.notes.push_back(
+      fmt::format("{}: {} stands still for {} samples in {} places; it is cut there, which "
+                  "leaves {} parts, each a replicate.",
+                  whole.name, whole.channels[channel].name, lost, runs.size(), parts.size()));
+  to.replicates.insert(to.replicates.end(), parts.begin(), parts.end());
+  to.changed = true;
+}
+
+std::vector<WrongSample> wrong_samples(const Signal& signal) {
+  std::vector<WrongSample> out;
+  for (const Defect& defect : integrity(signal))
+    out.insert(out.end(), defect.wrong.begin(), defect.wrong.end());
+  // A sample that was cut off and repeats itself is both, and known best as the former.
+  std::sort(out.begin(), out.end(), [](const WrongSample& a, const WrongSample& b) {
+    return a.at != b.at ? a.at < b.at : std::abs(a.beyond) > std::abs(b.beyond);
+  });
+  const auto same = [](const WrongSample& a, const WrongSample& b) { return a.at == b.at; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
+  return out;
+}
+
+void mend(Replicate& replicate, std::size_t channel, SoundParts& to) {
+  constexpr double kMost = 0.02;  // of the samples
+  recording::Channel& of = replicate.channels[channel];
+  const Signal signal = of.signal();
+  const std::vector<WrongSample> wrong = wrong_samples(signal);
+  if (wrong.empty()) return;
+  const bool few = static_cast<double>(wrong.size()) <= kMost * static_cast<double>(signal.size());
+  to.notes.push_back(fmt::format(
+      "{}: {} samples of {} repeat the one before or were cut off; {}", replicate.name,
+      wrong.size(), of.name,
+      few ? "each is replaced by a draw that its neighbours allow, which keeps the spectrum."
+          : "they are too many to be replaced."));
+  if (!few) return;
+  to.changed = true;
+  of.samples = std::make_shared<const recording::Samples>(mended(signal, wrong));
+  of.begin = 0;
+  of.scale = 1.0;
+  of.offset = 0.0;
+}
+
 }  // namespace
 
-SoundParts sound_parts(const std::vector<recording::Replicate>& replicates, std::size_t channel) {
+SoundParts sound_parts(const std::vector<Replicate>& replicates, std::size_t channel) {
   SoundParts out;
-  for (const recording::Replicate& whole : replicates) {
-    const Signal signal = whole.channels[channel].signal();
-    const std::vector<StuckRun> runs = stuck_runs(signal);
-    if (runs.empty()) {
-      out.replicates.push_back(whole);
-      continue;
-    }
-    std::vector<recording::Replicate> parts;
-    std::size_t begin = 0;
-    std::size_t lost = 0;
-    const auto keep_until = [&](std::size_t end) {
-      if (end - begin >= kFewestSamples) parts.push_back(part_of(whole, begin, end - begin));
-    };
-    for (const StuckRun& run : runs) {
-      keep_until(run.first);
-      begin = run.first + run.count;
-      lost += run.count;
-    }
-    keep_until(signal.size());
-    for (std::size_t i = 1; i < parts.size(); ++i)
-      parts[i].name = fmt::format("{}#{}", whole.name, i + 1);
-    out.notes.push_back(
-        fmt::format("{}: {} stands still for {} samples in {} places; it is cut there, which "
-                    "leaves {} parts, each a replicate.",
-                    whole.name, whole.channels[channel].name, lost, runs.size(), parts.size()));
-    out.replicates.insert(out.replicates.end(), parts.begin(), parts.end());
-  }
-  if (out.replicates.empty()) return {replicates, {}};
+  for (const Replicate& whole : replicates) cut(whole, channel, out);
+  if (out.replicates.empty()) out = {replicates, {}, false};
+  for (Replicate& one : out.replicates) mend(one, channel, out);
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is left of replicates whose output stood still.
+// Replicates as they are studied: cut where the output stood still, mended where samples are wrong.
 
 #include <string>
 #include <vector>
@@ -10,13 +10,15 @@
 namespace imunoise::study {
 
 struct SoundParts {
-  std::vector<recording::Replicate> replicates;  ///< share their samples with those they are of
-  std::vector<std::string> notes;                ///< what was cut, a sentence each
+  std::vector<recording::Replicate> replicates;  ///< share the samples that nothing was done to
+  std::vector<std::string> notes;                ///< what was done, a sentence each
+  bool changed = false;                          ///< something was cut or replaced
 };
 
 /// Cuts each replicate where its channel `channel` stands still, all channels alike; parts too
-/// short for a spectrum are left out. Where nothing stands still, or nothing would be left, the
-/// replicates are as they were.
+/// short for a spectrum are left out (if that leaves nothing, nothing is cut). Samples of that
+/// channel that repeat the one before, or lie at an end of the range, are then mended() unless they
+/// are too many.
 SoundParts sound_parts(const std::vector<recording::Replicate>& replicates, std::size_t channel);
 
 }  // namespace imunoise::study

@@ -151,6 +151,12 @@ TEST(Study, ItsFileIsReadAsItWasWritten) {
   }
 }
 
+bool tells(const v1::DiagnosisReport& report, const std::string& words) {
+  return std::any_of(report.notes().begin(), report.notes().end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
 TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   auto recordings = *read({}, "");
   auto held = std::get<std::vector<double>>(*recordings[1].channels[0].samples);
@@ -167,10 +173,25 @@ TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   ASSERT_EQ(report->compared_before().replicates_size(), 4);
   EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
   EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
-  bool told = false;
-  for (const std::string& note : report->notes())
-    told = told || note.find("stands still for 500 samples") != std::string::npos;
-  EXPECT_TRUE(told);
+  EXPECT_TRUE(tells(*report, "stands still for 500 samples"));
+}
+
+TEST(Diagnose, WhatRepeatsIsMendedAndTold) {
+  auto recordings = *read({}, "");
+  for (recording::Replicate& one : recordings) {
+    auto twice = std::get<std::vector<double>>(*one.channels[0].samples);
+    for (std::size_t t = 7; t < twice.size(); t += 61) twice[t] = twice[t - 1];
+    one.channels[0].samples = std::make_shared<recording::Samples>(twice);
+  }
+  DiagnoseOptions options;
+  options.model = "WN + RW + QN";  // all there is
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->candidates(0).effect(), "duplicated_samples");
+  EXPECT_TRUE(tells(*report, "each is replaced by a draw"));
+  EXPECT_NE(report->summary().find("mended"), std::string::npos) << report->summary();
+  EXPECT_EQ(report->ladder_size(), 1)
+      << "a cause was found for what was mended: " << report->candidates(1).sentence();
 }
 
 }  // namespace
