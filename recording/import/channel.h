@@ -48,12 +48,20 @@ struct Channel {
   }
 };
 
+/// What counters and clocks showed of a replicate's samples.
+struct Timing {
+  std::size_t gaps = 0;    ///< places where the recording was cut; of the first part between gaps
+  std::uint64_t lost = 0;  ///< samples lost there, as far as that is known
+  double jitter = 0.0;     ///< rms departure of stamps from even spacing, in periods; 0: none known
+};
+
 /// One uninterrupted static recording of a sensor.
 struct Replicate {
   std::string name;  ///< For messages and plots; unique within an import.
   std::filesystem::path source;
   Hertz rate;
   std::vector<Channel> channels;  ///< All of the same length.
+  Timing timing{};
 };
 
 }  // namespace imunoise::recording

@@ -35,9 +35,9 @@ std::vector<std::string> dataset_names(hid_t file) {
   return names;
 }
 
-// The rate that a dataset of times shows, when there is one.
-Result<Hertz> rate_from_dataset(const std::string& file, hid_t id,
-                                const std::vector<std::string>& names) {
+// What a dataset of times shows, when there is one.
+Result<EvenTimes> times_of_dataset(const std::string& file, hid_t id,
+                                   const std::vector<std::string>& names) {
   const auto found = std::find_if(names.begin(), names.end(),
                                   [](const std::string& name) { return is_time_name(name); });
   if (found == names.end()) {
@@ -61,8 +61,8 @@ Result<Hertz> rate_from_dataset(const std::string& file, hid_t id,
       [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
       *samples);
   const std::string place = fmt::format("{}: dataset {}", file, *found);
-  return rate_from_times(
-      times, {place, *seconds, [](std::size_t i) { return fmt::format("sample {}", i); }});
+  return even_times(times,
+                    {place, *seconds, [](std::size_t i) { return fmt::format("sample {}", i); }});
 }
 
 Result<Column> read_column(const std::string& file, const Hdf5Dataset& dataset,
@@ -121,11 +121,15 @@ Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOpt
   } else if (!stated) {
     return fail(
         fmt::format("{}: root {}; give the rate with --rate HZ", name, stated.error().message));
-  } else {
-    const Result<Hertz> rate = *stated ? checked_rate(name, "the root attribute rate_hz", **stated)
-                                       : rate_from_dataset(name, file.get(), names);
+  } else if (*stated) {
+    const Result<Hertz> rate = checked_rate(name, "the root attribute rate_hz", **stated);
     if (!rate) return tl::make_unexpected(rate.error());
     table.rate = *rate;
+  } else {
+    const Result<EvenTimes> times = times_of_dataset(name, file.get(), names);
+    if (!times) return tl::make_unexpected(times.error());
+    table.rate = times->rate;
+    table.jitter = times->jitter;
   }
   for (std::size_t i = 0; i < wanted->size(); ++i) {
     if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", name));

@@ -126,7 +126,11 @@ void add_replicates(const std::filesystem::path& path, const std::string& name, 
   const std::size_t count = size(table.columns.front().samples) / split_into;
   const std::size_t first = out.size();
   for (std::size_t part = 0; part < split_into; ++part) {
-    out.push_back({split_into > 1 ? fmt::format("{}#{}", name, part + 1) : name, path, rate, {}});
+    out.push_back({split_into > 1 ? fmt::format("{}#{}", name, part + 1) : name,
+                   path,
+                   rate,
+                   {},
+                   {.jitter = table.jitter}});
   }
   for (Column& column : table.columns) {
     const auto samples = std::make_shared<const Samples>(std::move(column.samples));

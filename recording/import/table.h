@@ -28,6 +28,7 @@ struct Column {
 struct Table {
   Hertz rate;
   std::vector<Column> columns;
+  double jitter = 0.0;  ///< of a time column, see EvenTimes
 };
 
 /// Progress of one file among several that are read at the same time: reports the mean of all.

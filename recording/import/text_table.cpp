@@ -164,12 +164,13 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
     const std::string place =
         fmt::format("{}: column {}", file->name(), layout->columns[*plan->time].name);
     const RowMap& map = rows.row_map();
-    const Result<Hertz> rate =
-        rate_from_times(rows.values(*plan->time), {place, plan->time_unit, [&](std::size_t i) {
-                                                     return fmt::format("row {}", map.line_of(i));
-                                                   }});
-    if (!rate) return tl::make_unexpected(rate.error());
-    table.rate = *rate;
+    const Result<EvenTimes> times =
+        even_times(rows.values(*plan->time), {place, plan->time_unit, [&](std::size_t i) {
+                                                return fmt::format("row {}", map.line_of(i));
+                                              }});
+    if (!times) return tl::make_unexpected(times.error());
+    table.rate = times->rate;
+    table.jitter = times->jitter;
   } else {
     const Result<Hertz> rate = checked_rate(file->name(), "the comment rate_hz", *head.rate);
     if (!rate) return tl::make_unexpected(rate.error());

@@ -83,12 +83,13 @@ Result<std::optional<double>> time_unit(std::string_view name, std::string_view 
                   unit));
 }
 
-Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& column) {
+Result<EvenTimes> even_times(std::span<const double> times, const TimeColumn& column) {
   if (times.size() < 2) {
     return fail(fmt::format("{}: one time shows no rate; give --rate HZ", column.place));
   }
   const double median = median_step(times);
   double scatter = 0.0;
+  double squares = 0.0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double step = times[i] - times[i - 1];
     const auto trouble = [&](const std::string& what) {
@@ -109,6 +110,7 @@ Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& c
           fmt::format("uneven: time steps by {:.6g} where {:.6g} is usual", step, median));
     }
     scatter = std::max(scatter, std::abs(step - median));
+    squares += (step - median) * (step - median);
   }
   if (!column.seconds && median > 1.0) {
     return fail(
@@ -124,7 +126,8 @@ Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& c
   if (!std::isfinite(span) || !std::isfinite(hertz) || hertz <= 0.0) {
     return fail(fmt::format("{}: shows no usable rate; give --rate HZ", column.place));
   }
-  return Hertz{shortest(hertz, std::max(1e-12, (scatter + rounding) / span))};
+  const double jitter = std::sqrt(0.5 * squares / static_cast<double>(times.size() - 1)) / median;
+  return EvenTimes{Hertz{shortest(hertz, std::max(1e-12, (scatter + rounding) / span))}, jitter};
 }
 
 }  // namespace imunoise::recording

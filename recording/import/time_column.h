@@ -29,13 +29,20 @@ struct TimeColumn {
   std::function<std::string(std::size_t)> row = {};  ///< Names sample i: "row 17".
 };
 
-/// The sampling rate that evenly spaced times show: the shortest decimal number that the stamps'
+/// Times that are evenly spaced but for their scatter.
+struct EvenTimes {
+  Hertz rate;
+  double jitter = 0.0;  ///< of single stamps, rms, in periods
+};
+
+/// What evenly spaced times show. The rate is the shortest decimal number that the stamps'
 /// own scatter allows about (n - 1) / (last - first). Steps are compared with their median, so that
-/// a gap cannot hide in the mean.
+/// a gap cannot hide in the mean. The jitter is that of independent stamps with steps of this
+/// scatter.
 ///
 /// Errors, with the row: a time that repeats or goes backwards, a step more than 1.5 or less than
 /// 0.5 times the median; fewer than two times; no unit stated and a median step above 1 (it may
 /// well be milliseconds). Values must be finite.
-Result<Hertz> rate_from_times(std::span<const double> times, const TimeColumn& column);
+Result<EvenTimes> even_times(std::span<const double> times, const TimeColumn& column);
 
 }  // namespace imunoise::recording

@@ -92,6 +92,12 @@ Samples samples_of(Numbers numbers) {
       numbers);
 }
 
+std::uint64_t lost_in(const std::vector<RowGap>& gaps) {
+  std::uint64_t out = 0;
+  for (const RowGap& gap : gaps) out += gap.lost;
+  return out;
+}
+
 class Importer {
  public:
   Importer(const std::filesystem::path& root, const ImportOptions& options,
@@ -102,7 +108,8 @@ class Importer {
     const Place& first = wanted_.front().place;
     const v1::RecordedStream& stream = device.device.streams(first.stream);
     Rows& rows = device.streams[static_cast<std::size_t>(first.stream)];
-    const std::vector<Part> parts = parts_between(find_gaps(stream, rows), rows.size());
+    const std::vector<RowGap> gaps = find_gaps(stream, rows);
+    const std::vector<Part> parts = parts_between(gaps, rows.size());
     const std::string name = replicate_folder(device.where.replicate());
     const std::size_t begin = out_.size();
     const Hertz rate = options_.rate.value_or(Hertz{stream.rate_hz()});
@@ -114,9 +121,11 @@ class Importer {
         out_.push_back({kept.size() > 1 ? fmt::format("{}#{}", name, kept.size()) : name,
                         root_ / device.where.folder,
                         rate,
+                        {},
                         {}});
       }
     }
+    if (!kept.empty()) out_[begin].timing = {.gaps = gaps.size(), .lost = lost_in(gaps)};
     for (const Wanted& one : wanted_) {
       const v1::RecordedChannel& channel =
           device.device.streams(one.place.stream).channels(one.place.channel);

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
-#include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/diagnose.h"
-#include "core/diagnosis/integrity.h"
 #include "core/diagnosis/useless.h"
 #include "core/spectrum/cross_power.h"
 #include "study/analysis/comparison.h"
 #include "study/analysis/diagnosis_report.h"
+#include "study/analysis/integrity_report.h"
 #include "study/analysis/misfit_sentences.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
@@ -86,56 +85,6 @@ Result<Chosen> current_model(const Series& series, const DiagnoseOptions& option
   if (!noise) return tl::unexpected(noise.error());
   out.model.noise = std::move(*noise);
   return out;
-}
-
-std::string defect_words(const Defect& defect, double rate) {
-  if (defect.effect == "duplicated_samples")
-    return fmt::format("{} samples repeat the one before; noise like this repeats {:.0f}",
-                       defect.count, defect.expected);
-  if (defect.effect == "stuck")
-    return fmt::format("the output stands still for {} samples from {:.2f} s on", defect.count,
-                       static_cast<double>(defect.first) / rate);
-  if (defect.effect == "saturation")
-    return fmt::format("{} samples lie at an end of the range, {:.0f} next to it", defect.count,
-                       defect.expected);
-  return fmt::format("the noise is smaller than the step of the converter: {} codes occur",
-                     defect.count);
-}
-
-void add_integrity(const Series& series, v1::DiagnosisReport& to) {
-  for (std::size_t k = 0; k < series.replicates.size(); ++k) {
-    for (const Defect& defect : integrity(series.replicates[k])) {
-      v1::IntegrityFinding& finding = *to.add_integrity();
-      finding.set_effect(defect.effect);
-      finding.set_replicate(series.names[k]);
-      finding.set_count(defect.count);
-      finding.set_sentence(fmt::format("{}: {}.", series.names[k],
-                                       defect_words(defect, series.replicates[k].rate().value)));
-    }
-  }
-}
-
-// Defects of the samples look like anything: they are the verdict, and what else seems missing
-// comes after them.
-void put_defects_first(bool mended, v1::DiagnosisReport& to) {
-  if (to.integrity_size() == 0) return;
-  const v1::IntegrityFinding& finding = to.integrity(0);
-  const EffectInfo& about = effect_info(finding.effect());
-  v1::EffectCandidate defect;
-  defect.set_effect(finding.effect());
-  defect.set_title(std::string(about.title));
-  defect.set_cause(std::string(about.cause));
-  defect.set_record_next(std::string(about.record_next));
-  defect.set_sentence(finding.sentence());
-  google::protobuf::RepeatedPtrField<v1::EffectCandidate> all;
-  *all.Add() = std::move(defect);
-  all.MergeFrom(to.candidates());
-  to.mutable_candidates()->Swap(&all);
-  to.set_verdict(v1::found);
-  to.set_summary(
-      fmt::format("The samples themselves are defective: {} {}", finding.sentence(),
-                  mended ? "What follows is of the samples as they were mended: see the notes."
-                         : "Mend this first; it can look like any effect."));
 }
 
 Step step_of(const TriedEffect& effect) {
@@ -276,6 +225,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
       add_diagnosis(diagnosis, *subject, out);
       add_misfits(diagnosis.misfit, out);
       put_defects_first(parts.changed, out);
+      add_timing(recorded, out);
       foretell(series, subject, options.foretold, progress, out);
       if (progress.stopped()) return fail("stopped");
     }

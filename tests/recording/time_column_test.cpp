@@ -12,9 +12,14 @@
 namespace imunoise::recording {
 namespace {
 
+Result<EvenTimes> read_times(const std::vector<double>& times,
+                             std::optional<double> seconds = 1.0) {
+  return even_times(times, {"f.csv: column t", seconds,
+                            [](std::size_t i) { return "row " + std::to_string(i + 1); }});
+}
+
 Result<Hertz> rate_of(const std::vector<double>& times, std::optional<double> seconds = 1.0) {
-  return rate_from_times(times, {"f.csv: column t", seconds,
-                                 [](std::size_t i) { return "row " + std::to_string(i + 1); }});
+  return read_times(times, seconds).map([](const EvenTimes& even) { return even.rate; });
 }
 
 std::string message_of(const std::vector<double>& times) {
@@ -55,6 +60,17 @@ TEST(TimeColumn, RateIsTheShortestNumberThatTheStampsAllow) {
   EXPECT_EQ(rate_of(jittered)->value, 100.0);
   // A clock that is really 30 ppm off stays so.
   EXPECT_NEAR(rate_of(regular(100000, 0.01 * (1 - 30e-6)))->value, 100.003, 1e-6);
+}
+
+TEST(TimeColumn, JitterIsThatOfTheStamps) {
+  EXPECT_LT(read_times(regular(1000, 0.01))->jitter, 1e-9);
+  std::mt19937_64 random(8);
+  std::vector<double> jittered = regular(20'000, 0.01);
+  std::normal_distribution<double> normal(0.0, 5e-4);
+  for (double& time : jittered) time += normal(random);
+  // The mean square of neighbouring steps of n stamps has a relative variance of 3/n; 4 sigma of a
+  // root.
+  EXPECT_NEAR(read_times(jittered)->jitter, 0.05, 0.05 * 2.0 * std::sqrt(3.0 / 20'000));
 }
 
 TEST(TimeColumn, GapsDuplicatesAndReturnsAreNamed) {

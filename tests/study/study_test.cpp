@@ -176,6 +176,23 @@ TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   EXPECT_TRUE(tells(*report, "stands still for 500 samples"));
 }
 
+TEST(Diagnose, WhatClocksAndCountersShowedIsToldButIsNoVerdict) {
+  auto recordings = *read({}, "");
+  recordings[0].timing = {.gaps = 2, .lost = 17};
+  recordings[1].timing = {.jitter = 0.25};
+  recordings[2].timing = {.jitter = 0.04};
+  DiagnoseOptions options;
+  options.model = "WN + RW + QN";
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_EQ(report->integrity_size(), 2);
+  EXPECT_EQ(report->integrity(0).effect(), "lost_samples");
+  EXPECT_EQ(report->integrity(0).count(), 17U);
+  EXPECT_EQ(report->integrity(1).effect(), "clock_jitter");
+  EXPECT_EQ(report->integrity(1).replicate(), "run2");
+  EXPECT_EQ(report->verdict(), v1::none);
+}
+
 TEST(Diagnose, WhatRepeatsIsMendedAndTold) {
   auto recordings = *read({}, "");
   for (recording::Replicate& one : recordings) {

@@ -194,6 +194,9 @@ TEST_F(Verify, ImportsAsReplicatesCutAtGaps) {
   EXPECT_EQ((*parts)[1].channels[0].begin, 60U);
   EXPECT_EQ((*parts)[1].channels[0].count, 270U);
   EXPECT_EQ((*parts)[1].name, "replicate-1#2");
+  EXPECT_EQ((*parts)[0].timing.gaps, 1U);
+  EXPECT_EQ((*parts)[0].timing.lost, 30U);
+  EXPECT_EQ((*parts)[1].timing.gaps, 0U) << "told once";
 
   options.channels.clear();
   const auto both = import_recording(files_, root_, options);

@@ -1,0 +1,91 @@
+#include "study/analysis/integrity_report.h"
+
+#include <fmt/format.h>
+
+#include "core/diagnosis/catalogue.h"
+#include "core/diagnosis/integrity.h"
+
+namespace imunoise::study {
+namespace {
+
+std::string defect_words(const Defect& defect, double rate) {
+  if (defect.effect == "duplicated_samples")
+    return fmt::format("{} samples repeat the one before; noise like this repeats {:.0f}",
+                       defect.count, defect.expected);
+  if (defect.effect == "stuck")
+    return fmt::format("the output stands still for {} samples from {:.2f} s on", defect.count,
+                       static_cast<double>(defect.first) / rate);
+  if (defect.effect == "saturation")
+    return fmt::format("{} samples lie at an end of the range, {:.0f} next to it", defect.count,
+                       defect.expected);
+  return fmt::format("the noise is smaller than the step of the converter: {} codes occur",
+                     defect.count);
+}
+
+void add_finding(const std::string& effect, const std::string& replicate, std::uint64_t count,
+                 const std::string& words, v1::DiagnosisReport& to) {
+  v1::IntegrityFinding& finding = *to.add_integrity();
+  finding.set_effect(effect);
+  finding.set_replicate(replicate);
+  finding.set_count(count);
+  finding.set_sentence(fmt::format("{}: {}.", replicate, words));
+}
+
+}  // namespace
+
+void add_integrity(const Series& series, v1::DiagnosisReport& to) {
+  for (std::size_t k = 0; k < series.replicates.size(); ++k) {
+    const Signal& signal = series.replicates[k];
+    for (const Defect& defect : integrity(signal)) {
+      add_finding(defect.effect, series.names[k], defect.count,
+                  defect_words(defect, signal.rate().value), to);
+    }
+  }
+}
+
+void add_timing(const std::vector<recording::Replicate>& recordings, v1::DiagnosisReport& to) {
+  constexpr double kUneven = 0.05;  // periods
+  for (const recording::Replicate& one : recordings) {
+    const recording::Timing& timing = one.timing;
+    if (timing.gaps > 0) {
+      const std::string lost =
+          timing.lost > 0 ? fmt::format("{}", timing.lost) : "an unknown number of";
+      add_finding("lost_samples", one.name, timing.lost,
+                  fmt::format("{} samples were lost in {} places; the recording is cut there, and "
+                              "its parts are replicates",
+                              lost, timing.gaps),
+                  to);
+    }
+    if (timing.jitter > kUneven) {
+      add_finding("clock_jitter", one.name, 0,
+                  fmt::format("its time stamps depart from even spacing by {:.2f} of a period "
+                              "(rms); a host's or rounded ones do, but if the device sampled so "
+                              "unevenly, its fastest signals are blurred",
+                              timing.jitter),
+                  to);
+    }
+  }
+}
+
+void put_defects_first(bool mended, v1::DiagnosisReport& to) {
+  if (to.integrity_size() == 0) return;
+  const v1::IntegrityFinding& finding = to.integrity(0);
+  const EffectInfo& about = effect_info(finding.effect());
+  v1::EffectCandidate defect;
+  defect.set_effect(finding.effect());
+  defect.set_title(std::string(about.title));
+  defect.set_cause(std::string(about.cause));
+  defect.set_record_next(std::string(about.record_next));
+  defect.set_sentence(finding.sentence());
+  google::protobuf::RepeatedPtrField<v1::EffectCandidate> all;
+  *all.Add() = std::move(defect);
+  all.MergeFrom(to.candidates());
+  to.mutable_candidates()->Swap(&all);
+  to.set_verdict(v1::found);
+  to.set_summary(
+      fmt::format("The samples themselves are defective: {} {}", finding.sentence(),
+                  mended ? "What follows is of the samples as they were mended: see the notes."
+                         : "Mend this first; it can look like any effect."));
+}
+
+}  // namespace imunoise::study
