@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <unordered_map>
 
 namespace imunoise {
 namespace {
@@ -22,44 +22,65 @@ struct Codes {
 
 constexpr std::size_t kMany = 100'000;  // distinct values: no grid worth the name
 
-// Samples at the extremes, which values without a grid have as well.
-void count_ends(const Signal& signal, Codes& to) {
+constexpr std::size_t kPile = 5;  // samples at an end of the range that are no chance
+
+// Differences of neighbours, and samples at the extremes, which values without a grid have as well.
+Codes codes_without_grid(const Signal& signal) {
+  Codes out;
   double smallest = signal.value(0);
   double largest = smallest;
+  double before = smallest;
+  double squares = 0.0;
   for (std::size_t t = 0; t < signal.size(); ++t) {
     const double value = signal.value(t);
-    if (value < smallest) to.lowest = 0;
-    if (value > largest) to.highest = 0;
+    if (value < smallest) out.lowest = 0;
+    if (value > largest) out.highest = 0;
     smallest = std::min(smallest, value);
     largest = std::max(largest, value);
-    to.lowest += value == smallest ? 1 : 0;
-    to.highest += value == largest ? 1 : 0;
+    out.lowest += value == smallest ? 1 : 0;
+    out.highest += value == largest ? 1 : 0;
+    const double difference = value - before;
+    squares += difference * difference;
+    out.repeats += t > 0 && difference == 0.0 ? 1 : 0;
+    before = value;
   }
+  out.spread = std::sqrt(squares / static_cast<double>(signal.size()));
+  out.distinct = kMany;
+  return out;
+}
+
+struct Occurrence {
+  double value = 0.0;
+  std::size_t count = 0;
+};
+
+// How often each value occurs, rising; empty where kMany do.
+std::vector<Occurrence> occurrences(const Signal& signal) {
+  std::unordered_map<double, std::size_t> counts(1024);
+  for (std::size_t t = 0; t < signal.size(); ++t) {
+    ++counts[signal.value(t)];
+    if (counts.size() >= kMany) return {};
+  }
+  std::vector<Occurrence> out;
+  for (const auto& [value, count] : counts) out.push_back({value, count});
+  std::sort(out.begin(), out.end(),
+            [](const Occurrence& a, const Occurrence& b) { return a.value < b.value; });
+  return out;
 }
 
 Codes codes_of(const Signal& signal) {
-  Codes out;
-  std::map<double, std::size_t> counts;
-  double squares = 0.0;
-  double before = signal.value(0);
-  for (std::size_t t = 0; t < signal.size(); ++t) {
-    const double value = signal.value(t);
-    if (counts.size() < kMany) ++counts[value];
-    if (t == 0) continue;
-    const double difference = value - before;
-    squares += difference * difference;
-    out.repeats += difference == 0.0 ? 1 : 0;
-    before = value;
-  }
-  count_ends(signal, out);
-  out.spread = std::sqrt(squares / static_cast<double>(signal.size()));
-  out.distinct = counts.size();
-  if (counts.size() >= kMany || counts.size() < 2) return out;
+  Codes out = codes_without_grid(signal);
+  // Where next to nothing occurs twice, a grid would tell nothing.
+  if (out.repeats < 2 && out.lowest < kPile && out.highest < kPile) return out;
+  const std::vector<Occurrence> all = occurrences(signal);
+  if (all.empty()) return out;
+  out.distinct = all.size();
+  if (all.size() < 2) return out;
   out.step = INFINITY;
-  for (auto one = std::next(counts.begin()); one != counts.end(); ++one)
-    out.step = std::min(out.step, one->first - std::prev(one)->first);
-  out.above_lowest = std::next(counts.begin())->second;
-  out.below_highest = std::next(counts.rbegin())->second;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    out.step = std::min(out.step, all[i].value - all[i - 1].value);
+  out.above_lowest = all[1].count;
+  out.below_highest = all[all.size() - 2].count;
   return out;
 }
 
@@ -165,7 +186,7 @@ std::vector<Defect> integrity(const Signal& signal) {
   if (longest != stuck.end()) out.push_back({"stuck", longest->count, 0.0, longest->first, {}});
   // Noise thins out towards its extremes; a converter at its end piles samples up there.
   const auto piled = [](std::size_t at_end, std::size_t next_to_it) {
-    return at_end >= 5 && at_end > 3 * next_to_it;
+    return at_end >= kPile && at_end > 3 * next_to_it;
   };
   if (piled(codes.highest, codes.below_highest))
     out.push_back({"saturation", codes.highest, static_cast<double>(codes.below_highest), 0,

@@ -4,6 +4,7 @@
 
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/integrity.h"
+#include "core/support/parallel.h"
 
 namespace imunoise::study {
 namespace {
@@ -34,11 +35,13 @@ void add_finding(const std::string& effect, const std::string& replicate, std::u
 }  // namespace
 
 void add_integrity(const Series& series, v1::DiagnosisReport& to) {
-  for (std::size_t k = 0; k < series.replicates.size(); ++k) {
-    const Signal& signal = series.replicates[k];
-    for (const Defect& defect : integrity(signal)) {
+  std::vector<std::vector<Defect>> defects(series.replicates.size());
+  for_each_index(defects.size(),
+                 [&](std::size_t k) { defects[k] = integrity(series.replicates[k]); });
+  for (std::size_t k = 0; k < defects.size(); ++k) {
+    for (const Defect& defect : defects[k]) {
       add_finding(defect.effect, series.names[k], defect.count,
-                  defect_words(defect, signal.rate().value), to);
+                  defect_words(defect, series.replicates[k].rate().value), to);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "core/diagnosis/integrity.h"
 #include "core/diagnosis/mend.h"
 #include "core/spectrum/cross_power.h"
+#include "core/support/parallel.h"
 
 namespace imunoise::study {
 namespace {
@@ -23,9 +24,8 @@ Replicate part_of(const Replicate& whole, std::size_t begin, std::size_t count) 
   return out;
 }
 
-void cut(const Replicate& whole, std::size_t channel, SoundParts& to) {
-  const Signal signal = whole.channels[channel].signal();
-  const std::vector<StuckRun> runs = stuck_runs(signal);
+void cut(const Replicate& whole, std::size_t channel, const std::vector<StuckRun>& runs,
+         SoundParts& to) {
   if (runs.empty()) {
     to.replicates.push_back(whole);
     return;
@@ -41,7 +41,7 @@ void cut(const Replicate& whole, std::size_t channel, SoundParts& to) {
     begin = run.first + run.count;
     lost += run.count;
   }
-  keep_until(signal.size());
+  keep_until(whole.channels[channel].count);
   for (std::size_t i = 1; i < parts.size(); ++i)
     parts[i].name = fmt::format("{}#{}", whole.name, i + 1);
   to.notes.push_back(
@@ -65,12 +65,12 @@ std::vector<WrongSample> wrong_samples(const Signal& signal) {
   return out;
 }
 
-void mend(Replicate& replicate, std::size_t channel, SoundParts& to) {
+void mend(Replicate& replicate, std::size_t channel, const std::vector<WrongSample>& wrong,
+          SoundParts& to) {
+  if (wrong.empty()) return;
   constexpr double kMost = 0.02;  // of the samples
   recording::Channel& of = replicate.channels[channel];
   const Signal signal = of.signal();
-  const std::vector<WrongSample> wrong = wrong_samples(signal);
-  if (wrong.empty()) return;
   const bool few = static_cast<double>(wrong.size()) <= kMost * static_cast<double>(signal.size());
   to.notes.push_back(fmt::format(
       "{}: {} samples of {} repeat the one before or were cut off; {}", replicate.name,
@@ -89,9 +89,17 @@ void mend(Replicate& replicate, std::size_t channel, SoundParts& to) {
 
 SoundParts sound_parts(const std::vector<Replicate>& replicates, std::size_t channel) {
   SoundParts out;
-  for (const Replicate& whole : replicates) cut(whole, channel, out);
+  std::vector<std::vector<StuckRun>> runs(replicates.size());
+  for_each_index(replicates.size(), [&](std::size_t k) {
+    runs[k] = stuck_runs(replicates[k].channels[channel].signal());
+  });
+  for (std::size_t k = 0; k < replicates.size(); ++k) cut(replicates[k], channel, runs[k], out);
   if (out.replicates.empty()) out = {replicates, {}, false};
-  for (Replicate& one : out.replicates) mend(one, channel, out);
+  std::vector<std::vector<WrongSample>> wrong(out.replicates.size());
+  for_each_index(wrong.size(), [&](std::size_t k) {
+    wrong[k] = wrong_samples(out.replicates[k].channels[channel].signal());
+  });
+  for (std::size_t k = 0; k < wrong.size(); ++k) mend(out.replicates[k], channel, wrong[k], out);
   return out;
 }
 
