@@ -141,6 +141,22 @@ std::vector<GridPiece> common_grid(std::span<const GridStream> streams, std::siz
   return out;
 }
 
+void shorten(GridPiece& piece, std::size_t count) {
+  for (Picked& one : piece.picked) {
+    std::size_t surplus = 0;
+    for (const Part& part : one.parts) surplus += part.count;
+    surplus -= surplus / piece.count * count;
+    while (surplus >= one.parts.back().count) {
+      surplus -= one.parts.back().count;
+      const std::size_t begin = one.parts.back().begin;
+      one.parts.pop_back();
+      one.dropped -= begin - (one.parts.back().begin + one.parts.back().count);
+    }
+    one.parts.back().count -= surplus;
+  }
+  piece.count = count;
+}
+
 double seconds_together(std::span<const GridStream> streams) {
   double out = 0.0;
   for (const Overlap& one : overlaps(streams))

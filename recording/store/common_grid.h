@@ -37,6 +37,9 @@ struct GridPiece {
 /// comes twice, and every so often one is left out. Nothing is interpolated.
 std::vector<GridPiece> common_grid(std::span<const GridStream> streams, std::size_t fewest);
 
+/// Leaves the end of a piece out. Precondition: count ≤ piece.count.
+void shorten(GridPiece& piece, std::size_t count);
+
 /// How long the streams run together, s.
 double seconds_together(std::span<const GridStream> streams);
 

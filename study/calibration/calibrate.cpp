@@ -6,6 +6,7 @@
 
 #include "core/model/model.h"
 #include "recording/store/manifest.h"
+#include "recording/store/places.h"
 #include "recording/store/replicates.h"
 #include "study/analysis/array_series.h"
 #include "study/analysis/prepare.h"

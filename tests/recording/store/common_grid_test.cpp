@@ -125,6 +125,26 @@ TEST(CommonGrid, HalfASampleApartNothingFlickers) {
   EXPECT_EQ(grid[0].picked[0].dropped + grid[0].picked[1].dropped, 0U);
 }
 
+TEST(CommonGrid, IsShortenedAtItsEnd) {
+  const std::vector<GridStream> streams{{{line(0, 100)}, 1}, {{line(0, 400, 500)}, 4}};
+  const std::vector<GridStream> same{{{line(0, 100)}, 1}, {{line(0, 25, 500)}, 1}};
+  for (const auto& two : {streams, same}) {
+    const auto whole = common_grid(two, 16);
+    ASSERT_EQ(whole.size(), 1U);
+    for (const std::size_t count : {whole[0].count, whole[0].count / 2, std::size_t{1}}) {
+      GridPiece piece = whole[0];
+      shorten(piece, count);
+      EXPECT_EQ(piece.count, count);
+      for (std::size_t i = 0; i < 2; ++i) {
+        std::vector<std::size_t> rows = rows_of(whole[0].picked[i]);
+        rows.resize(count * two[i].averaged);
+        EXPECT_EQ(rows_of(piece.picked[i]), rows);
+        EXPECT_EQ(piece.picked[i].dropped, rows.back() - rows.front() + 1 - rows.size());
+      }
+    }
+  }
+}
+
 TEST(CommonGrid, AGapOfOneCutsAll) {
   const std::vector<GridStream> streams{{{line(0, 100)}, 1},
                                         {{line(0, 30), line(31, 50, 0, 3000)}, 1}};
