@@ -118,11 +118,67 @@ TEST(CommonGrid, KeepsStepWithTheSlowerClock) {
   }
 }
 
+// E W² at half-width m of the window that begins at `first` of these rows, W = Σ h x(rows): for a
+// process of this autocovariance, or of minus half its variogram.
+template <class Covariance>
+double square_of_coefficient(const std::vector<std::size_t>& rows, std::size_t first, std::size_t m,
+                             Covariance covariance) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 2 * m; ++i) {
+    for (std::size_t j = 0; j < 2 * m; ++j) {
+      const auto lag =
+          std::abs(static_cast<double>(rows[first + i]) - static_cast<double>(rows[first + j]));
+      sum += ((i < m) == (j < m) ? 1.0 : -1.0) * covariance(lag);
+    }
+  }
+  return sum / static_cast<double>(4 * m * m);
+}
+
+// Exactly, not by chance: the wavelet variance of white noise does not change at all, that of a
+// random walk and of correlated noise by no more than the share of samples that are left out.
+TEST(CommonGrid, LeavingSamplesOutAddsNoNoise) {
+  for (const double share : {1.0 / 33.0, 1.0 / 200.0}) {
+    const std::vector<GridStream> streams{{{line(0, 40)}, 1}, {{line(0, 40, 1e6 * share)}, 1}};
+    const auto grid = common_grid(streams, 16);
+    ASSERT_EQ(grid.size(), 1U);
+    const std::vector<std::size_t> thinned = rows_of(grid[0].picked[1]);
+    const std::vector<std::size_t> whole = rows_of(grid[0].picked[0]);
+    ASSERT_GT(grid[0].picked[1].dropped, 15U);
+    // Every window between one row left out and the next.
+    const auto windows = static_cast<std::size_t>(std::lround(1.0 / share)) - 1;
+    const auto change = [&](std::size_t m, auto covariance) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < windows; ++i)
+        sum += square_of_coefficient(thinned, 300 + i, m, covariance);
+      return sum / static_cast<double>(windows) / square_of_coefficient(whole, 0, m, covariance) -
+             1.0;
+    };
+    for (const std::size_t m : {std::size_t{1}, std::size_t{4}, std::size_t{16}, std::size_t{64}}) {
+      EXPECT_NEAR(change(m, [](double lag) { return lag == 0.0 ? 1.0 : 0.0; }), 0.0, 1e-12);
+      // Of the rows that stay: share / (1 - share).
+      const double most = share / (1.0 - share) * (1.0 + 1e-9);
+      const double walk = change(m, [](double lag) { return -0.5 * lag; });
+      EXPECT_GE(walk, 0.9 * most);
+      EXPECT_LE(walk, most);
+      EXPECT_LE(std::abs(change(m, [](double lag) { return std::pow(0.9, lag); })), most);
+    }
+  }
+}
+
+// Rounding decides what is nearest here; it decides once.
 TEST(CommonGrid, HalfASampleApartNothingFlickers) {
-  const std::vector<GridStream> streams{{{line(0, 3600)}, 1}, {{line(0.005, 3600)}, 1}};
-  const auto grid = common_grid(streams, 16);
-  ASSERT_EQ(grid.size(), 1U);
-  EXPECT_EQ(grid[0].picked[0].dropped + grid[0].picked[1].dropped, 0U);
+  for (std::int64_t later = 24'999'001; later < 24'999'101; ++later) {
+    Timeline first = line(0, 360);
+    first.period_ns = static_cast<double>(later) / 2.5;
+    Timeline second = first;
+    second.first_ns += later;
+    for (const auto& two : {std::pair(first, second), std::pair(second, first)}) {
+      const std::vector<GridStream> streams{{{two.first}, 1}, {{two.second}, 1}};
+      const auto grid = common_grid(streams, 16);
+      ASSERT_EQ(grid.size(), 1U);
+      EXPECT_EQ(grid[0].picked[0].dropped + grid[0].picked[1].dropped, 0U);
+    }
+  }
 }
 
 TEST(CommonGrid, IsShortenedAtItsEnd) {
