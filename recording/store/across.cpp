@@ -108,10 +108,41 @@ Replicate replicate_of(const std::filesystem::path& root, const Stretch& stretch
   return out;
 }
 
+void add_names(const DeviceStream& stream, std::vector<std::string>& to) {
+  for (const Channel& one : stream.channels) to.push_back(one.name);
+}
+
+Across nothing_of(const WhoJoins& who) {
+  Across out;
+  for (const Joining& one : who.joined) add_names(*one.stream, out.channels);
+  for (const Staying& one : who.left_out) add_names(*one.stream, out.channels);
+  return out;
+}
+
+Across across_of(const std::filesystem::path& root, const WhoJoins& who,
+                 const std::vector<Stretch>& stretches) {
+  Across out;
+  for (std::size_t i = 0; i < who.joined.size(); ++i) {
+    const Joining& one = who.joined[i];
+    add_names(*one.stream, out.channels);
+    JoinedStream& to = out.streams.emplace_back(
+        JoinedStream{one.stream->device, one.stream->stream, one.stream->rate,
+                     clock_ppm(*one.stream), seconds_of({one}), one.averaged, 0});
+    for (const Stretch& stretch : stretches) to.dropped += stretch.piece.picked[i].dropped;
+  }
+  for (const Stretch& one : stretches) {
+    out.seconds += 1e-9 * static_cast<double>(one.piece.count) * one.piece.period_ns;
+    out.replicates.push_back(replicate_of(root, one, who));
+  }
+  return out;
+}
+
 }  // namespace
 
-Result<Across> import_across(const FileSystem& files, const std::filesystem::path& root,
-                             const std::vector<std::string>& channels, const Progress& progress) {
+Result<std::vector<Across>> import_across(const FileSystem& files,
+                                          const std::filesystem::path& root,
+                                          const std::vector<std::string>& channels,
+                                          const Progress& progress) {
   const auto manifest = manifest_of(files, root);
   if (!manifest) return tl::make_unexpected(manifest.error());
   const auto wanted = wanted_of(root.string(), offers_of(*manifest), channels);
@@ -123,26 +154,20 @@ Result<Across> import_across(const FileSystem& files, const std::filesystem::pat
   const auto streams = read_streams(files, root, *manifest, *wanted, progress);
   if (!streams) return tl::make_unexpected(streams.error());
 
-  WhoJoins who = who_joins(*streams);
-  Across out;
-  out.left_out = std::move(who.left_out);
-  if (devices_of(who.joined) < 2) return out;
-  std::vector<Stretch> stretches = stretches_of(who);
-  if (stretches.empty()) {
-    return fail(fmt::format("{}: no stretch that the devices share has {} samples", root.string(),
-                            kMinimumSamples));
-  }
-  even_out(stretches);
-  for (std::size_t i = 0; i < who.joined.size(); ++i) {
-    const Joining& one = who.joined[i];
-    JoinedStream& to = out.streams.emplace_back(
-        JoinedStream{one.stream->device, one.stream->stream, one.stream->rate,
-                     clock_ppm(*one.stream), seconds_of({one}), one.averaged, 0});
-    for (const Stretch& stretch : stretches) to.dropped += stretch.piece.picked[i].dropped;
-  }
-  for (const Stretch& one : stretches) {
-    out.seconds += 1e-9 * static_cast<double>(one.piece.count) * one.piece.period_ns;
-    out.replicates.push_back(replicate_of(root, one, who));
+  std::vector<Across> out;
+  for (const WhoJoins& who : who_joins(*streams)) {
+    const bool several = devices_of(who.joined) > 1;
+    std::vector<Stretch> stretches = several ? stretches_of(who) : std::vector<Stretch>();
+    if (several && stretches.empty()) {
+      return fail(fmt::format("{}: no stretch that the devices share has {} samples", root.string(),
+                              kMinimumSamples));
+    }
+    even_out(stretches);
+    out.push_back(several ? across_of(root, who, stretches) : nothing_of(who));
+    for (const Staying& one : who.left_out) {
+      out.back().left_out.push_back(
+          {one.stream->device, one.stream->stream, "not joined: " + one.reason});
+    }
   }
   return out;
 }

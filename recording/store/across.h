@@ -31,12 +31,12 @@ struct LeftOut {
 };
 
 struct Across {
+  /// Of the replicates, stream after stream. Where there are none, all that were to be joined.
+  std::vector<std::string> channels;
   std::vector<JoinedStream> streams;
   std::vector<LeftOut> left_out;
-  double seconds = 0.0;  ///< s, of all replicates together.
-  /// The wanted channels of those streams, stream after stream. Empty unless two devices are
-  /// joined.
-  std::vector<Replicate> replicates;
+  double seconds = 0.0;               ///< s, of all replicates together.
+  std::vector<Replicate> replicates;  ///< Empty unless two devices are joined.
 };
 
 /// Reads channels of several devices, aligned by the host's clock as common_grid() says. Their rate
@@ -44,16 +44,18 @@ struct Across {
 /// averaged over as many samples as that. Each stretch that all share without a gap is a replicate,
 /// named as by import_recording(); lengths that differ by less than 1 % are cut to the shortest.
 ///
-/// Left out, with the reason: a stream that is not sound; without ten seconds in one piece; with a
-/// clock more than 3 % off its nominal rate; of another rate (the rate stays that most devices go
-/// with, of equals the highest); without time in common with the others, or with less than half of
-/// what two or more others have together. Streams that recorded longest are joined first.
+/// One for each rate that several devices go with, and at least one: first the rate that most go
+/// with (of equals the highest), which leaves the others out. Left out, too, with the reason: a
+/// stream that is not sound; without ten seconds in one piece; with a clock more than 3 % off its
+/// nominal rate; without time in common with the others, or with less than half of what two or more
+/// others have together. Streams that recorded longest are joined first.
 ///
 /// `channels` as import_recording() calls them. Memory: these channels in all replicates, twice.
 /// Error: no recording, a channel that it has not, an unknown unit, no two devices, nothing long
 /// enough, a stop.
-Result<Across> import_across(const FileSystem& files, const std::filesystem::path& root,
-                             const std::vector<std::string>& channels,
-                             const Progress& progress = {});
+Result<std::vector<Across>> import_across(const FileSystem& files,
+                                          const std::filesystem::path& root,
+                                          const std::vector<std::string>& channels,
+                                          const Progress& progress = {});
 
 }  // namespace imunoise::recording

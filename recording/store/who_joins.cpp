@@ -33,88 +33,81 @@ std::vector<Joining> of_rate(const std::vector<Joining>& streams, Hertz base) {
   return out;
 }
 
-class Choice {
- public:
-  explicit Choice(const std::vector<DeviceStream>& streams) {
-    for (const DeviceStream& one : streams) {
-      if (const std::string reason = unfit(one); !reason.empty()) {
-        leave_out(one, reason);
-      } else {
-        out_.joined.push_back({&one, 1});
-      }
+std::string unfit(const DeviceStream& stream) {
+  if (!stream.defect.empty()) return stream.defect;
+  if (seconds_of({{&stream, 1}}) == 0.0) return "no stretch without a gap has ten seconds";
+  const double ppm = clock_ppm(stream);
+  if (std::abs(ppm) <= kMostPpm) return {};
+  return fmt::format("it samples {:.1f} % {} than it says, by the host's clock",
+                     std::abs(ppm) * 1e-4, ppm > 0.0 ? "faster" : "slower");
+}
+
+bool among(const std::vector<Joining>& streams, const Joining& one) {
+  return std::any_of(streams.begin(), streams.end(),
+                     [&](const Joining& other) { return other.stream == one.stream; });
+}
+
+// The rate that most devices go with; of equals the highest, which keeps the shortest times.
+WhoJoins largest_group(const std::vector<Joining>& streams) {
+  WhoJoins out;
+  for (const Joining& one : streams) {
+    std::vector<Joining> with = of_rate(streams, one.stream->rate);
+    const auto better = std::pair(devices_of(with), one.stream->rate.value);
+    if (!out.joined.empty() && better <= std::pair(devices_of(out.joined), out.rate.value))
+      continue;
+    out.rate = one.stream->rate;
+    out.joined = std::move(with);
+  }
+  return out;
+}
+
+std::vector<WhoJoins> groups_of(std::vector<Joining> streams) {
+  std::vector<WhoJoins> out{largest_group(streams)};
+  const std::vector<Joining> first = out.front().joined;
+  std::erase_if(streams, [&](const Joining& one) { return among(first, one); });
+  for (const Joining& one : streams) {
+    out.front().left_out.push_back(
+        {one.stream, fmt::format("rates differ: {:.6g} Hz and {:.6g} Hz have no whole ratio",
+                                 one.stream->rate.value, out.front().rate.value)});
+  }
+  while (devices_of(streams) > 1) {
+    WhoJoins next = largest_group(streams);
+    if (devices_of(next.joined) < 2) break;
+    std::erase_if(streams, [&](const Joining& one) { return among(next.joined, one); });
+    out.push_back(std::move(next));
+  }
+  return out;
+}
+
+// One after the other, the longest first.
+void keep_by_time(WhoJoins& who) {
+  std::vector<Joining> order = who.joined;
+  std::stable_sort(order.begin(), order.end(), [](const Joining& a, const Joining& b) {
+    return seconds_of({a}) > seconds_of({b});
+  });
+  const double least = static_cast<double>(kMinimumSamples) / who.rate.value;
+  std::vector<Joining> in;
+  double together = 0.0;
+  for (const Joining& one : order) {
+    std::vector<Joining> with = in;
+    with.push_back(one);
+    const double seconds = seconds_of(with);
+    if (!in.empty() && seconds < least) {
+      who.left_out.push_back(
+          {one.stream, fmt::format("it has no time in common with {}",
+                                   in.size() > 1 ? "the others" : in[0].stream->device)});
+    } else if (in.size() > 1 && seconds < kKeptShare * together) {
+      who.left_out.push_back(
+          {one.stream,
+           fmt::format("it shares only {:.4g} s of the {:.4g} s that the others have together",
+                       seconds, together)});
+    } else {
+      in = std::move(with);
+      together = seconds;
     }
   }
-
-  // The rate that most devices go with; of equals the highest, which keeps the shortest times.
-  void by_rate() {
-    if (out_.joined.empty()) return;
-    std::vector<Joining> best;
-    for (const Joining& one : out_.joined) {
-      std::vector<Joining> with = of_rate(out_.joined, one.stream->rate);
-      const auto better = std::pair(devices_of(with), one.stream->rate.value);
-      if (!best.empty() && better <= std::pair(devices_of(best), out_.rate.value)) continue;
-      out_.rate = one.stream->rate;
-      best = std::move(with);
-    }
-    for (const Joining& one : out_.joined) {
-      if (whole_ratio(one.stream->rate, out_.rate)) continue;
-      leave_out(*one.stream,
-                fmt::format("rates differ: {:.6g} Hz and {:.6g} Hz have no whole ratio",
-                            one.stream->rate.value, out_.rate.value));
-    }
-    out_.joined = std::move(best);
-  }
-
-  // One after the other, the longest first.
-  void by_time() {
-    std::vector<Joining> order = out_.joined;
-    std::stable_sort(order.begin(), order.end(), [](const Joining& a, const Joining& b) {
-      return seconds_of({a}) > seconds_of({b});
-    });
-    const double least = static_cast<double>(kMinimumSamples) / out_.rate.value;
-    std::vector<Joining> in;
-    double together = 0.0;
-    for (const Joining& one : order) {
-      std::vector<Joining> with = in;
-      with.push_back(one);
-      const double seconds = seconds_of(with);
-      if (!in.empty() && seconds < least) {
-        leave_out(*one.stream, fmt::format("it has no time in common with {}",
-                                           in.size() > 1 ? "the others" : in[0].stream->device));
-      } else if (in.size() > 1 && seconds < kKeptShare * together) {
-        leave_out(
-            *one.stream,
-            fmt::format("it shares only {:.4g} s of the {:.4g} s that the others have together",
-                        seconds, together));
-      } else {
-        in = std::move(with);
-        together = seconds;
-      }
-    }
-    std::erase_if(out_.joined, [&](const Joining& one) {
-      return std::none_of(in.begin(), in.end(),
-                          [&](const Joining& kept) { return kept.stream == one.stream; });
-    });
-  }
-
-  WhoJoins take() { return std::move(out_); }
-
- private:
-  static std::string unfit(const DeviceStream& stream) {
-    if (!stream.defect.empty()) return stream.defect;
-    if (seconds_of({{&stream, 1}}) == 0.0) return "no stretch without a gap has ten seconds";
-    const double ppm = clock_ppm(stream);
-    if (std::abs(ppm) <= kMostPpm) return {};
-    return fmt::format("it samples {:.1f} % {} than it says, by the host's clock",
-                       std::abs(ppm) * 1e-4, ppm > 0.0 ? "faster" : "slower");
-  }
-
-  void leave_out(const DeviceStream& stream, const std::string& reason) {
-    out_.left_out.push_back({stream.device, stream.stream, "not joined: " + reason});
-  }
-
-  WhoJoins out_;
-};
+  std::erase_if(who.joined, [&](const Joining& one) { return !among(in, one); });
+}
 
 }  // namespace
 
@@ -156,11 +149,21 @@ std::size_t devices_of(const std::vector<Joining>& joined) {
   return names.size();
 }
 
-WhoJoins who_joins(const std::vector<DeviceStream>& streams) {
-  Choice choice(streams);
-  choice.by_rate();
-  choice.by_time();
-  return choice.take();
+std::vector<WhoJoins> who_joins(const std::vector<DeviceStream>& streams) {
+  std::vector<Joining> fit;
+  std::vector<Staying> left_out;
+  for (const DeviceStream& one : streams) {
+    if (std::string reason = unfit(one); !reason.empty()) {
+      left_out.push_back({&one, std::move(reason)});
+    } else {
+      fit.push_back({&one, 1});
+    }
+  }
+  std::vector<WhoJoins> out = groups_of(std::move(fit));
+  std::vector<Staying>& told = out.front().left_out;
+  told.insert(told.begin(), left_out.begin(), left_out.end());
+  for (WhoJoins& one : out) keep_by_time(one);
+  return out;
 }
 
 }  // namespace imunoise::recording

@@ -3,9 +3,9 @@
 // Which streams can stand beside one another.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "recording/store/across.h"
 #include "recording/store/common_grid.h"
 #include "recording/store/device_streams.h"
 
@@ -17,14 +17,22 @@ struct Joining {
   std::size_t averaged = 1;
 };
 
-struct WhoJoins {
-  std::vector<Joining> joined;  ///< In the order given. Borrows the streams.
-  Hertz rate;                   ///< Common, nominal.
-  std::vector<LeftOut> left_out;
+/// A stream that is not, and why.
+struct Staying {
+  const DeviceStream* stream = nullptr;
+  std::string reason;
 };
 
-/// By the rules of import_across().
-WhoJoins who_joins(const std::vector<DeviceStream>& streams);
+/// Streams of rates with whole ratios. All borrow the streams.
+struct WhoJoins {
+  Hertz rate;                   ///< Common, nominal.
+  std::vector<Joining> joined;  ///< In the order given.
+  std::vector<Staying> left_out;
+};
+
+/// By the rules of import_across(): one for each rate that several devices go with, and at least
+/// one. The first has most devices, and tells of whoever is not in it.
+std::vector<WhoJoins> who_joins(const std::vector<DeviceStream>& streams);
 
 /// What common_grid() needs of a replicate; empty where one of them has no samples.
 std::vector<GridStream> in_replicate(const std::vector<Joining>& joined, std::uint32_t replicate);

@@ -80,28 +80,41 @@ v1::ArrayJoin join_of(const recording::Across& across) {
   return out;
 }
 
-v1::ArrayCalibration array_across(const recording::FileSystem& files,
-                                  const std::filesystem::path& folder, const Role& role,
-                                  const CalibrateOptions& options, const Progress& progress) {
+v1::ArrayCalibration array_of(const recording::Across& across, const CalibrateOptions& options,
+                              const Progress& progress) {
   v1::ArrayCalibration out;
-  const auto across =
-      recording::import_across(files, folder, role.channels, progress.part(0.0, 0.5));
-  if (!across || across->replicates.empty())
-    out.mutable_channels()->Assign(role.channels.begin(), role.channels.end());
-  if (!across) {
-    add_trouble("join", across.error(), *out.mutable_troubles());
-    return out;
-  }
-  for (const recording::LeftOut& one : across->left_out) {
+  for (const recording::LeftOut& one : across.left_out) {
     add_trouble("join", Error{fmt::format("{}/{}: {}", one.device, one.stream, one.reason)},
                 *out.mutable_troubles());
   }
-  if (across->replicates.empty()) return out;
-  *out.mutable_join() = join_of(*across);
+  if (across.replicates.empty()) {
+    out.mutable_channels()->Assign(across.channels.begin(), across.channels.end());
+    return out;
+  }
+  *out.mutable_join() = join_of(across);
   std::vector<Series> sensors;
-  for (std::size_t c = 0; c < across->replicates.front().channels.size(); ++c)
-    sensors.push_back(series_of(across->replicates, c));
-  fit_array_of(sensors, options, progress.part(0.5, 1.0), out);
+  for (std::size_t c = 0; c < across.channels.size(); ++c)
+    sensors.push_back(series_of(across.replicates, c));
+  fit_array_of(sensors, options, progress, out);
+  return out;
+}
+
+// One array for each rate that several devices have.
+std::vector<v1::ArrayCalibration> arrays_of_role(const recording::FileSystem& files,
+                                                 const std::filesystem::path& folder,
+                                                 const Role& role, const CalibrateOptions& options,
+                                                 const Progress& progress) {
+  std::vector<v1::ArrayCalibration> out;
+  const auto groups =
+      recording::import_across(files, folder, role.channels, progress.part(0.0, 0.5));
+  if (!groups) {
+    v1::ArrayCalibration& none = out.emplace_back();
+    none.mutable_channels()->Assign(role.channels.begin(), role.channels.end());
+    add_trouble("join", groups.error(), *none.mutable_troubles());
+    return out;
+  }
+  for (const recording::Across& one : *groups)
+    out.push_back(array_of(one, options, progress.part(0.5, 1.0)));
   return out;
 }
 
@@ -132,7 +145,8 @@ std::vector<v1::ArrayCalibration> arrays_across(
   for (std::size_t r = 0; r < roles.size() && !progress.stopped(); ++r) {
     const Progress part =
         progress.part(static_cast<double>(r) / count, static_cast<double>(r + 1) / count);
-    out.push_back(array_across(files, folder, roles[r], options, part));
+    for (v1::ArrayCalibration& one : arrays_of_role(files, folder, roles[r], options, part))
+      out.push_back(std::move(one));
   }
   return out;
 }

@@ -32,6 +32,7 @@ std::string gyro_of(const BenchDevice& device) { return device.name + "/imu/gyro
 
 class AcrossDevices : public FileTest {
  protected:
+  // Of the rate that most devices have.
   Across joined(const std::vector<BenchDevice>& devices) {
     record(1, devices);
     return read(devices);
@@ -39,12 +40,13 @@ class AcrossDevices : public FileTest {
   void record(std::uint32_t replicate, const std::vector<BenchDevice>& devices) {
     imunoise::testing::record_bench(path("run"), replicate, kStart, devices);
   }
-  Across read(const std::vector<BenchDevice>& devices) {
+  Across read(const std::vector<BenchDevice>& devices) { return read_all(devices).front(); }
+  std::vector<Across> read_all(const std::vector<BenchDevice>& devices) {
     std::vector<std::string> channels;
     for (const BenchDevice& device : devices) channels.push_back(gyro_of(device));
     auto out = import_across(posix_file_system(), path("run"), channels);
     EXPECT_TRUE(out) << out.error().message;
-    return out.value_or(Across());
+    return out.value_or(std::vector<Across>(1));
   }
 };
 
@@ -125,6 +127,20 @@ TEST_F(AcrossDevices, TheRateIsThatOfMostDevices) {
   EXPECT_EQ(got.streams[0].device, "a");
   EXPECT_EQ(reason_of(got, "odd"),
             "not joined: rates differ: 102.4 Hz and 100 Hz have no whole ratio");
+}
+
+TEST_F(AcrossDevices, EachRateOfSeveralHasItsOwn) {
+  const std::vector<BenchDevice> all{teller("a", 6000), teller("b", 6144, 102.4), teller("c", 6000),
+                                     teller("d", 6144, 102.4), teller("e", 3000, 50.1)};
+  record(1, all);
+  const std::vector<Across> got = read_all(all);
+  ASSERT_EQ(got.size(), 2U);
+  EXPECT_EQ(got[0].channels, (std::vector<std::string>{"b/imu/gyro_x", "d/imu/gyro_x"}));
+  EXPECT_EQ(got[0].replicates.at(0).rate.value, 102.4);
+  EXPECT_EQ(got[0].left_out.size(), 3U);
+  EXPECT_EQ(got[1].channels, (std::vector<std::string>{"a/imu/gyro_x", "c/imu/gyro_x"}));
+  EXPECT_EQ(got[1].replicates.at(0).rate.value, 100.0);
+  EXPECT_TRUE(got[1].left_out.empty());
 }
 
 TEST_F(AcrossDevices, ThatNeverRanTogetherAreNotJoined) {
@@ -211,7 +227,7 @@ TEST_F(AcrossDevices, KeepCountsAndScales) {
   const auto got =
       import_across(posix_file_system(), path("run"), {"a/imu/gyro_x", "b/imu/gyro_x"});
   ASSERT_TRUE(got) << got.error().message;
-  const Channel& x = got->replicates.at(0).channels.at(1);
+  const Channel& x = got->at(0).replicates.at(0).channels.at(1);
   EXPECT_TRUE(std::holds_alternative<std::vector<std::int16_t>>(*x.samples));
   EXPECT_DOUBLE_EQ(x.signal().value(3), (3 * 7 - 1000) * 0.05 * std::acos(-1.0) / 180.0);
 }
