@@ -59,7 +59,9 @@ ParsedCommand calibrate_command(CLI::App& program) {
                    "A channel; repeatable (default: all angular rates and accelerations)")
       ->delimiter(',');
   calibrate->add_flag("!--no-diagnose", options->diagnose, "Do not seek effects that are missing");
-  calibrate->add_flag("--array", options->array, "Channels of one quantity as an array, too");
+  calibrate->add_flag("--array", options->array,
+                      "Channels of one quantity as an array, and those of one name in several "
+                      "devices, too");
   calibrate->add_option("--array-model", *array_model,
                         fmt::format("Of the array (default: {})", study::kDefaultArrayModel));
   calibrate

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/acquire/device_clock.h"
 #include "drivers/host/block.h"
+#include "recording/store/device_clock.h"
 
 namespace imunoise::acquire {
 
@@ -23,7 +23,7 @@ class StreamClocks {
   struct One {
     std::string stream;
     bool from_counter = false;
-    DeviceClock clock;
+    recording::DeviceClock clock;
     std::uint64_t counter = 0;  // of the last sample, and when it came
     std::int64_t host_ns = 0;
     std::uint64_t count = 0;  // samples since the clock began, lost ones too

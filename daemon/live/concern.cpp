@@ -1,6 +1,6 @@
 #include "daemon/live/concern.h"
 
-#include "daemon/acquire/straight_line.h"
+#include "recording/store/straight_line.h"
 
 namespace imunoise::live {
 namespace {
@@ -37,7 +37,7 @@ void Slope::take(std::int64_t time_ns, double value) {
 
 std::optional<double> Slope::per_second() const {
   if (means_.size() < kMeans / 2) return std::nullopt;
-  acquire::StraightLine line;
+  recording::StraightLine line;
   for (const Mean& mean : means_) line.add(mean.time_s, mean.value);
   return line.slope();
 }

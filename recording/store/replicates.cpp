@@ -6,45 +6,14 @@
 #include <memory>
 #include <utility>
 
-#include "recording/import/select.h"
 #include "recording/store/alignment.h"
 #include "recording/store/gaps.h"
 #include "recording/store/layout.h"
+#include "recording/store/places.h"
 #include "recording/store/reader.h"
 
 namespace imunoise::recording {
 namespace {
-
-// A channel of the recording, and how the user calls it.
-struct Place {
-  std::string device;
-  int stream = 0;
-  int channel = 0;
-};
-
-struct Offers {
-  std::vector<Offer> names;
-  std::vector<Place> places;
-};
-
-Offers offers_of(const v1::Manifest& manifest) {
-  Offers out;
-  const std::vector<ImportedStream> streams = imported_streams(manifest);
-  int number = 0;  // of the stream in its device
-  for (std::size_t s = 0; s < streams.size(); ++s) {
-    number = s > 0 && streams[s - 1].device == streams[s].device ? number + 1 : 0;
-    for (std::size_t c = 0; c < streams[s].channels.size(); ++c) {
-      out.names.push_back({streams[s].channels[c].name});
-      out.places.push_back({streams[s].device, number, static_cast<int>(c)});
-    }
-  }
-  return out;
-}
-
-struct Wanted {
-  std::string name;
-  Place place;
-};
 
 // All channels of a device, those of one stream first.
 std::vector<Wanted> same_device(const Offers& offers, const Place& as) {
@@ -62,34 +31,18 @@ std::vector<Wanted> same_device(const Offers& offers, const Place& as) {
 Result<std::vector<Wanted>> select(const std::string& file, const v1::Manifest& manifest,
                                    const ImportOptions& options) {
   const Offers offers = offers_of(manifest);
-  const auto chosen = select_columns(file, offers.names, options.channels);
-  if (!chosen) return tl::make_unexpected(chosen.error());
-  std::vector<Wanted> out;
-  for (const std::size_t i : *chosen) out.push_back({offers.names[i].name, offers.places[i]});
-  if (options.beside) return same_device(offers, out.front().place);
-  for (const Wanted& one : out) {
-    const Place& first = out.front().place;
+  auto out = wanted_of(file, offers, options.channels);
+  if (!out) return out;
+  if (options.beside) return same_device(offers, out->front().place);
+  for (const Wanted& one : *out) {
+    const Place& first = out->front().place;
     if (one.place.device == first.device && one.place.stream == first.stream) continue;
     return fail(
         fmt::format("{}: {} and {} are of different streams, which have clocks of their own; "
                     "choose channels of one stream with --channel",
-                    file, out.front().name, one.name));
+                    file, out->front().name, one.name));
   }
   return out;
-}
-
-// Counts stay counts; what core has no type for becomes a double.
-Samples samples_of(Numbers numbers) {
-  return std::visit(
-      [](auto& values) -> Samples {
-        using Values = std::decay_t<decltype(values)>;
-        if constexpr (std::is_constructible_v<Samples, Values&&>) {
-          return Samples(std::move(values));
-        } else {
-          return std::vector<double>(values.begin(), values.end());
-        }
-      },
-      numbers);
 }
 
 std::uint64_t lost_in(const std::vector<RowGap>& gaps) {
@@ -133,16 +86,18 @@ class Importer {
       const auto unit = resolve_unit(root_.string(), one.name, channel.units(), options_);
       if (!unit && other) continue;  // a tick of a clock, arbitrary units: nothing that couples
       if (!unit) return tl::make_unexpected(unit.error());
-      const double scale = channel.has_scale_factor() ? channel.scale_factor() : 1.0;
       Rows& own = device.streams[static_cast<std::size_t>(one.place.stream)];
       Numbers& numbers = own.channels[static_cast<std::size_t>(one.place.channel)];
       const auto samples = std::make_shared<const Samples>(
           other ? Samples(at_times(numbers, own.host_time, rows.host_time))
                 : samples_of(std::move(numbers)));
       for (std::size_t i = 0; i < kept.size(); ++i) {
-        out_[begin + i].channels.push_back(
-            {one.name, samples, kept[i].begin, kept[i].count, scale * unit->to_si,
-             channel.add_offset() * unit->to_si + unit->si_offset, *unit, rate, other});
+        Channel to = in_si(one.name, channel, *unit, rate);
+        to.samples = samples;
+        to.begin = kept[i].begin;
+        to.count = kept[i].count;
+        to.interpolated = other;
+        out_[begin + i].channels.push_back(std::move(to));
       }
     }
     return {};
@@ -159,38 +114,14 @@ class Importer {
 
 }  // namespace
 
-// With device and stream in front where names alone may be ambiguous.
-std::vector<ImportedStream> imported_streams(const v1::Manifest& manifest) {
-  std::vector<ImportedStream> out;
-  const bool single = manifest.devices_size() == 1 && manifest.devices(0).streams_size() == 1;
-  for (const v1::RecordedDevice& device : manifest.devices()) {
-    for (const v1::RecordedStream& stream : device.streams()) {
-      out.push_back({device.name(), stream.name(), {}});
-      for (const v1::RecordedChannel& channel : stream.channels()) {
-        out.back().channels.push_back(
-            {single ? channel.name()
-                    : fmt::format("{}/{}/{}", device.name(), stream.name(), channel.name()),
-             channel.units()});
-      }
-    }
-  }
-  return out;
-}
-
 Result<std::vector<Replicate>> import_recording(const FileSystem& files,
                                                 const std::filesystem::path& root,
                                                 const ImportOptions& options,
                                                 const Progress& progress) {
   const std::string file = root.string();
-  const auto manifest = read_manifest(files, root);
+  const auto manifest = manifest_of(files, root);
   if (!manifest) return tl::make_unexpected(manifest.error());
-  if (!*manifest) {
-    return fail(
-        fmt::format("{}: is a folder without a {}: name the files in it, or make the manifest "
-                    "with imunoise verify --repair",
-                    file, kManifestName));
-  }
-  auto wanted = select(file, **manifest, options);
+  auto wanted = select(file, *manifest, options);
   if (!wanted) return tl::make_unexpected(wanted.error());
   const std::string device = wanted->front().place.device;
   Importer importer(root, options, std::move(*wanted));
@@ -201,7 +132,7 @@ Result<std::vector<Replicate>> import_recording(const FileSystem& files,
     if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", file));
     progress.report(done++ / static_cast<double>(folders->size()));
     if (where.device() != device) continue;
-    auto read = read_device(files, where, **manifest);
+    auto read = read_device(files, where, *manifest);
     if (!read) return tl::make_unexpected(read.error());
     if (!read->defects.empty()) return fail(read->defects.front());
     if (auto added = importer.add(std::move(*read)); !added)

@@ -2,25 +2,10 @@
 
 // A recording as replicates, as import_files() gives them: what a model is fitted to.
 
-#include "imunoise/v1/recording.pb.h"
 #include "recording/import/import.h"
 #include "recording/store/file_system.h"
 
 namespace imunoise::recording {
-
-struct ImportedChannel {
-  std::string name;   ///< as import_recording() calls it
-  std::string units;  ///< as the manifest writes them; may be empty
-};
-
-struct ImportedStream {
-  std::string device;
-  std::string stream;
-  std::vector<ImportedChannel> channels;
-};
-
-/// What import_recording() can read: all streams of all devices, in the manifest's order.
-std::vector<ImportedStream> imported_streams(const v1::Manifest& manifest);
 
 /// Reads one stream of one device in all replicates. Each stretch without a gap is one replicate,
 /// named "replicate-1", or "replicate-1#2" where gaps cut it; stretches of fewer than

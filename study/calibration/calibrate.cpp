@@ -6,9 +6,10 @@
 
 #include "core/model/model.h"
 #include "recording/store/manifest.h"
+#include "recording/store/places.h"
 #include "recording/store/replicates.h"
-#include "study/analysis/array_series.h"
 #include "study/analysis/prepare.h"
+#include "study/calibration/calibrate_array.h"
 #include "study/calibration/calibrate_channel.h"
 #include "study/calibration/calibration_file.h"
 #include "study/report/verdict.h"
@@ -18,12 +19,8 @@ namespace {
 
 using recording::Replicate;
 
-// The channels wanted of one stream.
-struct Task {
-  std::string device;
-  std::string stream;
-  std::vector<std::string> channels;
-};
+// A stream with the channels that are wanted of it.
+using Task = recording::ImportedStream;
 
 bool of_inertia(const std::string& units) {
   const auto unit = parse_unit(units);
@@ -36,12 +33,12 @@ Result<std::vector<Task>> tasks_of(const std::string& folder, const v1::Manifest
   std::vector<Task> out;
   std::set<std::string> missing(wanted.begin(), wanted.end());
   std::string known;
-  for (const recording::ImportedStream& stream : recording::imported_streams(manifest)) {
+  for (const Task& stream : recording::imported_streams(manifest)) {
     Task task{stream.device, stream.stream, {}};
     for (const recording::ImportedChannel& channel : stream.channels) {
       known += (known.empty() ? "" : ", ") + channel.name;
       const bool named = missing.erase(channel.name) > 0;
-      if (wanted.empty() ? of_inertia(channel.units) : named) task.channels.push_back(channel.name);
+      if (wanted.empty() ? of_inertia(channel.units) : named) task.channels.push_back(channel);
     }
     if (!task.channels.empty()) out.push_back(std::move(task));
   }
@@ -56,6 +53,12 @@ Result<std::vector<Task>> tasks_of(const std::string& folder, const v1::Manifest
   return out;
 }
 
+std::size_t devices_of(const std::vector<Task>& tasks) {
+  std::set<std::string> names;
+  for (const Task& one : tasks) names.insert(one.device);
+  return names.size();
+}
+
 void name(const Task& task, auto& to) {
   to.set_device(task.device);
   to.set_stream(task.stream);
@@ -63,36 +66,11 @@ void name(const Task& task, auto& to) {
 
 // A stream that cannot be read: every channel wanted of it says so.
 void tell_unread(const Task& task, const Error& error, v1::Calibration& to) {
-  for (const std::string& channel : task.channels) {
+  for (const recording::ImportedChannel& channel : task.channels) {
     v1::ChannelCalibration& one = *to.add_channels();
     name(task, one);
-    one.set_channel(channel);
+    one.set_channel(channel.name);
     add_trouble("read", error, *one.mutable_troubles());
-  }
-}
-
-// The channels of each quantity as one array.
-void add_arrays(const Task& task, const std::vector<Replicate>& replicates,
-                const std::vector<std::size_t>& channels, const CalibrateOptions& options,
-                const Progress& progress, v1::Calibration& to) {
-  ArraySeriesOptions how;
-  how.model = options.array_model;
-  for (const Quantity quantity : {Quantity::kAngularRate, Quantity::kAcceleration}) {
-    std::vector<Series> sensors;
-    for (const std::size_t c : channels) {
-      if (replicates.front().channels[c].unit.quantity == quantity)
-        sensors.push_back(series_of(replicates, c));
-    }
-    if (sensors.size() < 2) continue;
-    v1::ArrayCalibration& array = *to.add_arrays();
-    name(task, array);
-    for (const Series& one : sensors) array.add_channels(one.channel);
-    auto report = array_series(sensors, how, progress);
-    if (report) {
-      *array.mutable_report() = std::move(*report);
-    } else {
-      add_trouble("array", report.error(), *array.mutable_troubles());
-    }
   }
 }
 
@@ -100,8 +78,8 @@ void calibrate_stream(const Task& task, const std::vector<Replicate>& replicates
                       const CalibrateOptions& options, const Progress& progress,
                       v1::Calibration& to) {
   std::vector<std::size_t> channels;
-  for (const std::string& one : task.channels)
-    channels.push_back(channel_called(one, replicates.front()).value());
+  for (const recording::ImportedChannel& one : task.channels)
+    channels.push_back(channel_called(one.name, replicates.front()).value());
   const double arrays = options.array ? 0.9 : 1.0;  // where these begin
   for (std::size_t i = 0; i < channels.size() && !progress.stopped(); ++i) {
     const auto count = static_cast<double>(channels.size());
@@ -109,11 +87,15 @@ void calibrate_stream(const Task& task, const std::vector<Replicate>& replicates
                                         arrays * static_cast<double>(i + 1) / count);
     v1::ChannelCalibration one = calibrate_channel(replicates, channels[i], options, part);
     name(task, one);
-    one.set_channel(task.channels[i]);
+    one.set_channel(task.channels[i].name);
     *to.add_channels() = std::move(one);
   }
-  if (options.array && !progress.stopped())
-    add_arrays(task, replicates, channels, options, progress.part(arrays, 1.0), to);
+  if (!options.array || progress.stopped()) return;
+  for (v1::ArrayCalibration& array :
+       arrays_of_stream(replicates, channels, options, progress.part(arrays, 1.0))) {
+    name(task, array);
+    *to.add_arrays() = std::move(array);
+  }
 }
 
 v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
@@ -186,13 +168,14 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
   out.set_started_ns((*manifest)->started_ns());
   out.set_made_ns(options.made_ns);
   *out.mutable_settings() = settings_of(options);
+  const double across = options.array && devices_of(*tasks) > 1 ? 0.9 : 1.0;  // where these begin
   const auto count = static_cast<double>(tasks->size());
   for (std::size_t t = 0; t < tasks->size(); ++t) {
     const Task& task = (*tasks)[t];
-    const Progress part =
-        progress.part(static_cast<double>(t) / count, static_cast<double>(t + 1) / count);
+    const Progress part = progress.part(across * static_cast<double>(t) / count,
+                                        across * static_cast<double>(t + 1) / count);
     recording::ImportOptions import;
-    import.channels = {task.channels.front()};
+    import.channels = {task.channels.front().name};
     import.beside = true;
     const auto replicates = recording::import_recording(files, folder, import, part.part(0.0, 0.1));
     if (progress.stopped()) return fail("stopped");
@@ -201,6 +184,12 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
       continue;
     }
     calibrate_stream(task, *replicates, options, part.part(0.1, 1.0), out);
+    if (progress.stopped()) return fail("stopped");
+  }
+  if (options.array) {
+    for (v1::ArrayCalibration& one :
+         arrays_across(files, folder, *tasks, options, progress.part(across, 1.0)))
+      *out.add_arrays() = std::move(one);
     if (progress.stopped()) return fail("stopped");
   }
   out.set_summary(summary_of(out));

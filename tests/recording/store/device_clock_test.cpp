@@ -1,16 +1,16 @@
 // Clocks of known error, behind a way to the host that delays by chance.
 
-#include "daemon/acquire/device_clock.h"
+#include "recording/store/device_clock.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace imunoise::acquire {
-namespace {
+#include "tests/recording/store/samples.h"
 
-constexpr std::int64_t kStart = 1'700'000'000'000'000'000;  // ns
+namespace imunoise::recording {
+namespace {
 
 // Host and device times of samples at 100 Hz, `ppm` fast; late by at least 2 ms, often more.
 class Way {
@@ -75,4 +75,4 @@ TEST(DeviceClock, ShortStretchesSayNothing) {
 }
 
 }  // namespace
-}  // namespace imunoise::acquire
+}  // namespace imunoise::recording

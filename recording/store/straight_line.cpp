@@ -1,9 +1,9 @@
-#include "daemon/acquire/straight_line.h"
+#include "recording/store/straight_line.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace imunoise::acquire {
+namespace imunoise::recording {
 
 void StraightLine::add(double x, double y) {
   ++points_;
@@ -26,4 +26,4 @@ double StraightLine::slope_error() const {
   return points_ < 3 ? 0.0 : standard_deviation() / std::sqrt(xx_);
 }
 
-}  // namespace imunoise::acquire
+}  // namespace imunoise::recording

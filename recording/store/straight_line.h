@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace imunoise::acquire {
+namespace imunoise::recording {
 
 /// A straight line by least squares, of points that are given once.
 class StraightLine {
@@ -25,4 +25,4 @@ class StraightLine {
   double yy_ = 0.0;
 };
 
-}  // namespace imunoise::acquire
+}  // namespace imunoise::recording

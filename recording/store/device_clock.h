@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 
-#include "daemon/acquire/straight_line.h"
 #include "imunoise/v1/recording.pb.h"
+#include "recording/store/straight_line.h"
 
-namespace imunoise::acquire {
+namespace imunoise::recording {
 
 /// Compares the times of one stream's samples by both clocks. A sample comes late by its way to the
 /// host, and never early: of each second (or each sample, if they are rarer) the one that came
@@ -40,4 +40,4 @@ class DeviceClock {
   Stretch best_;
 };
 
-}  // namespace imunoise::acquire
+}  // namespace imunoise::recording

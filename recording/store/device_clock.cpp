@@ -1,9 +1,9 @@
-#include "daemon/acquire/device_clock.h"
+#include "recording/store/device_clock.h"
 
 #include <cmath>
 #include <utility>
 
-namespace imunoise::acquire {
+namespace imunoise::recording {
 namespace {
 
 constexpr std::int64_t kClockWindow = 1'000'000'000;  // ns
@@ -60,4 +60,4 @@ std::optional<v1::ClockComparison> DeviceClock::comparison() const {
   return out;
 }
 
-}  // namespace imunoise::acquire
+}  // namespace imunoise::recording
