@@ -96,10 +96,27 @@ Section channel_section(const v1::ChannelCalibration& channel, Digits digits) {
   return out;
 }
 
-Section array_section(const v1::ArrayCalibration& array) {
+Table clocks_table(const v1::ArrayJoin& join, Digits digits) {
+  Table out{"How the devices' clocks were brought together",
+            {"device", "rate", "recorded", "clock", "averaged", "left out"},
+            {}};
+  for (const v1::JoinedStream& one : join.streams()) {
+    out.rows.push_back({one.device(), fmt::format("{:g} Hz", one.rate_hz()),
+                        duration(one.seconds()), number(one.clock_ppm(), 2, digits) + " ppm",
+                        one.averaged() == 1 ? "no" : fmt::format("{} samples", one.averaged()),
+                        fmt::format("{} samples", one.dropped())});
+  }
+  return out;
+}
+
+Section array_section(const v1::ArrayCalibration& array, Digits digits) {
   Section out;
   out.title = "array of " + joined(array.channels());
   out.summary = array.has_report() ? array.report().summary() : "The array could not be fitted.";
+  if (array.has_join()) {
+    out.facts = duration(array.join().seconds()) + " together";
+    out.tables.push_back(clocks_table(array.join(), digits));
+  }
   add_troubles(array.troubles(), out);
   return out;
 }
@@ -117,7 +134,7 @@ Document document(const v1::Calibration& calibration, Digits digits) {
   for (const v1::ChannelCalibration& one : calibration.channels())
     out.sections.push_back(channel_section(one, digits));
   for (const v1::ArrayCalibration& one : calibration.arrays())
-    out.sections.push_back(array_section(one));
+    out.sections.push_back(array_section(one, digits));
   return out;
 }
 

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "tests/cli/program.h"
+#include "tests/recording/simulated_bench.h"
 #include "tests/study/simulated_recording.h"
 
 namespace imunoise {
@@ -146,6 +148,29 @@ TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
   expect("history bench --device 7", "there are simulated:0042");
   expect("history bench --device 0042", "imunoise calibrate");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bench/week-0/calibration.json"));
+}
+
+TEST_F(CatalogueCommands, ACalibrationComparesDevices) {
+  std::vector<testing::BenchDevice> devices(2);
+  for (std::size_t d = 0; d < 2; ++d) {
+    std::mt19937_64 random(1 + d);
+    devices[d].name = d == 0 ? "left" : "right";
+    devices[d].samples = 2048;
+    std::normal_distribution<double> normal;
+    devices[d].channels = {
+        {"gyro_x", "rad/s", [=](std::size_t, double) mutable { return 1e-3 * normal(random); }}};
+  }
+  testing::record_bench(folder_ / "two", 1, testing::kSimulatedStart, devices);
+  const std::string asked = "calibrate two --model WN --no-diagnose --array --array-model WN";
+  const Outcome done = run(asked);
+  ASSERT_EQ(done.status, 0) << done.errors;
+  EXPECT_NE(done.out.find("20 s together"), std::string::npos) << done.out;
+  const json printed = json_of(asked);
+  ASSERT_EQ(printed["arrays"].size(), 1U);
+  const json& array = printed["arrays"][0];
+  EXPECT_EQ(array["channels"], json({"left/imu/gyro_x", "right/imu/gyro_x"}));
+  EXPECT_EQ(array["report"]["pairs"][0]["dependent"], false);
+  EXPECT_EQ(array["join"]["streams"][1]["dropped"], "0");
 }
 
 }  // namespace

@@ -114,6 +114,30 @@ TEST(CatalogueDocuments, ABoundIsToldAsOne) {
   EXPECT_NE(text(document(bounded, Digits::kPlain)).find("at most"), std::string::npos);
 }
 
+TEST(CatalogueDocuments, ACalibrationSaysHowDevicesWereJoined) {
+  v1::Calibration calibration;
+  v1::ArrayCalibration& array = *calibration.add_arrays();
+  array.add_channels("left/imu/gyro_x");
+  array.add_channels("right/imu/gyro_x");
+  EXPECT_EQ(text(document(calibration, Digits::kPlain)).find("together"), std::string::npos);
+  array.mutable_join()->set_seconds(90.0);
+  v1::JoinedStream& right = *array.mutable_join()->add_streams();
+  right.set_device("right");
+  right.set_rate_hz(819.2);
+  right.set_clock_ppm(-41.7);
+  right.set_seconds(120.0);
+  right.set_averaged(8);
+  right.set_dropped(23);
+  v1::CalibrationTrouble& trouble = *array.add_troubles();
+  trouble.set_step("join");
+  trouble.set_message("mti/imu: not joined: rates differ");
+  const std::string words = text(document(calibration, Digits::kPlain));
+  for (const char* const part : {"90 s together", "819.2 Hz", "-42 ppm", "2 min", "8 samples",
+                                 "23 samples", "join: mti/imu: not joined: rates differ"}) {
+    EXPECT_NE(words.find(part), std::string::npos) << part << "\n" << words;
+  }
+}
+
 TEST(CatalogueDocuments, ForeignTextIsHarmless) {
   v1::Calibration calibration;
   calibration.set_summary(kHostile);
@@ -122,6 +146,8 @@ TEST(CatalogueDocuments, ForeignTextIsHarmless) {
   v1::CalibrationTrouble& trouble = *channel.add_troubles();
   trouble.set_step("fit");
   trouble.set_message(kHostile);
+  calibration.add_arrays()->add_channels(kHostile);
+  calibration.mutable_arrays(0)->mutable_join()->add_streams()->set_device(kHostile);
   v1::RecordingList recordings;
   recordings.set_root(kHostile);
   recordings.add_recordings()->set_folder(kHostile);

@@ -96,13 +96,20 @@ TEST_F(Api, CalibrationsArraysAndHistories) {
   calibration.set_version(1);
   calibration.set_summary("well");
   calibration.add_arrays()->add_channels("gyro_x");
+  v1::ArrayCalibration& across = *calibration.add_arrays();
+  across.add_channels("a/imu/gyro_x");
+  across.mutable_join()->add_streams()->set_clock_ppm(40.0);
   ASSERT_TRUE(study::write_calibration(recording::posix_file_system(),
                                        folder_.path() / "data/array/monday", calibration));
   EXPECT_EQ(get_json("/v1/calibrations")["calibrations"][0]["summary"], "well");
   EXPECT_TRUE(get_json("/v1/calibrations?campaign=other")["calibrations"].empty());
   EXPECT_EQ(get_json("/v1/calibrations/array/monday")["summary"], "well");
   EXPECT_EQ(get_json("/v1/arrays")["arrays"][0]["channels"][0], "gyro_x");
-  EXPECT_EQ(get_json("/v1/arrays/array/monday")["arrays"].size(), 1U);
+  EXPECT_EQ(get_json("/v1/arrays")["arrays"][1]["device"], "");
+  const json arrays = get_json("/v1/arrays/array/monday")["arrays"];
+  ASSERT_EQ(arrays.size(), 2U);
+  EXPECT_FALSE(arrays[0].contains("join")) << "of one device";
+  EXPECT_EQ(arrays[1]["join"]["streams"][0]["clock_ppm"], 40.0);
   EXPECT_NE(refusal("/v1/history?device=7", 404).find("simulated:0042"), std::string::npos);
   refusal("/v1/history", 400);
   refusal("/v1/history?device=0042&level=0.9", 400);
