@@ -139,6 +139,11 @@ void name_better(TriedEffect& tried) {
 
 }  // namespace
 
+void best_first(std::vector<TriedEffect>& effects) {
+  std::stable_sort(effects.begin(), effects.end(),
+                   [](const TriedEffect& a, const TriedEffect& b) { return a.gain > b.gain; });
+}
+
 Trial try_out(const Current& current, const Suggestion& suggestion) {
   if (const auto* change = std::get_if<NoiseChange>(&suggestion.added))
     return {current.regression, joint_fit(current.regression, change->start)};
@@ -167,7 +172,8 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
       *term = rounded(*term, one.shape_error, current.subject().rate);
     Trial trial = try_out(current, one);
     if (is_course(one)) one.search.log_places = log_places(trial.regression.subject().courses);
-    TriedEffect out{std::string(one.effect), one, std::move(trial)};
+    TriedEffect out{
+        .effect = std::string(one.effect), .suggestion = one, .trial = std::move(trial)};
     out.likelihood_gain = out.trial.fit.log_likelihood - current.fit.log_likelihood;
     const std::size_t effects = out.trial.regression.effects().size();
     out.freedom = std::holds_alternative<EffectTerm>(one.added) ? freedom_of(out.trial, effects - 1)
@@ -183,8 +189,7 @@ std::vector<TriedEffect> try_all(const Current& current, const Suggestions& sugg
   for (auto& one : tried) {
     if (one) out.push_back(std::move(*one));
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const TriedEffect& a, const TriedEffect& b) { return a.gain > b.gain; });
+  best_first(out);
   return out;
 }
 

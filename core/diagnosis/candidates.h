@@ -22,9 +22,13 @@ struct TriedEffect {
   double log_chance = 0.0;       ///< that noise makes this search gain as much, logarithm
   double gain = 0.0;             ///< likelihood_gain less what such a search gains by chance, nats
   double freedom = 0.0;          ///< degrees of freedom behind the noise level there
+  std::string shared_with{};     ///< noise: the witness that feels it too; empty where none does
   bool slow = false;             ///< heat could have done it, had nobody recorded the temperature
   bool steady = true;            ///< noise: it is there all the time; jumps: between two levels
 };
+
+/// Sorts by gain; equals stay in order.
+void best_first(std::vector<TriedEffect>& effects);
 
 /// Every suggestion that is worth it, tried on the current model, best first.
 std::vector<TriedEffect> try_all(const Current& current, const Suggestions& suggestions,

@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/catalogue.h"
 #include "core/diagnosis/outliers.h"
+#include "core/diagnosis/shared_noise.h"
 #include "core/diagnosis/two_levels.h"
 #include "core/support/distributions.h"
 
@@ -16,11 +17,6 @@ constexpr std::size_t kProven = 3;     // effects are proven on held-out replica
 constexpr std::size_t kMostTried = 8;  // of at most so many that are tried
 constexpr double kSpent = 0.8;         // of the level: chances are approximations
 constexpr double kMisfitShare = 0.2;   // of that is spent on misfits of unknown cause
-
-// Noise that is told by its spectrum alone: what couples in would look the same.
-bool told_by_spectrum(std::string_view effect) {
-  return effect == "gauss_markov" || effect == "flicker" || effect == "resonance";
-}
 
 void add_unique(std::vector<std::string>& to, std::string_view id, const std::string& self) {
   if (id != self && std::find(to.begin(), to.end(), id) == to.end()) to.emplace_back(id);
@@ -132,16 +128,18 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
     done += 1.0 / static_cast<double>(searches.size());
     progress.report(0.4 * done);
   }
-  Diagnosis out;
-  for (TriedEffect& tried : try_all(current, all, progress.part(0.4, 0.8))) {
-    RankedEffect one{std::move(tried), 1.0, {}, {}};
-    // Everything that was searched is a chance of a false alarm.
-    one.familywise_p =
-        std::min(1.0, static_cast<double>(all.size()) * std::exp(one.tried.log_chance));
-    out.effects.push_back(std::move(one));
-  }
   const double misfit_level = kSpent * kMisfitShare * options.level;
   const double level = kSpent * options.level - misfit_level;
+  // Everything that was searched is a chance of a false alarm.
+  const auto searched = static_cast<double>(all.size());
+  std::vector<TriedEffect> tried = try_all(current, all, progress.part(0.4, 0.75));
+  if (progress.stopped()) return {};
+  name_shared_noise(tried, searched, level);
+  Diagnosis out;
+  for (TriedEffect& one : tried) {
+    const double chance = std::min(1.0, searched * std::exp(one.log_chance));
+    out.effects.push_back({std::move(one), chance, {}, {}});
+  }
   out.misfit = misfit_of(model);
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);

@@ -65,6 +65,7 @@ v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<E
   to.set_term(added_term(tried));
   if (const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added))
     to.set_witness(term->witness);
+  if (!tried.shared_with.empty()) to.set_witness(tried.shared_with);
   to.set_familywise_p(from.familywise_p);
   to.set_gain_nats(tried.gain);
   to.set_likelihood_gain_nats(tried.likelihood_gain);

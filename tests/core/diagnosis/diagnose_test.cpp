@@ -98,6 +98,58 @@ TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
   EXPECT_EQ(std::count(confused.begin(), confused.end(), "temperature"), 0);
 }
 
+// A gyroscope beside another one, which is noisier. Of a Markov process that both feel, or only the
+// first; or of one of its own, and the neighbour leaks into it.
+Diagnosis beside_another(double felt, double leaked) {
+  constexpr Hertz kRate{50.0};
+  constexpr std::size_t kSamples = 16'384;
+  constexpr std::uint32_t kReplicates = 4;
+  const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
+    return simulate(*parse_model(model, kRate), kSamples, seed, k);
+  };
+  std::vector<std::vector<double>> own;
+  std::vector<std::vector<double>> other;
+  for (std::uint32_t k = 0; k < kReplicates; ++k) {
+    const std::vector<double> shaking = made("AR1(phi=0.9, sigma2=0.04)", 21, k);
+    own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 22, k));
+    other.push_back(made("WN(sigma2=9) + RW(gamma2=1e-5)", 23, k));
+    for (std::size_t t = 0; t < kSamples; ++t) {
+      own[k][t] += shaking[t] + leaked * other[k][t];
+      other[k][t] += felt * shaking[t];
+    }
+  }
+  std::vector<Signal> replicates;
+  NamedChannel neighbour{"gyro_y", {}};
+  for (std::uint32_t k = 0; k < kReplicates; ++k) {
+    replicates.emplace_back(std::span<const double>(own[k]), kRate, Quantity::kAngularRate);
+    neighbour.replicates.emplace_back(std::span<const double>(other[k]), kRate,
+                                      Quantity::kAngularRate);
+  }
+  return diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {neighbour}))));
+}
+
+TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
+  const Diagnosis diagnosis = beside_another(1.0, 0.0);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.effect, "common_vibration");
+  EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
+}
+
+TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {
+  const Diagnosis diagnosis = beside_another(0.0, 0.0);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
+}
+
+TEST(Diagnose, ALeakBesideNoiseOfItsOwnMakesNoVibrationOfIt) {
+  const Diagnosis diagnosis = beside_another(0.0, 0.1);
+  for (const RankedEffect& one : diagnosis.effects) EXPECT_TRUE(one.tried.shared_with.empty());
+  const auto markov =
+      std::find_if(diagnosis.effects.begin(), diagnosis.effects.end(),
+                   [](const RankedEffect& one) { return one.tried.effect == "gauss_markov"; });
+  EXPECT_NE(markov, diagnosis.effects.end());
+}
+
 TEST(Diagnose, OutliersAreTakenOut) {
   const Diagnosis diagnosis = of({.seed = 10, .added = [](std::size_t k, double s) {
                                     const double at = 11.0 + 30.0 * static_cast<double>(k);

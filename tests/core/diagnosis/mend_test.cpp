@@ -73,7 +73,7 @@ void expect_mended(const std::string& model,
 }
 
 void repeat_some(std::vector<double>& x) {
-  for (std::size_t t = 23; t < x.size(); t += t % 3 == 0 ? 17 : 31) x[t] = x[t - 1];
+  for (std::size_t t = 23; t < x.size(); t += t % 3 == 0 ? 17U : 31U) x[t] = x[t - 1];
 }
 
 void cut_off_at(std::vector<double>& x, double limit) {

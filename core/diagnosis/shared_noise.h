@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/candidates.h"
+
+namespace imunoise {
+
+/// True for noise that only its spectrum tells: whatever couples in, or shakes, would look the
+/// same.
+bool told_by_spectrum(std::string_view effect);
+
+/// Says of such noise that it is common vibration where another sensor of the same kind feels it
+/// too: a coupling to that sensor explains something beside the noise, but less than without it.
+/// The evidence of both then counts. What explains as much beside the noise as without is a leak,
+/// and left alone. `tried`: best first, and so they are again. `level`: chance of a false alarm.
+void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level);
+
+}  // namespace imunoise
