@@ -11,15 +11,39 @@ namespace {
 
 constexpr std::size_t kMostNoises = 3;     // that are looked at,
 constexpr std::size_t kMostCouplings = 3;  // each beside so many
-constexpr double kStillThere = 0.8;        // of a leak's gain, beside noise that is not shared
+constexpr double kLeastShare = 0.02;  // of the noise's gain that its being shared adds at least
+constexpr double kClearly = 3.0;      // nats,
+constexpr double kMuch = 0.1;         // or of what is explained: how much more than a leak
 
-// The witness of a coupling that may be motion which both sensors feel, or null.
-const Witness* shares_motion(const TriedEffect& tried) {
-  const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added);
-  if (term == nullptr || term->kind != EffectKind::kWitness) return nullptr;
-  const Subject& subject = tried.trial.regression.subject();
-  const Witness* const out = subject.find(term->witness);
-  return out != nullptr && may_share_motion(subject.quantity, *out) ? out : nullptr;
+// A coupling to a sensor of the subject's kind, at all frequencies or at some.
+struct Coupling {
+  const TriedEffect* tried = nullptr;
+  const Witness* witness = nullptr;
+  bool whole = false;
+};
+
+std::vector<Coupling> couplings(const std::vector<TriedEffect>& tried) {
+  std::vector<Coupling> out;
+  for (const TriedEffect& one : tried) {
+    const auto* term = std::get_if<EffectTerm>(&one.suggestion.added);
+    if (term == nullptr || term->kind != EffectKind::kWitness) continue;
+    if (term->lag > 0.0 || term->quadratic || term->derivative) continue;
+    const Subject& subject = one.trial.regression.subject();
+    const Witness* const witness = subject.find(term->witness);
+    if (witness == nullptr || !may_share_motion(subject.quantity, *witness)) continue;
+    out.push_back({&one, witness,
+                   *term == EffectTerm{.kind = EffectKind::kWitness, .witness = term->witness}});
+  }
+  return out;
+}
+
+// A leak explains as much at all frequencies as at the best of them.
+bool is_leak(const Coupling& one, const std::vector<Coupling>& all) {
+  const double explained = one.tried->likelihood_gain;
+  const double less = explained - std::max(kClearly, kMuch * explained);
+  return std::any_of(all.begin(), all.end(), [&](const Coupling& other) {
+    return other.whole && other.witness == one.witness && other.tried->likelihood_gain > less;
+  });
 }
 
 struct SharedMotion {
@@ -28,19 +52,14 @@ struct SharedMotion {
   double log_chance = 0.0;
 };
 
-SharedMotion shared_motion(const TriedEffect& noise, const std::vector<TriedEffect>& tried) {
+SharedMotion shared_motion(const TriedEffect& noise, const std::vector<Coupling>& vibrations) {
   const Current with = current_of(noise.trial.regression, noise.trial.fit);
   SharedMotion out;
-  std::size_t looked = 0;
-  for (const TriedEffect& other : tried) {
-    const Witness* const witness = shares_motion(other);
-    if (witness == nullptr || looked++ == kMostCouplings) continue;
-    const Trial both = try_out(with, other.suggestion);
-    const double gain = both.fit.log_likelihood - with.fit.log_likelihood;
-    if (gain > kStillThere * other.likelihood_gain) continue;
-    const Suggestion& how = other.suggestion;
-    const double chance = log_chance(gain, how.dof, other.freedom, how.power, how.search);
-    if (chance < out.log_chance) out = {witness, gain, chance};
+  for (const Coupling& one : vibrations) {
+    const Suggestion& how = one.tried->suggestion;
+    const double gain = try_out(with, how).fit.log_likelihood - with.fit.log_likelihood;
+    const double chance = log_chance(gain, how.dof, one.tried->freedom, how.power, how.search);
+    if (chance < out.log_chance) out = {one.witness, gain, chance};
   }
   return out;
 }
@@ -54,13 +73,18 @@ bool told_by_spectrum(std::string_view effect) {
 void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level) {
   const double surely_there = std::log(level / searches);
   const double surely_shared = std::log(level / (kMostNoises * kMostCouplings));
+  const std::vector<Coupling> all = couplings(tried);
+  std::vector<Coupling> vibrations;
+  for (const Coupling& one : all) {
+    if (!is_leak(one, all) && vibrations.size() < kMostCouplings) vibrations.push_back(one);
+  }
   std::vector<std::pair<TriedEffect*, SharedMotion>> found;
   std::size_t looked = 0;
   for (TriedEffect& one : tried) {
     if (!told_by_spectrum(one.effect) || !(one.log_chance < surely_there)) continue;
     if (looked++ == kMostNoises) break;
-    const SharedMotion shared = shared_motion(one, tried);
-    if (shared.with != nullptr && shared.log_chance < surely_shared)
+    const SharedMotion shared = shared_motion(one, vibrations);
+    if (shared.log_chance < surely_shared && shared.gain > kLeastShare * one.likelihood_gain)
       found.emplace_back(&one, shared);
   }
   for (const auto& [one, shared] : found) {

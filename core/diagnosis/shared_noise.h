@@ -11,9 +11,10 @@ namespace imunoise {
 bool told_by_spectrum(std::string_view effect);
 
 /// Says of such noise that it is common vibration where another sensor of the same kind feels it
-/// too: a coupling to that sensor explains something beside the noise, but less than without it.
-/// The evidence of both then counts. What explains as much beside the noise as without is a leak,
-/// and left alone. `tried`: best first, and so they are again. `level`: chance of a false alarm.
+/// too: a coupling to that sensor at some frequencies, which explains more than one at all of them
+/// (a leak), explains something beside the noise, and no trifle. The evidence of both then counts.
+/// `tried`: best first, and so they are again. `searches`: how many found them. `level`: chance of
+/// a false alarm.
 void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level);
 
 }  // namespace imunoise

@@ -100,7 +100,7 @@ TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
 
 // A gyroscope beside another one, which is noisier. Of a Markov process that both feel, or only the
 // first; or of one of its own, and the neighbour leaks into it.
-Diagnosis beside_another(double felt, double leaked) {
+Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
   constexpr Hertz kRate{50.0};
   constexpr std::size_t kSamples = 16'384;
   constexpr std::uint32_t kReplicates = 4;
@@ -114,8 +114,8 @@ Diagnosis beside_another(double felt, double leaked) {
     own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 22, k));
     other.push_back(made("WN(sigma2=9) + RW(gamma2=1e-5)", 23, k));
     for (std::size_t t = 0; t < kSamples; ++t) {
-      own[k][t] += shaking[t] + leaked * other[k][t];
-      other[k][t] += felt * shaking[t];
+      own[k][t] += strength * shaking[t] + leaked * other[k][t];
+      other[k][t] += felt * strength * shaking[t];
     }
   }
   std::vector<Signal> replicates;
@@ -137,6 +137,12 @@ TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
 
 TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {
   const Diagnosis diagnosis = beside_another(0.0, 0.0);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
+}
+
+TEST(Diagnose, NoiseThatTheNeighbourHardlyFeelsIsItsOwn) {
+  const Diagnosis diagnosis = beside_another(0.02, 0.0, 10.0);
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
 }
