@@ -18,8 +18,8 @@ BO_ 50 Rate: 8 IMU
  SG_ Count : 32|16@1+ (1,0) [0|0] "" HOST
 )dbc";
 const std::vector<std::string> kChannels = {"gyro_x=Rate.X", "gyro_y=Rate.Y", "counter=Rate.Count"};
-constexpr std::uint64_t kListened =
-    160;  // samples that go by while the driver starts, however slowly
+// Samples that go by while the driver starts, however slowly.
+constexpr std::uint64_t kListened = 160;
 
 class CanFaults : public CanImuTest {
  protected:
