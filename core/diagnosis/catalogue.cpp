@@ -216,6 +216,10 @@ const EffectInfo& effect_info(std::string_view id) {
   return *found;
 }
 
+bool told_by_spectrum(std::string_view effect) {
+  return effect == "gauss_markov" || effect == "flicker" || effect == "resonance";
+}
+
 std::string_view coupling_effect(Quantity subject, const Witness& witness) {
   switch (quantity_of(witness)) {
     case Quantity::kTemperature:

@@ -23,6 +23,9 @@ const std::vector<EffectInfo>& effect_catalogue();
 /// Precondition: an id of the catalogue.
 const EffectInfo& effect_info(std::string_view id);
 
+/// True for noise that only its spectrum tells: whatever couples in would look the same.
+bool told_by_spectrum(std::string_view effect);
+
 /// What a coupling to a witness is called: by the witness's quantity, else by its name.
 std::string_view coupling_effect(Quantity subject, const Witness& witness);
 /// Couplings to surroundings that nobody recorded: what stood still is no suspect.

@@ -133,8 +133,8 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
   // Everything that was searched is a chance of a false alarm.
   const auto searched = static_cast<double>(all.size());
   std::vector<TriedEffect> tried = try_all(current, all, progress.part(0.4, 0.75));
+  name_shared_noise(tried, searched, level, progress);
   if (progress.stopped()) return {};
-  name_shared_noise(tried, searched, level);
   Diagnosis out;
   for (TriedEffect& one : tried) {
     const double chance = std::min(1.0, searched * std::exp(one.log_chance));

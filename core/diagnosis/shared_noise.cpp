@@ -66,11 +66,8 @@ SharedMotion shared_motion(const TriedEffect& noise, const std::vector<Coupling>
 
 }  // namespace
 
-bool told_by_spectrum(std::string_view effect) {
-  return effect == "gauss_markov" || effect == "flicker" || effect == "resonance";
-}
-
-void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level) {
+void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level,
+                       const Progress& progress) {
   const double surely_there = std::log(level / searches);
   const double surely_shared = std::log(level / (kMostNoises * kMostCouplings));
   const std::vector<Coupling> all = couplings(tried);
@@ -82,7 +79,7 @@ void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double 
   std::size_t looked = 0;
   for (TriedEffect& one : tried) {
     if (!told_by_spectrum(one.effect) || !(one.log_chance < surely_there)) continue;
-    if (looked++ == kMostNoises) break;
+    if (looked++ == kMostNoises || progress.stopped()) break;
     const SharedMotion shared = shared_motion(one, vibrations);
     if (shared.log_chance < surely_shared && shared.gain > kLeastShare * one.likelihood_gain)
       found.emplace_back(&one, shared);

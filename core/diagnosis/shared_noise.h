@@ -6,15 +6,12 @@
 
 namespace imunoise {
 
-/// True for noise that only its spectrum tells: whatever couples in, or shakes, would look the
-/// same.
-bool told_by_spectrum(std::string_view effect);
-
-/// Says of such noise that it is common vibration where another sensor of the same kind feels it
-/// too: a coupling to that sensor at some frequencies, which explains more than one at all of them
-/// (a leak), explains something beside the noise, and no trifle. The evidence of both then counts.
-/// `tried`: best first, and so they are again. `searches`: how many found them. `level`: chance of
-/// a false alarm.
-void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level);
+/// Says of noise that only its spectrum tells that it is common vibration where another sensor of
+/// the same kind feels it too: a coupling to that sensor at some frequencies, which explains more
+/// than one at all of them (a leak), explains something beside the noise, and no trifle. The
+/// evidence of both then counts. `tried`: best first, and so they are again. `searches`: how many
+/// found them. `level`: chance of a false alarm. Stopped, it names nothing more.
+void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level,
+                       const Progress& progress = {});
 
 }  // namespace imunoise
