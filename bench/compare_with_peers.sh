@@ -10,8 +10,8 @@ out=build/bench
 mkdir -p "$out"
 bash scripts/install_packages.sh bench
 echo "Building bench_imunoise ..."
-quietly build/log/release-configure.txt cmake --preset release
-quietly build/log/release-build.txt cmake --build --preset release --parallel "$jobs" --target bench_imunoise
+configure release
+compile release bench_imunoise
 program=$(find build/release -type f -name bench_imunoise -perm -u+x | head -n 1)
 
 # cpu_seconds NAME: mean processor time of all threads in the benchmark named so, in seconds; empty when absent.

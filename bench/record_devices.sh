@@ -7,8 +7,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
 
 bash scripts/install_packages.sh bench
 echo "Building imunoise ..."
-quietly build/log/release-configure.txt cmake --preset release
-quietly build/log/release-build.txt cmake --build --preset release --parallel "$jobs" --target imunoise
+configure release
+compile release imunoise
 program=$PWD/build/release/imunoise
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -6,7 +6,7 @@
 namespace imunoise::cli {
 
 int run(const ArrayArguments& arguments) {
-  const auto replicates = read_input(arguments.input);
+  const auto replicates = read_together(arguments.input);
   if (!replicates) return print_error(replicates.error());
   ProgressLine line("array");
   const auto done = study::array_series(all_series(*replicates), arguments.array, line.progress());

@@ -43,7 +43,7 @@ Result<void> write_pictures(const v1::DiagnosisReports& reports,
 }  // namespace
 
 int run(const DiagnoseArguments& arguments) {
-  const auto replicates = read_with_witnesses(arguments.input);
+  const auto replicates = read_with_witnesses(arguments.input, arguments.diagnose.witnesses);
   if (!replicates) return print_error(replicates.error());
   const auto channels = subjects(replicates->front(), arguments.channels);
   if (!channels) return print_error(channels.error());

@@ -6,11 +6,11 @@
 namespace imunoise::cli {
 
 int run(const FaultsArguments& arguments) {
-  const auto replicates = read_input(arguments.input);
+  const auto replicates = read_together(arguments.input);
   if (!replicates) return print_error(replicates.error());
   std::vector<recording::Replicate> good;
   if (!arguments.training.files.empty()) {
-    auto read = read_input(arguments.training);
+    auto read = read_together(arguments.training);
     if (!read) return print_error(read.error());
     good = std::move(*read);
   }

@@ -1,6 +1,13 @@
 #include "cli/input.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
 #include "cli/progress_line.h"
+#include "recording/store/across.h"
+#include "recording/store/places.h"
 #include "recording/store/replicates.h"
 
 namespace imunoise::cli {
@@ -11,12 +18,55 @@ bool is_recording(const InputArguments& arguments) {
   return arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files.front());
 }
 
+// Whether the channels lie in several devices. What cannot be read is somebody else's matter.
+bool several_devices(const InputArguments& arguments) {
+  if (!is_recording(arguments)) return false;
+  const std::filesystem::path& root = arguments.files.front();
+  const auto manifest = recording::manifest_of(recording::posix_file_system(), root);
+  if (!manifest) return false;
+  const auto wanted = recording::wanted_of(root.string(), recording::offers_of(*manifest),
+                                           arguments.import.channels);
+  return wanted && std::any_of(wanted->begin(), wanted->end(), [&](const recording::Wanted& one) {
+           return one.place.device != wanted->front().place.device;
+         });
+}
+
+void tell(const recording::JoinedStream& one) {
+  fmt::print(stderr, "joined: {}/{}, {:.6g} Hz, clock {:+.1f} ppm, {} samples left out{}\n",
+             one.device, one.stream, one.rate.value, one.clock_ppm, one.dropped,
+             one.averaged > 1 ? fmt::format(", means of {}", one.averaged) : "");
+}
+
+Result<std::vector<recording::Replicate>> joined(const InputArguments& arguments) {
+  const recording::ImportOptions& options = arguments.import;
+  if (options.rate || options.unit || options.split_into > 1)
+    return fail(
+        "channels of several devices keep their own rates and units, and their replicates: "
+        "--rate, --unit and --split-into are for those of one");
+  ProgressLine line("reading");
+  auto groups = recording::import_across(recording::posix_file_system(), arguments.files.front(),
+                                         options.channels, line.progress());
+  if (!groups) return tl::unexpected(groups.error());
+  recording::Across& all = groups->front();
+  if (!all.left_out.empty()) {
+    const recording::LeftOut& one = all.left_out.front();
+    return fail(fmt::format("{}/{}: {}", one.device, one.stream, one.reason));
+  }
+  for (const recording::JoinedStream& one : all.streams) tell(one);
+  return std::move(all.replicates);
+}
+
 }  // namespace
 
-Result<std::vector<recording::Replicate>> read_with_witnesses(InputArguments arguments) {
-  // Other files have one clock: all their channels are read.
-  if (!is_recording(arguments)) arguments.import.channels.clear();
+Result<std::vector<recording::Replicate>> read_together(const InputArguments& arguments) {
+  return several_devices(arguments) ? joined(arguments) : read_input(arguments);
+}
+
+Result<std::vector<recording::Replicate>> read_with_witnesses(
+    InputArguments arguments, const std::vector<std::string>& witnesses) {
   arguments.import.beside = true;
+  // Without a name the channel under study is among what stands beside.
+  if (!arguments.import.channels.empty()) arguments.import.witnesses = witnesses;
   return read_input(arguments);
 }
 

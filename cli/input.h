@@ -10,8 +10,15 @@ namespace imunoise::cli {
 /// The replicates of the user's files; series borrow from them.
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments);
 
-/// The same with every channel that was recorded beside those that are named.
-Result<std::vector<recording::Replicate>> read_with_witnesses(InputArguments arguments);
+/// The same with every channel that was recorded beside those that are named; with `witnesses` only
+/// those of them.
+Result<std::vector<recording::Replicate>> read_with_witnesses(
+    InputArguments arguments, const std::vector<std::string>& witnesses);
+
+/// read_input() for what needs samples of one time: channels of several devices of a recording are
+/// joined on the host's clock (recording/store/across.h), and how is told on stderr. Error: a
+/// device that cannot be joined with the others, too.
+Result<std::vector<recording::Replicate>> read_together(const InputArguments& arguments);
 
 /// One series for each channel.
 std::vector<study::Series> all_series(const std::vector<recording::Replicate>& replicates);

@@ -16,7 +16,7 @@ int run(const MixedArguments& arguments) {
         wanted.push_back(std::move(name));
     }
   }
-  const auto replicates = read_input(input);
+  const auto replicates = read_together(input);
   if (!replicates) return print_error(replicates.error());
   ProgressLine line("mixed");
   const auto done = study::mixed_series(all_series(*replicates), arguments.mixed, line.progress());

@@ -10,7 +10,12 @@ namespace imunoise::cli {
 namespace {
 
 Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input,
-                                               const std::string& channel) {
+                                               const std::string& channel,
+                                               const std::vector<std::string>& witnesses) {
+  for (const std::string& file : input.files()) {
+    if (!std::filesystem::exists(file))
+      return fail(file + ": is gone, and the study is of it; put it back, or start another study");
+  }
   RawInput raw;
   raw.files.assign(input.files().begin(), input.files().end());
   raw.rate = input.rate_hz();
@@ -20,7 +25,12 @@ Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input,
   raw.no_header = input.no_header();
   if (input.split_into() > 1) raw.split_into = input.split_into();
   if (!channel.empty()) raw.channels = {channel};
-  return read_with_witnesses(input_from(raw));
+  return read_with_witnesses(input_from(raw), witnesses);
+}
+
+bool changed_since(const v1::Study& known, const std::filesystem::path& file) {
+  const auto now = study::read_study(file);
+  return !now || study::study_text(*now) != study::study_text(known);
 }
 
 }  // namespace
@@ -36,9 +46,17 @@ int run(const StudyArguments& arguments) {
     study = std::move(*known);
   }
   if (arguments.request.operation_case() != v1::StudyRequest::OPERATION_NOT_SET) {
+    const auto& named = opens ? arguments.request.open().witnesses() : study.witnesses();
+    const std::vector<std::string> witnesses(named.begin(), named.end());
+    const auto read_them = [&](const v1::StudyInput& input, const std::string& channel) {
+      return read(input, channel, witnesses);
+    };
     ProgressLine line("study");
-    auto done = study::apply(study, arguments.request, read, line.progress());
+    auto done = study::apply(study, arguments.request, read_them, line.progress());
     if (!done) return print_error(done.error());
+    if (!opens && changed_since(study, arguments.file))
+      return print_error({arguments.file.string() +
+                          ": somebody else changed it meanwhile; nothing was saved, do it again"});
     study = std::move(*done);
     if (auto saved = write_file(arguments.file, study::study_text(study)); !saved)
       return print_error(saved.error());

@@ -15,7 +15,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 if(CMAKE_UNITY_BUILD)
   # Joined sources see each other's names; each by itself is held to these warnings.
-  target_compile_options(imunoise_flags INTERFACE -Wno-shadow -Wno-subobject-linkage)
+  target_compile_options(imunoise_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   if(IMUNOISE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC follows values through code that sanitizers added, and warns of what is not there; the dev build judges.
     target_compile_options(imunoise_flags INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized

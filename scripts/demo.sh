@@ -19,8 +19,8 @@ out=build/demo-output
 
 bash scripts/install_packages.sh build
 echo "Building imunoise (the first time takes some minutes) ..."
-quietly build/log/demo-configure.txt cmake --preset demo
-quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise imunoised imunoise_plugins
+configure demo
+compile demo imunoise imunoised imunoise_plugins
 imunoise=build/demo/imunoise
 
 rm -rf "$out"

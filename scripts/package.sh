@@ -13,8 +13,8 @@ out=build/package/package
 
 bash scripts/install_packages.sh package
 echo "Building imunoise as it is shipped ..."
-quietly build/log/package-configure.txt cmake --preset package -D IMUNOISE_PACKAGE_REVISION="$revision"
-quietly build/log/package-build.txt cmake --build --preset package --parallel "$jobs"
+configure package -D IMUNOISE_PACKAGE_REVISION="$revision"
+compile package
 quietly build/log/package-cpack.txt cpack --config build/package/CPackConfig.cmake
 package=$(find "$out" -maxdepth 1 -name "*.deb" -newer build/log/package-build.txt)
 

@@ -31,8 +31,8 @@ done
 bash scripts/install_packages.sh bench
 if [[ -z $build ]]; then
   build=build/demo
-  quietly build/log/demo-configure.txt cmake --preset demo
-  quietly build/log/demo-build.txt cmake --build --preset demo --parallel "$jobs" --target imunoise imunoised imunoise_plugins
+  configure demo
+  compile demo imunoise imunoised imunoise_plugins
 fi
 out=$(realpath -m "$out")
 rm -rf "$out"

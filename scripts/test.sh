@@ -47,16 +47,9 @@ check() {
   fi
 }
 
-# build PRESET [TARGET]: configures and builds it. From nothing it joins sources (CMake's unity build), which takes half
-# the time; a folder that somebody builds in stays as it is. clang compiles the fuzzers piece by piece.
+# build PRESET [TARGET...]: configures and compiles it.
 build() {
-  local joined=()
-  if [[ $1 != fuzz && ! -f build/$1/CMakeCache.txt ]]; then
-    joined=(-DCMAKE_UNITY_BUILD=ON)
-  fi
-  quietly "build/log/$1-configure.txt" cmake --preset "$1" "${joined[@]}" &&
-    quietly "build/log/$1-build.txt" \
-      cmake --build --preset "$1" --parallel "$jobs" --target "${2:-all}"
+  configure "$1" && compile "$@"
 }
 
 sanitizer() {

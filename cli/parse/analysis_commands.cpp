@@ -98,8 +98,8 @@ ParsedCommand fit_command(CLI::App& program) {
             out.fit.measure = measure_from(raw->input);
             out.fit.confidence = raw->confidence;
             out.json = raw->json;
-            out.report = path_from(raw->report);
-            out.svg = path_from(*svg);
+            out.report = output_from("--report", raw->report, *raw);
+            out.svg = output_from("--svg", *svg, *raw);
             return out;
           }};
 }

@@ -15,6 +15,14 @@ Effects in a model: ramp, warm_up(tau=600), line(f=0.5, harmonics=3), step(repli
 witness(CHANNEL, lag=300), witness(CHANNEL, quadratic), modulated(CHANNEL), outliers(above=6),
 telegraph, own_powers.)help";
 
+void add_witnesses(CLI::App& command, std::vector<std::string>& witnesses) {
+  command
+      .add_option("--witness", witnesses,
+                  "A channel that may be the cause, by name; no other is read (default: all)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 ParsedCommand diagnose_command(CLI::App& program) {
   CLI::App* const diagnose =
       program.add_subcommand("diagnose", "Which physical effect is missing from a model?");
@@ -25,10 +33,7 @@ ParsedCommand diagnose_command(CLI::App& program) {
   add_json(*diagnose, *raw);
   add_report(*diagnose, *raw);
   add_model(*diagnose, *raw, "chosen by cross-validation");
-  diagnose
-      ->add_option("--witness", options->witnesses,
-                   "A channel that may be the cause; may be repeated (default: all others)")
-      ->allow_extra_args(false);
+  add_witnesses(*diagnose, options->witnesses);
   const auto svg = std::make_shared<std::string>();
   diagnose
       ->add_option(
@@ -47,7 +52,7 @@ ParsedCommand diagnose_command(CLI::App& program) {
             DiagnoseArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
             out.channels = out.input.import.channels;
             out.diagnose.model = model_from(*raw);
-            if (!svg->empty()) out.svg = path_from(*svg);
+            if (!svg->empty()) out.svg = output_from("--svg", *svg, *raw);
             return out;
           }};
 }
@@ -106,6 +111,7 @@ std::vector<ParsedCommand> study_commands(CLI::App& program) {
     options(*part, *typed);
     add_json(*part, typed->raw);
     out.push_back({part, [typed, request] {
+                     if (typed->raw.report == typed->file) refuse("OUT", "is the study's own file");
                      return StudyArguments{typed->file, request(*typed), show_from(typed->raw)};
                    }});
   };
@@ -115,9 +121,7 @@ std::vector<ParsedCommand> study_commands(CLI::App& program) {
       [](CLI::App& part, RawStudy& typed) {
         add_input(part, typed.raw.input);
         add_model(part, typed.raw, "chosen by cross-validation");
-        part.add_option("--witness", typed.witnesses,
-                        "A channel that may be the cause; may be repeated (default: all others)")
-            ->allow_extra_args(false);
+        add_witnesses(part, typed.witnesses);
       },
       open_request);
   add("show", "The ladder as it stands", no_options,

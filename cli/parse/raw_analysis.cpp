@@ -4,8 +4,14 @@
 
 namespace imunoise::cli {
 
-std::optional<std::filesystem::path> path_from(const std::string& text) {
+std::optional<std::filesystem::path> output_from(const std::string& option, const std::string& text,
+                                                 const RawAnalysis& raw) {
   if (text.empty()) return std::nullopt;
+  for (const std::string& file : raw.input.files) {
+    std::error_code unknown;  // of what is not there yet
+    if (std::filesystem::equivalent(file, text, unknown))
+      refuse(option, text + " is one of the recordings");
+  }
   return text;
 }
 
@@ -18,7 +24,9 @@ std::optional<std::string> model_from(const RawAnalysis& raw) {
   return raw.model;
 }
 
-ShowArguments show_from(const RawAnalysis& raw) { return {raw.json, path_from(raw.report)}; }
+ShowArguments show_from(const RawAnalysis& raw) {
+  return {raw.json, output_from("--report", raw.report, raw)};
+}
 
 void add_json(CLI::App& command, RawAnalysis& raw) {
   command.add_flag("--json", raw.json, "Print the result as JSON");

@@ -22,7 +22,9 @@ struct RawAnalysis {
   bool json = false;
 };
 
-std::optional<std::filesystem::path> path_from(const std::string& text);
+/// Where something is to be written; refuses what is read.
+std::optional<std::filesystem::path> output_from(const std::string& option, const std::string& text,
+                                                 const RawAnalysis& raw);
 Weighting weighting_from(const std::string& text);
 /// What was typed, were it nothing: an empty model is no request for the default.
 std::optional<std::string> model_from(const RawAnalysis& raw);

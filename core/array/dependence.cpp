@@ -50,6 +50,10 @@ std::vector<PairDependence> dependence(const ArrayModel& model,
   for (const Pair& pair : all_pairs(model.sensors)) {
     if (pair.a == pair.b) continue;
     PairDependence one{pair, {}, 1.0, Eigen::ArrayXd::Zero(n), Eigen::ArrayXd::Zero(n)};
+    if (n == 0) {  // too short to tell
+      out.push_back(std::move(one));
+      continue;
+    }
     Eigen::ArrayXd cross = Eigen::ArrayXd::Zero(n);
     Eigen::ArrayXd own_a = Eigen::ArrayXd::Zero(n);
     Eigen::ArrayXd own_b = Eigen::ArrayXd::Zero(n);

@@ -216,6 +216,30 @@ const EffectInfo& effect_info(std::string_view id) {
   return *found;
 }
 
+const EffectInfo& effect_info(std::string_view id, const Witness* witness) {
+  static const EffectInfo anything{
+      "cross_axis",
+      "coupling to another channel",
+      "What that channel shows, or something that moves with it, enters the output.",
+      "the same while that channel is moved on purpose",
+      {},
+      "cross_axis"};
+  const bool unknown = witness != nullptr && quantity_of(*witness) == Quantity::kUnknown;
+  return unknown && id == anything.id ? anything : effect_info(id);
+}
+
+const EffectInfo& defect_info(std::string_view id) {
+  static const EffectInfo codes{
+      "quantisation",
+      "few codes",
+      "The noise is smaller than the step of the converter: rounding is then no white noise, and "
+      "depends on where between two codes the mean lies.",
+      "the same at a finer resolution or a smaller range",
+      {},
+      "quantisation"};
+  return id == codes.id ? codes : effect_info(id);
+}
+
 bool told_by_spectrum(std::string_view effect) {
   return effect == "gauss_markov" || effect == "flicker" || effect == "resonance";
 }

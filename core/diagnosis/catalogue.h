@@ -23,6 +23,11 @@ const std::vector<EffectInfo>& effect_catalogue();
 /// Precondition: an id of the catalogue.
 const EffectInfo& effect_info(std::string_view id);
 
+/// The same in the words for a witness (or none), of which nobody may know what it measures.
+const EffectInfo& effect_info(std::string_view id, const Witness* witness);
+/// The same in the words for a defect of the samples.
+const EffectInfo& defect_info(std::string_view id);
+
 /// True for noise that only its spectrum tells: whatever couples in would look the same.
 bool told_by_spectrum(std::string_view effect);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -50,19 +51,25 @@ Eigen::VectorXd witness_cosines(const EffectTerm& term, const Witness& witness, 
   return out;
 }
 
-// The form of an effect that is the same in every replicate, or is that of one of them.
-Shape shape_of(const EffectTerm& term, double rate) {
+// The form that an effect has from a sample of what was recorded on.
+Shape shape_of(const EffectTerm& term, double rate, Index first) {
   switch (term.kind) {
     case EffectKind::kRamp:
       return ramp(rate);
     case EffectKind::kWarmUp:
-      return warm_up(term.tau * rate);
+      return warm_up(term.tau * rate, first);
     case EffectKind::kLine:
       return waves(term.frequency / rate, static_cast<int>(term.harmonics));
     default:
       assert(term.kind == EffectKind::kStep);
-      return step(std::lround(term.time * rate));
+      return step(std::lround(term.time * rate) - first);
   }
+}
+
+// The replicate that a step is in.
+std::optional<std::size_t> stepping(const EffectTerm& term, const Subject& subject) {
+  return subject.around(static_cast<std::size_t>(term.replicate) - 1,
+                        std::lround(term.time * subject.rate.value));
 }
 
 // Regressors that every replicate has: one set of coefficients, or one a replicate.
@@ -115,9 +122,9 @@ Eigen::VectorXd rate_of_change(const VectorRef& x, double rate) {
 Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
   const double rate = subject.rate.value;
   const auto shaped = [&](bool own, const std::vector<std::string>& names) {
-    const Shape shape = shape_of(term, rate);
-    return in_all(subject, own, names,
-                  [&](std::size_t k) { return shape.cosines(subject.length(k)); });
+    return in_all(subject, own, names, [&](std::size_t k) {
+      return shape_of(term, rate, subject.parts[k].first).cosines(subject.length(k));
+    });
   };
   switch (term.kind) {
     case EffectKind::kRamp:
@@ -128,10 +135,11 @@ Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
       return shaped(true, wave_names(static_cast<int>(term.harmonics)));
     case EffectKind::kStep: {
       Regressors out{std::vector<Columns>(subject.replicates()), {}};
-      const auto k = static_cast<std::size_t>(term.replicate) - 1;
+      const std::size_t k = *stepping(term, subject);
       for (std::size_t i = 0; i < subject.replicates(); ++i)
         out.replicates[i].cosines.resize(subject.length(i) - 1, 0);
-      out.replicates[k] = {shape_of(term, rate).cosines(subject.length(k)), {0}};
+      const Shape shape = shape_of(term, rate, subject.parts[k].first);
+      out.replicates[k] = {shape.cosines(subject.length(k)), {0}};
       out.coefficients.push_back({"height", k});
       return out;
     }
@@ -163,10 +171,10 @@ Eigen::MatrixXd samples_of_regressor(const EffectTerm& term, const Subject& subj
     case EffectKind::kRamp:
     case EffectKind::kWarmUp:
     case EffectKind::kLine:
-      return shape_of(term, rate).samples(n);
+      return shape_of(term, rate, subject.parts[replicate].first).samples(n);
     case EffectKind::kStep:
-      if (static_cast<std::size_t>(term.replicate) != replicate + 1) break;
-      return shape_of(term, rate).samples(n);
+      if (stepping(term, subject) != replicate) break;
+      return shape_of(term, rate, subject.parts[replicate].first).samples(n);
     case EffectKind::kWitness: {
       const Witness& witness = *subject.find(term.witness);
       if (!in_part_of_the_frequencies(term)) return witness_samples(term, witness, replicate, rate);
@@ -194,13 +202,21 @@ Result<void> check(const EffectTerm& term, const Subject& subject) {
                                : "no such witness; there are " + known);
   }
   if (term.kind == EffectKind::kStep) {
-    if (term.replicate > static_cast<double>(subject.replicates()))
-      return wrong(fmt::format("there are only {} replicates", subject.replicates()));
-    if (term.time >= subject.seconds(static_cast<std::size_t>(term.replicate) - 1))
-      return wrong("the replicate ends before");
+    const std::size_t recorded = subject.parts.back().recorded + 1;
+    if (term.replicate > static_cast<double>(recorded))
+      return wrong(fmt::format("there are only {} replicates", recorded));
+    if (!stepping(term, subject)) return wrong("nothing of the replicate is used around that time");
   }
-  if (term.frequency * term.harmonics > 0.5 * subject.rate.value)
-    return wrong(fmt::format("half the sampling rate is {} Hz", 0.5 * subject.rate.value));
+  const double fastest = 0.5 * subject.rate.value;
+  if (term.frequency * term.harmonics > fastest || term.from >= fastest)
+    return wrong(fmt::format("half the sampling rate is {} Hz", fastest));
+  double longest = 0.0;  // s
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    longest = std::max(longest, subject.seconds(k));
+  if (term.kind == EffectKind::kLine && term.frequency * longest < 0.5)
+    return wrong(fmt::format("no replicate is as long as half a period ({:.6g} s)", longest));
+  if (term.kind == EffectKind::kWarmUp && term.tau * subject.rate.value < 1.0)
+    return wrong("tau is shorter than a sample");
   return {};
 }
 

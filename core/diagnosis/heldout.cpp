@@ -40,13 +40,13 @@ double log_likelihood_of(const Regression& one, const Eigen::VectorXd& coefficie
 // given.
 double modulation_gain(const Regression& one, const JointFit& fit,
                        const Eigen::VectorXd& coefficients) {
+  if (fit.modulation.empty()) return 0.0;
   double out = 0.0;
-  JointFit there{.model = fit.model, .effects = {coefficients, {}}};
-  std::size_t next = 0;
-  for (const EffectTerm& term : one.effects()) {
-    if (term.kind != EffectKind::kModulated) continue;
-    out += predicted_gain(fit.modulation[next++], *one.subject().find(term.witness),
-                          innovations(one, there));
+  Innovations white = innovations(one, {.model = fit.model, .effects = {coefficients, {}}});
+  const std::vector<const Witness*> witnesses = modulating(one);
+  for (std::size_t m = 0; m < witnesses.size(); ++m) {
+    out += predicted_gain(fit.modulation[m], *witnesses[m], white);
+    take_out(fit.modulation[m], *witnesses[m], white);
   }
   return out;
 }

@@ -163,38 +163,43 @@ std::vector<Defect> integrity(const Signal& signal) {
   std::vector<Defect> out;
   if (signal.size() < 2) return out;
   const Codes codes = codes_of(signal);
-  const auto n = static_cast<double>(signal.size());
-  if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0, {}}};
-  const double same = same_code(codes);
-  const double expected = n * same;
+  if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0, 1, {}}};
   std::vector<StuckRun> stuck = long_runs(signal);
   drop_likely(stuck, codes, signal.size());
-  std::size_t repeated = codes.repeats;
-  for (const StuckRun& run : stuck) repeated -= run.count - 1;
-  const auto repeats = static_cast<double>(repeated);
-  constexpr double kSurely = 6.0;     // standard deviations
-  constexpr double kFewSound = 0.05;  // of those that repeat
-  using Wrong = std::vector<WrongSample>;
-  const double excess = repeats - expected;
-  // The chance is an approximation: what is within a fifth of it is not called a defect.
-  if (excess > kSurely * std::sqrt(expected) + 1.0 && excess > 0.2 * expected)
-    out.push_back({"duplicated_samples", repeated, expected, 0,
-                   expected < kFewSound * repeats ? repeats_of(signal, stuck) : Wrong{}});
-  const auto longest = std::max_element(
-      stuck.begin(), stuck.end(),
-      [](const StuckRun& one, const StuckRun& other) { return one.count < other.count; });
-  if (longest != stuck.end()) out.push_back({"stuck", longest->count, 0.0, longest->first, {}});
+  if (!stuck.empty()) {
+    std::size_t count = 0;
+    for (const StuckRun& run : stuck) count += run.count;
+    out.push_back({"stuck", count, 0.0, stuck.front().first, stuck.size(), {}});
+  }
   // Noise thins out towards its extremes; a converter at its end piles samples up there.
   const auto piled = [](std::size_t at_end, std::size_t next_to_it) {
     return at_end >= kPile && at_end > 3 * next_to_it;
   };
-  if (piled(codes.highest, codes.below_highest))
-    out.push_back({"saturation", codes.highest, static_cast<double>(codes.below_highest), 0,
-                   cut_off(signal, 1)});
-  if (piled(codes.lowest, codes.above_lowest))
-    out.push_back({"saturation", codes.lowest, static_cast<double>(codes.above_lowest), 0,
-                   cut_off(signal, -1)});
-  if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0, {}});
+  std::vector<WrongSample> repeats = repeats_of(signal, stuck);
+  const auto saturated = [&](int beyond, std::size_t at_end, std::size_t next_to_it) {
+    if (!piled(at_end, next_to_it)) return;
+    std::vector<WrongSample> there = cut_off(signal, beyond);
+    // There every sample repeats the one before: that is no defect of its own.
+    const double end = signal.value(there.front().at);
+    std::erase_if(repeats, [&](const WrongSample& one) { return signal.value(one.at) == end; });
+    out.push_back({"saturation", at_end, static_cast<double>(next_to_it), there.front().at, 1,
+                   std::move(there)});
+  };
+  saturated(1, codes.highest, codes.below_highest);
+  saturated(-1, codes.lowest, codes.above_lowest);
+  constexpr double kSurely = 6.0;     // standard deviations
+  constexpr double kFewSound = 0.05;  // of those that repeat
+  const auto repeated = static_cast<double>(repeats.size());
+  const double expected = static_cast<double>(signal.size()) * same_code(codes);
+  const double excess = repeated - expected;
+  // The chance is an approximation: what is within a fifth of it is not called a defect.
+  if (excess > kSurely * std::sqrt(expected) + 1.0 && excess > 0.2 * expected) {
+    const std::size_t count = repeats.size();
+    const std::size_t first = repeats.front().at;
+    if (!(expected < kFewSound * repeated)) repeats.clear();
+    out.push_back({"duplicated_samples", count, expected, first, 1, std::move(repeats)});
+  }
+  if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0, 1, {}});
   return out;
 }
 

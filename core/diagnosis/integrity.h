@@ -15,10 +15,11 @@ struct WrongSample {
 
 /// A defect of the samples themselves, which every model would be blamed for.
 struct Defect {
-  std::string effect;     ///< its id in the catalogue
-  std::size_t count = 0;  ///< samples concerned
-  double expected = 0.0;  ///< of them without the defect
-  std::size_t first = 0;  ///< place of the first
+  std::string effect;      ///< its id in the catalogue
+  std::size_t count = 0;   ///< samples concerned
+  double expected = 0.0;   ///< of them without the defect
+  std::size_t first = 0;   ///< place of the first
+  std::size_t places = 1;  ///< stretches that it comes in
   /// The samples, rising, where few of them can be sound; else empty.
   std::vector<WrongSample> wrong{};
 };

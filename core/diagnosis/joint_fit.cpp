@@ -56,11 +56,12 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
   }
   if (has(regression, EffectKind::kOwnPowers)) fit_own_powers(out, regression);
   if (has(regression, EffectKind::kModulated)) {
-    const Innovations white = innovations(regression, out);
-    for (const EffectTerm& term : regression.effects()) {
-      if (term.kind != EffectKind::kModulated) continue;
-      out.modulation.push_back(modulation_by(*regression.subject().find(term.witness), white));
+    // Each explains what those before it leave.
+    Innovations white = innovations(regression, out);
+    for (const Witness* witness : modulating(regression)) {
+      out.modulation.push_back(modulation_by(*witness, white));
       out.log_likelihood += out.modulation.back().log_likelihood;
+      take_out(out.modulation.back(), *witness, white);
     }
   }
   return out;
@@ -76,6 +77,17 @@ Innovations innovations(const Regression& regression, const JointFit& fit) {
     const Eigen::ArrayXd spectrum = spectrum_of_cosines(noise, left.size() + 1);
     out.white[i] = inverse_cosine_transform((left.array() / spectrum.sqrt()).matrix());
   });
+  const std::vector<const Witness*> witnesses = modulating(regression);
+  for (std::size_t m = 0; m < fit.modulation.size(); ++m)
+    take_out(fit.modulation[m], *witnesses[m], out);
+  return out;
+}
+
+std::vector<const Witness*> modulating(const Regression& regression) {
+  std::vector<const Witness*> out;
+  for (const EffectTerm& term : regression.effects()) {
+    if (term.kind == EffectKind::kModulated) out.push_back(regression.subject().find(term.witness));
+  }
   return out;
 }
 

@@ -24,8 +24,11 @@ struct JointFit {
 JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress = {});
 
 /// What the replicates that count would be, were the fit true: transformed, divided by the root of
-/// the spectrum, and transformed back.
+/// the spectrum, and transformed back; less what modulates them.
 Innovations innovations(const Regression& regression, const JointFit& fit);
+
+/// The witnesses of the modulated effects, in their order.
+std::vector<const Witness*> modulating(const Regression& regression);
 
 /// Spectrum of a noise model at the coefficients 1 … n-1 of a cosine transform of length n, taken
 /// as straight within each band. Unit² per cycle/sample.

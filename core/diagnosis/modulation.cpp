@@ -69,6 +69,18 @@ Modulation modulation_by(const Witness& witness, const Innovations& innovations)
   return out;
 }
 
+void take_out(const Modulation& modulation, const Witness& witness, Innovations& innovations) {
+  for (std::size_t i = 0; i < innovations.white.size(); ++i) {
+    Eigen::VectorXd& y = innovations.white[i];
+    const Eigen::VectorXd& c = witness.samples[innovations.replicates[i]];
+    for (Index t = 0; t < y.size(); t += kStretch) {
+      const Index size = std::min(kStretch, y.size() - t);
+      const double at = (c.segment(t, size).mean() - modulation.mean) / modulation.deviation;
+      y.segment(t, size) /= std::sqrt(modulation.level * std::exp(modulation.slope * at));
+    }
+  }
+}
+
 double predicted_gain(const Modulation& modulation, const Witness& witness,
                       const Innovations& innovations) {
   const Stretches all = stretches_of(witness, innovations);

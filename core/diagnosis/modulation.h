@@ -27,6 +27,9 @@ struct Modulation {
 /// The modulation that explains some innovations best.
 Modulation modulation_by(const Witness& witness, const Innovations& innovations);
 
+/// Divides innovations by what a modulation makes of their deviation.
+void take_out(const Modulation& modulation, const Witness& witness, Innovations& innovations);
+
 /// What a modulation gains on innovations that it was not estimated from, nats.
 double predicted_gain(const Modulation& modulation, const Witness& witness,
                       const Innovations& innovations);

@@ -123,7 +123,8 @@ Regression Regression::on(std::shared_ptr<const Subject> subject) const {
 Regression Regression::in_blocks(std::size_t blocks) const {
   const auto length =
       static_cast<Index>(quick_length(static_cast<std::size_t>(subject_->length(0)) / blocks));
-  auto parts = std::make_shared<Subject>(Subject{subject_->rate, subject_->quantity, {}, {}, {}});
+  auto parts = std::make_shared<Subject>(
+      Subject{subject_->rate, subject_->quantity, {}, {}, uncut(blocks), {}});
   parts->samples = cut(subject_->samples[0], blocks, length);
   parts->cosines = transformed(parts->samples);
   // Columns are cut below; only noise that follows a witness needs the witness itself.

@@ -78,6 +78,7 @@ class ScoreSpace {
 // The best of a scanned family of processes.
 void add_best(const Current& current, const ScoreSpace& space, std::string_view effect,
               const std::vector<Process>& family, Suggestions& out) {
+  if (family.empty()) return;  // replicates are too short for any of it
   Eigen::MatrixXd directions(space.direction(family[0]).size(), static_cast<Index>(family.size()));
   std::size_t best = 0;
   double most = -INFINITY;

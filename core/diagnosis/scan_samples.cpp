@@ -34,7 +34,10 @@ Suggestions scan_samples(const Current& current) {
                    .search = {.log_places = count * std::log(samples) - std::lgamma(count + 1.0) +
                                             log_number(count)}});
   }
-  if (subject.replicates() > 1 && current.fit.own_powers.empty()) {
+  // What modulates the noise has made it differ between replicates, and the likelihood of their
+  // powers does not know.
+  const bool modulated = !current.fit.modulation.empty();
+  if (subject.replicates() > 1 && current.fit.own_powers.empty() && !modulated) {
     const double dof =
         (static_cast<double>(subject.replicates()) - 1.0) * free_powers(current.fit.model.noise);
     const EffectTerm own{.kind = EffectKind::kOwnPowers};

@@ -11,6 +11,7 @@ using Index = Eigen::Index;
 
 void add_step(const Current& current, const std::vector<StepProducts>& steps, Suggestions& out) {
   Suggestion best{.effect = "step", .added = EffectTerm{.kind = EffectKind::kStep}};
+  const Subject& subject = current.subject();
   for (std::size_t k = 0; k < steps.size(); ++k) {
     best.search.path += steps[k].path();
     for (Index t = 1; t < steps[k].size(); ++t) {
@@ -19,9 +20,10 @@ void add_step(const Current& current, const std::vector<StepProducts>& steps, Su
       if (!(0.5 * product * product > best.score_nats * information)) continue;
       best.score_nats = 0.5 * product * product / information;
       best.information = information;
-      best.added = EffectTerm{.kind = EffectKind::kStep,
-                              .replicate = static_cast<double>(k + 1),
-                              .time = static_cast<double>(t) / current.subject().rate.value};
+      best.added =
+          EffectTerm{.kind = EffectKind::kStep,
+                     .replicate = static_cast<double>(subject.parts[k].recorded + 1),
+                     .time = static_cast<double>(subject.parts[k].first + t) / subject.rate.value};
     }
   }
   if (best.score_nats > 0.0) out.push_back(std::move(best));

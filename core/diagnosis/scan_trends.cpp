@@ -9,7 +9,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Block means of a function of the time in s.
+// Block means of a function of the time in s from the first sample of what was recorded.
 template <class Function>
 std::vector<Eigen::VectorXd> over_time(const Current& current, const SlowView& view,
                                        const Function& function) {
@@ -19,7 +19,8 @@ std::vector<Eigen::VectorXd> over_time(const Current& current, const SlowView& v
     const auto block = static_cast<double>(view.block(k));
     Eigen::VectorXd means(subject.length(k) / view.block(k));
     for (Index i = 0; i < means.size(); ++i)
-      means(i) = function((static_cast<double>(i) + 0.5) * block / subject.rate.value);
+      means(i) =
+          function(subject.begins(k) + (static_cast<double>(i) + 0.5) * block / subject.rate.value);
     out.push_back(std::move(means));
   }
   return out;

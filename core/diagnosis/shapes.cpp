@@ -130,9 +130,10 @@ Shape ramp(double rate) {
           [=](Index n) -> Eigen::MatrixXd { return ramp_cosines(n, rate); }};
 }
 
-Shape warm_up(double tau) {
-  return {[=](Index n) -> Eigen::MatrixXd { return (-times(n) / tau).exp(); },
-          [=](Index n) -> Eigen::MatrixXd { return warm_up_cosines(n, tau); }};
+Shape warm_up(double tau, Index after) {
+  const double left = std::exp(-static_cast<double>(after) / tau);
+  return {[=](Index n) -> Eigen::MatrixXd { return left * (-times(n) / tau).exp(); },
+          [=](Index n) -> Eigen::MatrixXd { return left * warm_up_cosines(n, tau); }};
 }
 
 Shape step(Index at) {

@@ -14,8 +14,8 @@ struct Shape {
 
 /// t/rate, in s at a rate in Hz.
 Shape ramp(double rate);
-/// exp(-t/τ), τ > 0 in samples.
-Shape warm_up(double tau);
+/// exp(-(t + after)/τ), τ > 0, both in samples.
+Shape warm_up(double tau, Eigen::Index after);
 /// 0 before sample `at`, 1 from it on.
 Shape step(Eigen::Index at);
 /// The cosine and sine of each multiple of a frequency in cycles per sample, side by side.

@@ -24,18 +24,35 @@ const Witness* Subject::find(const std::string& name) const {
   return found == witnesses.end() ? nullptr : &*found;
 }
 
+std::optional<std::size_t> Subject::around(std::size_t recorded, Eigen::Index sample) const {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Eigen::Index after = sample - parts[k].first;
+    if (parts[k].recorded == recorded && after > 0 && after < length(k)) return k;
+  }
+  return std::nullopt;
+}
+
+std::vector<Part> uncut(std::size_t replicates) {
+  std::vector<Part> out(replicates);
+  for (std::size_t k = 0; k < replicates; ++k) out[k].recorded = k;
+  return out;
+}
+
 Subject make_subject(const std::vector<Signal>& replicates,
-                     const std::vector<NamedChannel>& witnesses, const Progress& progress) {
+                     const std::vector<NamedChannel>& witnesses, std::vector<Part> parts,
+                     const Progress& progress) {
   assert(!replicates.empty());
   const std::size_t count = replicates.size();
-  Subject out{replicates[0].rate(), replicates[0].quantity(), {}, {}, {}};
+  if (parts.empty()) parts = uncut(count);
+  assert(parts.size() == count);
+  Subject out{replicates[0].rate(), replicates[0].quantity(), {}, {}, std::move(parts), {}};
   out.samples.resize(count);
   out.cosines.resize(count);
   for (const NamedChannel& channel : witnesses) {
     assert(channel.replicates.size() == count);
     out.witnesses.push_back({channel.name, channel.replicates[0].quantity(),
                              std::vector<Eigen::VectorXd>(count),
-                             std::vector<Eigen::VectorXd>(count)});
+                             std::vector<Eigen::VectorXd>(count), channel.unit});
   }
   // One task a channel and replicate; the channel under study comes first.
   for_each_index((1 + witnesses.size()) * count, [&](std::size_t task) {
@@ -51,7 +68,7 @@ Subject make_subject(const std::vector<Signal>& replicates,
     const bool still =
         std::all_of(one.samples.begin(), one.samples.end(),
                     [](const Eigen::VectorXd& x) { return x.size() == 0 || x.isZero(0.0); });
-    if (still) out.still.push_back({one.name, one.quantity, {}, {}});
+    if (still) out.still.push_back({one.name, one.quantity, {}, {}, one.unit});
     return still;
   });
   return out;

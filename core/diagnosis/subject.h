@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Witness {
   Quantity quantity = Quantity::kUnknown;
   std::vector<Eigen::VectorXd> samples;  ///< a replicate each, SI, mean zero
   std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
+  std::string unit{};                    ///< of the samples, where their quantity is unknown
 };
 
 /// A replicate that jumps between two levels, -½ and ½.
@@ -27,6 +29,15 @@ struct TwoLevelCourse {
   Eigen::VectorXd cosines{};          ///< its cosine_transform()
 };
 
+/// Where a replicate lies in what was recorded: a recording that is cut makes several.
+struct Part {
+  std::size_t recorded = 0;  ///< number of the recorded replicate, from 0
+  Eigen::Index first = 0;    ///< the sample of it that is the replicate's first
+};
+
+/// Of replicates that are what was recorded.
+std::vector<Part> uncut(std::size_t replicates);
+
 /// The channel whose model is doubted: replicates and witnesses, and all their transforms, made
 /// once.
 struct Subject {
@@ -34,6 +45,7 @@ struct Subject {
   Quantity quantity = Quantity::kUnknown;
   std::vector<Eigen::VectorXd> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
   std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
+  std::vector<Part> parts;               ///< a replicate each, in the order of what was recorded
   std::vector<Witness> witnesses;
   std::vector<Witness> still{};  ///< recorded too, but they never change: no samples are kept
   std::vector<TwoLevelCourse> courses{};  ///< a replicate each, once found; see with_two_levels()
@@ -47,6 +59,13 @@ struct Subject {
   double seconds(std::size_t replicate) const {
     return static_cast<double>(length(replicate)) / rate.value;
   }
+  /// When a replicate begins, in s from the first sample of what was recorded.
+  double begins(std::size_t replicate) const {
+    return static_cast<double>(parts[replicate].first) / rate.value;
+  }
+  /// The replicate that a sample of a recorded one lies in, but for its first; none where it was
+  /// cut.
+  std::optional<std::size_t> around(std::size_t recorded, Eigen::Index sample) const;
   /// The witness of this name, or null.
   const Witness* find(const std::string& name) const;
 };
@@ -55,12 +74,14 @@ struct Subject {
 struct NamedChannel {
   std::string name;
   std::vector<Signal> replicates;
+  std::string unit{};  ///< where their quantity is unknown
 };
 
 /// Precondition: at least one replicate, each of at least kFewestSamples samples; witnesses have
-/// the same replicates. Stopped, it is not whole, and of
-/// no use.
+/// the same replicates; `parts` has one each, or none if nothing was cut. Stopped, it is not whole,
+/// and of no use.
 Subject make_subject(const std::vector<Signal>& replicates,
-                     const std::vector<NamedChannel>& witnesses, const Progress& progress = {});
+                     const std::vector<NamedChannel>& witnesses, std::vector<Part> parts = {},
+                     const Progress& progress = {});
 
 }  // namespace imunoise

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -90,8 +91,9 @@ tl::unexpected<Error> wrong(std::string_view term, std::string_view what) {
 Result<double> number(std::string_view text) {
   double out = 0.0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), out);
-  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(out) || out < 0.0) {
-    return tl::unexpected(Error{fmt::format("'{}' is not a number ≥ 0", text)});
+  constexpr double kLargest = 1e15;
+  if (code != std::errc() || end != text.data() + text.size() || !(out >= 0.0 && out <= kLargest)) {
+    return tl::unexpected(Error{fmt::format("'{}' is not a number from 0 to 1e15", text)});
   }
   return out;
 }
@@ -110,11 +112,15 @@ Result<EffectTerm> read_effect(const Spelling& about, std::string_view whole,
                                std::string_view inside) {
   EffectTerm out{.kind = about.kind};
   std::vector<std::string_view> given;
+  std::vector<std::string_view> named;
   if (!trimmed(inside).empty()) given = split(inside, ',');
   for (std::string_view& one : given) {
     one = trimmed(one);
     const std::size_t equals = one.find('=');
     const std::string_view name = trimmed(one.substr(0, equals));
+    if (std::find(named.begin(), named.end(), name) != named.end())
+      return wrong(whole, fmt::format("'{}' is given twice", name));
+    named.push_back(name);
     const auto field = std::find_if(about.numbers.begin(), about.numbers.end(),
                                     [&](const NumberField& f) { return f.name == name; });
     if (equals != std::string_view::npos && field != about.numbers.end()) {
@@ -142,11 +148,24 @@ Result<EffectTerm> read_effect(const Spelling& about, std::string_view whole,
     return wrong(whole, "harmonics is a whole number from 1 to 50");
   if (out.replicate != std::floor(out.replicate))
     return wrong(whole, "replicate is a whole number, counted from 1");
+  if (!(out.from < out.to)) return wrong(whole, "from must lie below to");
+  constexpr double kLeastAbove = 3.0;
+  if (about.kind == EffectKind::kOutliers && out.above < kLeastAbove)
+    return wrong(whole, "above is at least 3 standard deviations: less is noise");
+  return out;
+}
+
+std::string known_effects() {
+  std::string out;
+  for (const Spelling& one : spellings())
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", one.name);
   return out;
 }
 
 const Spelling* effect_called(std::string_view term) {
-  const std::string_view name = trimmed(term.substr(0, term.find('(')));
+  std::string name(trimmed(term.substr(0, term.find('('))));
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto found = std::find_if(spellings().begin(), spellings().end(),
                                   [&](const Spelling& one) { return one.name == name; });
   return found == spellings().end() ? nullptr : &*found;
@@ -179,9 +198,14 @@ Result<FullModel> parse_full_model(std::string_view text, Hertz rate) {
     }
     Result<EffectTerm> effect = read_effect(*about, term, inside);
     if (!effect) return tl::unexpected(effect.error());
+    if (std::find(out.effects.begin(), out.effects.end(), *effect) != out.effects.end())
+      return wrong(term, "is in the model already");
     out.effects.push_back(std::move(*effect));
   }
   Result<Model> read = parse_model(noise, rate);
+  if (!read && read.error().message.find("unknown process") != std::string::npos)
+    return tl::unexpected(
+        Error{fmt::format("{}\n  effects: {}", read.error().message, known_effects())});
   if (!read) return tl::unexpected(read.error());
   out.noise = std::move(*read);
   const auto is_drift = [](const Term& term) {

@@ -13,6 +13,9 @@ namespace imunoise {
 namespace {
 
 constexpr int kMostTerms = 12;
+// Of a power that is not 0: its square must be a number, too.
+constexpr double kLeastPower = 1e-60;
+constexpr double kMostPower = 1e60;
 
 // What a model may say beyond its processes and their values.
 enum class Dialect { kPlain, kArray, kDynamic };
@@ -170,6 +173,9 @@ class Parser {
     at_ = static_cast<std::size_t>(stop - text_.data());
     const bool power = index == 0;
     if (power && value < 0.0) return error(value_at, fmt::format("{} cannot be negative", name));
+    if (power && value > 0.0 && !(value >= kLeastPower && value <= kMostPower))
+      return error(value_at, fmt::format("{} must be 0 or lie between {:g} and {:g}", name,
+                                         kLeastPower, kMostPower));
     if (!power && !(value >= found->lower && value <= found->upper)) {
       return error(value_at, fmt::format("{} must lie between {:.6g} and {:.16g}", name,
                                          found->lower, found->upper));

@@ -12,6 +12,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 constexpr double kHour = 3600.0;                      // s
 constexpr double kGravity = 9.80665;                  // m/s^2, standard
 constexpr double kIcePoint = 273.15;                  // K
+constexpr double kRankine = 5.0 / 9.0;                // K, a degree Fahrenheit
 
 struct NamedUnit {
   std::string_view symbol;
@@ -41,9 +42,13 @@ constexpr std::array kUnits = {
     NamedUnit{"mgauss", Quantity::kMagneticFluxDensity, 1e-7},
     NamedUnit{"K", Quantity::kTemperature, 1.0},
     NamedUnit{"degC", Quantity::kTemperature, 1.0, kIcePoint},
+    NamedUnit{"C", Quantity::kTemperature, 1.0, kIcePoint},
+    NamedUnit{"degF", Quantity::kTemperature, kRankine, 459.67 * kRankine},
+    NamedUnit{"F", Quantity::kTemperature, kRankine, 459.67 * kRankine},
     NamedUnit{"V", Quantity::kVoltage, 1.0},
     NamedUnit{"mV", Quantity::kVoltage, 1e-3},
     NamedUnit{"1", Quantity::kUnknown, 1.0},
+    NamedUnit{"a.u.", Quantity::kUnknown, 1.0},
 };
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -56,11 +61,12 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 std::string normalise(std::string_view text) {
   std::string out(text);
   for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
-           {" ", ""},         {"°C", "degC"}, {"°", "deg"},       {"µ", "u"},
-           {"μ", "u"},        {"²", "^2"},    {"**", "^"},        {"s-2", "/s^2"},
-           {"s^-2", "/s^2"},  {"//", "/"},    {"degrees", "deg"}, {"/sec", "/s"},
-           {"/hour", "/h"},   {"/hr", "/h"},  {"·", ""},          {"m/s/s", "m/s^2"},
-           {"m/s2", "m/s^2"}, {"s-1", "/s"},  {"s^-1", "/s"},     {"celsius", "degC"}}) {
+           {" ", ""},           {"°C", "degC"},    {"°", "deg"},       {"µ", "u"},
+           {"μ", "u"},          {"²", "^2"},       {"**", "^"},        {"s-2", "/s^2"},
+           {"s^-2", "/s^2"},    {"//", "/"},       {"degrees", "deg"}, {"/sec", "/s"},
+           {"/hour", "/h"},     {"/hr", "/h"},     {"·", ""},          {"m/s/s", "m/s^2"},
+           {"m/s2", "m/s^2"},   {"s-1", "/s"},     {"s^-1", "/s"},     {"celsius", "degC"},
+           {"Celsius", "degC"}, {"degree_", "deg"}}) {
     replace_all(out, from, to);
   }
   return out;

@@ -58,10 +58,14 @@ void Pty::write(drivers::Bytes bytes) const {
 }
 
 void Pty::drain() const {
-  int unread = 1;
-  for (int i = 0; unread > 0 && i < 200; ++i) {
+  // On a busy machine the kernel hands bytes over late: nothing is unread while they wait.
+  constexpr int kQuiet = 10;
+  int quiet = 0;
+  for (int i = 0; quiet < kQuiet && i < 200; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    int unread = 0;
     checked(::ioctl(host_end_, FIONREAD, &unread), "FIONREAD");
+    quiet = unread > 0 ? 0 : quiet + 1;
   }
 }
 

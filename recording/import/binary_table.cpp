@@ -173,8 +173,8 @@ Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
   const Result<std::vector<Meaning>> meaning = meanings(file, layout.columns, sidecar);
   if (!meaning) return tl::make_unexpected(meaning.error());
   std::vector<Offer> offers;
-  for (const Meaning& column : *meaning) offers.push_back({column.name});
-  const auto wanted = select_columns(file.name(), offers, options.channels);
+  for (const Meaning& column : *meaning) offers.push_back({column.name, true, column.unit});
+  const auto wanted = select_columns(file.name(), offers, options);
   if (!wanted) return tl::make_unexpected(wanted.error());
   for (const std::size_t c : *wanted) {
     const Meaning& column = (*meaning)[c];

@@ -65,6 +65,14 @@ Result<EvenTimes> times_of_dataset(const std::string& file, hid_t id,
                     {place, *seconds, [](std::size_t i) { return fmt::format("sample {}", i); }});
 }
 
+// As it is written. What cannot be read is told once the dataset is wanted.
+std::string unit_of_dataset(hid_t file, const std::string& name) {
+  const Result<Hdf5Dataset> dataset = Hdf5Dataset::open(file, name);
+  if (!dataset) return "";
+  const auto text = read_string_attribute(dataset->id(), "units");
+  return text ? text->value_or("") : "";
+}
+
 Result<Column> read_column(const std::string& file, const Hdf5Dataset& dataset,
                            const std::string& name, const ImportOptions& options) {
   const auto trouble = [&](const std::string& what) {
@@ -110,8 +118,9 @@ Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOpt
   }
   const std::vector<std::string> names = dataset_names(file.get());
   std::vector<Offer> offers;
-  for (const std::string& dataset : names) offers.push_back({dataset, !is_time_name(dataset)});
-  const auto wanted = select_columns(name, offers, options.channels);
+  for (const std::string& dataset : names)
+    offers.push_back({dataset, !is_time_name(dataset), unit_of_dataset(file.get(), dataset)});
+  const auto wanted = select_columns(name, offers, options);
   if (!wanted) return tl::make_unexpected(wanted.error());
 
   Table table;

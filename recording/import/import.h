@@ -22,9 +22,13 @@ inline constexpr std::size_t kMinimumSamples = 16;
 struct ImportOptions {
   /// Names of the channels wanted, in this order. Empty: every channel of the first file.
   std::vector<std::string> channels;
-  /// Of a recording's folder: those, every channel that shares their clock (of the first stream
-  /// where none is named), and what the device's other streams say at the same times.
+  /// Those, and every other channel that the files have; a unit that nobody knows is then that of a
+  /// number as it is, and what counts ticks is left out. Of a recording's folder: that share their
+  /// clock (of the first stream where none is named), and what the device's other streams say at
+  /// the same times.
   bool beside = false;
+  /// Of what stands beside: only these, by name. Empty: all.
+  std::vector<std::string> witnesses;
   /// Sampling rate. Wins over what a file states; a time column is then ignored, gaps included.
   std::optional<Hertz> rate;
   /// Unit of every channel read. Wins over what a file states.

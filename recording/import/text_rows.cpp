@@ -86,8 +86,10 @@ std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size
     const bool comma = what.ends_with("decimal comma");
     return trouble(fmt::format(
         "{} in column {}; {}", what, layout_.columns[c].name,
-        comma ? "write decimal points (sed 's/,/./g' does it where ',' separates nothing)"
-              : "delete the row or split the file there, or leave the column out with --channel"));
+        comma
+            ? "write decimal points (sed 's/,/./g' does it where ',' separates nothing)"
+            : "delete the row or split the file there, or leave the column out with --channel (and "
+              "--witness)"));
   }
   return std::nullopt;
 }

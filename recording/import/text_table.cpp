@@ -66,10 +66,10 @@ Result<Plan> make_plan(const std::string& file, const TextLayout& layout, bool r
   Plan plan;
   std::vector<Offer> offers;
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    const std::string& name = layout.columns[c].name;
-    offers.push_back({name, !is_time_name(name) && !layout.unnamed[c]});
+    const HeaderField& column = layout.columns[c];
+    offers.push_back({column.name, !is_time_name(column.name) && !layout.unnamed[c], column.unit});
   }
-  Result<std::vector<std::size_t>> channels = select_columns(file, offers, options.channels);
+  Result<std::vector<std::size_t>> channels = select_columns(file, offers, options);
   if (!channels) return tl::make_unexpected(channels.error());
   plan.channels = std::move(*channels);
   plan.wanted.assign(offers.size(), false);

@@ -33,7 +33,7 @@ Offers offers_of(const v1::Manifest& manifest) {
   for (std::size_t s = 0; s < streams.size(); ++s) {
     number = s > 0 && streams[s - 1].device == streams[s].device ? number + 1 : 0;
     for (std::size_t c = 0; c < streams[s].channels.size(); ++c) {
-      out.names.push_back({streams[s].channels[c].name});
+      out.names.push_back({streams[s].channels[c].name, true, streams[s].channels[c].units});
       out.places.push_back({streams[s].device, number, static_cast<int>(c)});
     }
   }
@@ -42,7 +42,9 @@ Offers offers_of(const v1::Manifest& manifest) {
 
 Result<std::vector<Wanted>> wanted_of(const std::string& file, const Offers& offers,
                                       const std::vector<std::string>& channels) {
-  const auto chosen = select_columns(file, offers.names, channels);
+  ImportOptions options;
+  options.channels = channels;
+  const auto chosen = select_columns(file, offers.names, options);
   if (!chosen) return tl::make_unexpected(chosen.error());
   std::vector<Wanted> out;
   for (const std::size_t i : *chosen) out.push_back({offers.names[i].name, offers.places[i]});

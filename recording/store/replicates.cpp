@@ -15,13 +15,20 @@
 namespace imunoise::recording {
 namespace {
 
-// All channels of a device, those of one stream first.
-std::vector<Wanted> same_device(const Offers& offers, const Place& as) {
+// The channels that are named, and those of their device beside them, of their stream first.
+std::vector<Wanted> same_device(const Offers& offers, const Place& as,
+                                const ImportOptions& options) {
+  const auto wanted = [&](const Offer& one) {
+    const auto& named = options.channels;
+    return beside_them(one, options) ||
+           std::find(named.begin(), named.end(), one.name) != named.end();
+  };
   std::vector<Wanted> out;
   for (const bool same_stream : {true, false}) {
     for (std::size_t i = 0; i < offers.places.size(); ++i) {
       const Place& place = offers.places[i];
-      if (place.device == as.device && (place.stream == as.stream) == same_stream)
+      if (place.device == as.device && (place.stream == as.stream) == same_stream &&
+          wanted(offers.names[i]))
         out.push_back({offers.names[i].name, place});
     }
   }
@@ -33,7 +40,7 @@ Result<std::vector<Wanted>> select(const std::string& file, const v1::Manifest& 
   const Offers offers = offers_of(manifest);
   auto out = wanted_of(file, offers, options.channels);
   if (!out) return out;
-  if (options.beside) return same_device(offers, out->front().place);
+  if (options.beside) return same_device(offers, out->front().place, options);
   for (const Wanted& one : *out) {
     const Place& first = out->front().place;
     if (one.place.device == first.device && one.place.stream == first.stream) continue;
@@ -84,7 +91,6 @@ class Importer {
           device.device.streams(one.place.stream).channels(one.place.channel);
       const bool other = one.place.stream != first.stream;
       const auto unit = resolve_unit(root_.string(), one.name, channel.units(), options_);
-      if (!unit && other) continue;  // a tick of a clock, arbitrary units: nothing that couples
       if (!unit) return tl::make_unexpected(unit.error());
       Rows& own = device.streams[static_cast<std::size_t>(one.place.stream)];
       Numbers& numbers = own.channels[static_cast<std::size_t>(one.place.channel)];

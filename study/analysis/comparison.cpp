@@ -48,7 +48,8 @@ void add_spectrum(const Current& current, v1::Comparison& to) {
 
 void add_innovations(const Trial& trial, const std::vector<std::string>& names,
                      v1::Comparison& to) {
-  const double rate = trial.regression.subject().rate.value;
+  const Subject& subject = trial.regression.subject();
+  const double rate = subject.rate.value;
   const Innovations white = innovations(trial.regression, trial.fit);
   for (const ScaleKurtosis& from : scale_kurtosis(white, rate)) {
     v1::ScaleKurtosis& one = *to.add_kurtosis();
@@ -59,8 +60,9 @@ void add_innovations(const Trial& trial, const std::vector<std::string>& names,
   for (const TimeMisfit& from : time_misfits(white, rate)) {
     v1::TimeStretch& one = *to.add_times();
     one.set_replicate(names[from.replicate]);
-    one.set_from(from.from);
-    one.set_to(from.to);
+    const double begins = subject.begins(from.replicate);
+    one.set_from(begins + from.from);
+    one.set_to(begins + from.to);
     one.set_ratio(from.ratio);
     one.set_sigma(from.sigma);
   }

@@ -42,7 +42,9 @@ Result<std::vector<NamedChannel>> witnesses_of(const std::vector<recording::Repl
         wanted.empty() || std::find(wanted.begin(), wanted.end(), known[c].name) != wanted.end();
     if (c == channel || !asked) continue;
     const Series series = series_of(recordings, c);
-    out.push_back({series.channel, series.replicates});
+    const Unit& unit = known[c].unit;
+    out.push_back({series.channel, series.replicates,
+                   unit.quantity == Quantity::kUnknown ? unit.symbol : ""});
   }
   return out;
 }
@@ -64,9 +66,9 @@ Result<Chosen> chosen_model(const Series& series, const Progress& progress) {
   const std::string& named = model_to_use(*choice).model();
   const Result<FullModel> model = parse_full_model(named, series.replicates.front().rate());
   if (!model) return tl::unexpected(model.error());
-  return Chosen{*model, fmt::format("No model was named: {} was chosen by cross-validation among "
-                                    "the sub-models of {}.",
-                                    named, kDefaultModel)};
+  return Chosen{*model, fmt::format("No model was named: of the sub-models of {}, {} is the "
+                                    "simplest that predicts replicates as well as the best does.",
+                                    kDefaultModel, named)};
 }
 
 Result<Chosen> current_model(const Series& series, const DiagnoseOptions& options,
@@ -90,8 +92,8 @@ Result<Chosen> current_model(const Series& series, const DiagnoseOptions& option
 Step step_of(const TriedEffect& effect) {
   return {.added = added_term(effect),
           .effect = effect.effect,
-          .why = fmt::format("{} explains {:.1f} nats ({:.1f} more than chance).", effect.effect,
-                             effect.likelihood_gain, effect.gain)};
+          .why = fmt::format("{} explains {:.1f} nats; its evidence against chance is {:.1f} nats.",
+                             effect.effect, effect.likelihood_gain, effect.gain)};
 }
 
 // Takes what the last term made useless out of a model, one after the other.
@@ -178,7 +180,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   // What is not searched needs no witnesses but those of its terms.
   if (!options.search) *channels = named_by(start->model, std::move(*channels));
   auto subject = std::make_shared<const Subject>(
-      make_subject(series.replicates, *channels, progress.part(0.2, 0.3)));
+      make_subject(series.replicates, *channels, parts.places, progress.part(0.2, 0.3)));
   if (progress.stopped()) return fail("stopped");  // the subject is then not whole
   for (const EffectTerm& term : start->model.effects) {
     if (auto fits = check(term, *subject); !fits) return tl::unexpected(fits.error());
@@ -229,7 +231,10 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
       foretell(series, subject, options.foretold, progress, out);
       if (progress.stopped()) return fail("stopped");
     }
-    if (!diagnosis.worth_adding) break;
+    if (!diagnosis.worth_adding) {
+      if (rung > 0) add_remaining(diagnosis.verdict, out);
+      break;
+    }
     RankedEffect& best = diagnosis.effects.front();
     step = step_of(best.tried);
     model = std::move(best.tried.trial);

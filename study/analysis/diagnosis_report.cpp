@@ -55,10 +55,15 @@ std::string numbers(const std::vector<v1::EffectParameter>& parameters) {
   return out;
 }
 
+const EffectInfo& info_of(const TriedEffect& tried, const Subject& subject) {
+  const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added);
+  return effect_info(tried.effect, term == nullptr ? nullptr : subject.find(term->witness));
+}
+
 v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<Errors>& before,
                                  const Subject& subject) {
   const TriedEffect& tried = from.tried;
-  const EffectInfo& about = effect_info(tried.effect);
+  const EffectInfo& about = info_of(tried, subject);
   v1::EffectCandidate to;
   to.set_effect(tried.effect);
   to.set_title(std::string(about.title));
@@ -102,33 +107,24 @@ std::string beside(const RankedEffect& best, const Subject& subject) {
 }
 
 std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
-  switch (diagnosis.verdict) {
-    case DiagnosisVerdict::kFound: {
-      const RankedEffect& best = diagnosis.effects.front();
-      return fmt::format("Missing: {} ({}). {}", effect_info(best.tried.effect).title,
-                         chance_words(best.familywise_p), effect_info(best.tried.effect).cause);
-    }
-    case DiagnosisVerdict::kOneOf: {
-      const RankedEffect& best = diagnosis.effects.front();
-      return fmt::format(
-          "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.{}",
-          effect_info(best.tried.effect).title, titles(best.confused_with),
-          effect_info(best.tried.effect).record_next, beside(best, subject));
-    }
-    case DiagnosisVerdict::kUnknown:
-      if (diagnosis.worth_adding) {
-        const RankedEffect& best = diagnosis.effects.front();
-        return fmt::format(
-            "Missing: {} ({}), but it does not explain everything: something unknown remains. Add "
-            "it and look again (--auto does), and see where the model fails.",
-            effect_info(best.tried.effect).title, chance_words(best.familywise_p));
-      }
-      return "The model misses something that no known effect explains: look where it fails.";
-    case DiagnosisVerdict::kNone:
-      break;
-  }
-  return "Nothing is missing that these data could show; the limits say how strong each effect "
-         "would have had to be.";
+  if (diagnosis.verdict == DiagnosisVerdict::kNone)
+    return "Nothing is missing that these data could show; the limits say how strong each effect "
+           "would have had to be.";
+  if (!diagnosis.worth_adding)
+    return "The model misses something that no known effect explains: look where it fails.";
+  const RankedEffect& best = diagnosis.effects.front();
+  const EffectInfo& about = info_of(best.tried, subject);
+  const std::string chance = chance_words(best.familywise_p);
+  if (diagnosis.verdict == DiagnosisVerdict::kFound)
+    return fmt::format("Missing: {} ({}). {}", about.title, chance, about.cause);
+  if (diagnosis.verdict == DiagnosisVerdict::kOneOf)
+    return fmt::format(
+        "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.{}",
+        about.title, titles(best.confused_with), about.record_next, beside(best, subject));
+  return fmt::format(
+      "Missing: {} ({}), but it does not explain everything: something more remains. Add it and "
+      "look again (--auto does), and see where the model fails.",
+      about.title, chance);
 }
 
 // "rad" for a rate.
@@ -174,10 +170,26 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
     const Witness* witness = subject.find(from.witness);
     const std::string unit(si_symbol(subject.quantity));
     limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, {})
-                   : from.parameter == "power" ? fmt::format("({})²", unit)
+                   : from.parameter == "power" ? unit_of(Dimension::kPower, subject.quantity)
                    : from.parameter == "slope" ? unit + "/s"
                                                : unit);
   }
+}
+
+void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to) {
+  to.set_remaining(verdict_of(verdict));
+  // Several effects explain together what the best of them does not.
+  if (to.verdict() == v1::unknown) {
+    std::string all;
+    for (int rung = 1; rung < to.ladder_size(); ++rung)
+      all +=
+          fmt::format("{}{}", rung == 1 ? "" : ", ", effect_info(to.ladder(rung).effect()).title);
+    to.set_summary(fmt::format("Missing: {}.", all));
+  }
+  const std::string_view left = verdict == DiagnosisVerdict::kNone
+                                    ? "nothing more is missing that these data could show"
+                                    : "something remains that no known effect explains";
+  to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));
 }
 
 v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, double first,
@@ -194,6 +206,14 @@ v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, dou
     const double reach = student_quantile(0.975, dof) * heldout->error_of_mean();
     out.set_heldout_lower(std::max(0.0, heldout->mean_error() - reach));
     out.set_heldout_upper(heldout->mean_error() + reach);
+  }
+  out.set_fitted_model(print_with_values(trial.fit.model));
+  const std::vector<EffectTerm>& effects = trial.regression.effects();
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    v1::FittedEffect& one = *out.add_effects();
+    one.set_term(print(effects[e]));
+    for (v1::EffectParameter& number : fitted_parameters(trial, e))
+      *one.add_parameters() = std::move(number);
   }
   out.set_log_likelihood(trial.fit.log_likelihood - first);
   out.set_misfit_p(misfit_p);

@@ -11,6 +11,9 @@ namespace imunoise::study {
 /// Fills verdict, summary, candidates and limits of a report whose unit is set.
 void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to);
 
+/// Adds what a look at the last rung showed, once something was added.
+void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to);
+
 /// How the ladder came to a model.
 struct Step {
   std::string added;                   ///< term in the grammar; empty on the first rung

@@ -9,6 +9,7 @@
 #include "core/inference/parameter_covariance.h"
 #include "core/support/distributions.h"
 #include "core/support/linear_algebra.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
@@ -44,34 +45,49 @@ std::string unit_name(Quantity quantity) {
   return symbol.empty() ? "1" : std::string(symbol);
 }
 
-// The coefficients of the last effect of a trial: those that all replicates share, with their
-// errors.
-void add_shared(const TriedEffect& effect, const std::string& unit,
+// The number of a replicate as it was recorded and, of what follows a cut, when it begins.
+std::string place_of(const Subject& subject, std::size_t replicate) {
+  const std::size_t number = subject.parts[replicate].recorded + 1;
+  if (subject.parts[replicate].first == 0) return std::to_string(number);
+  return fmt::format("{} from {:.6g} s on", number, subject.begins(replicate));
+}
+
+// An effect of a fitted model, by its number.
+struct FittedEffect {
+  const Trial& trial;
+  std::size_t number;
+  double freedom = INFINITY;  // of the noise level, which is itself an estimate: Student's law
+
+  const EffectTerm& term() const { return trial.regression.effects()[number]; }
+  const Subject& subject() const { return trial.regression.subject(); }
+};
+
+// The coefficients, with their errors.
+void add_shared(const FittedEffect& effect, const std::string& unit,
                 std::vector<v1::EffectParameter>& out) {
   const Regression& regression = effect.trial.regression;
-  const std::size_t last = regression.effects().size() - 1;
   const EffectCoefficients& found = effect.trial.fit.effects;
-  // The noise level is itself an estimate: Student's law.
   const double stretch =
       std::isfinite(effect.freedom)
           ? student_quantile(0.5 + 0.5 * kConfidence, std::max(1.0, effect.freedom)) / reach()
           : 1.0;
-  for (Eigen::Index i = regression.first(last); i < regression.first(last + 1); ++i) {
+  for (Eigen::Index i = regression.first(effect.number); i < regression.first(effect.number + 1);
+       ++i) {
     const CoefficientName& name = regression.coefficients()[static_cast<std::size_t>(i)];
-    const std::string label =
-        name.replicate == CoefficientName::kAll
-            ? name.name
-            : fmt::format("{} in replicate {}", name.name, name.replicate + 1);
+    const std::string label = name.replicate == CoefficientName::kAll
+                                  ? name.name
+                                  : fmt::format("{} in replicate {}", name.name,
+                                                place_of(regression.subject(), name.replicate));
     out.push_back(with_error(parameter(label, found.value(i), unit),
                              stretch * std::sqrt(found.covariance(i, i))));
   }
 }
 
 // Amplitude of each multiple of a wave, over all replicates: root mean square less what noise adds.
-void add_amplitudes(const TriedEffect& effect, const std::string& unit, int harmonics,
+void add_amplitudes(const FittedEffect& effect, const std::string& unit, int harmonics,
                     std::vector<v1::EffectParameter>& out) {
   const Regression& regression = effect.trial.regression;
-  const Eigen::Index first = regression.first(regression.effects().size() - 1);
+  const Eigen::Index first = regression.first(effect.number);
   const EffectCoefficients& found = effect.trial.fit.effects;
   const auto replicates = static_cast<double>(regression.subject().replicates());
   for (int h = 0; h < harmonics; ++h) {
@@ -89,6 +105,58 @@ void add_amplitudes(const TriedEffect& effect, const std::string& unit, int harm
                              amplitude, unit),
                    error));
   }
+}
+
+// What was fitted of an effect whose form is known.
+void add_fitted(const FittedEffect& effect, std::vector<v1::EffectParameter>& out) {
+  const EffectTerm& term = effect.term();
+  const Subject& subject = effect.subject();
+  const std::string unit = unit_name(subject.quantity);
+  switch (term.kind) {
+    case EffectKind::kRamp:
+      add_shared(effect, unit + "/s", out);
+      break;
+    case EffectKind::kLine:
+      add_amplitudes(effect, unit, static_cast<int>(term.harmonics), out);
+      break;
+    case EffectKind::kWitness:
+      add_shared(effect, coupling_unit(subject.quantity, *subject.find(term.witness), term), out);
+      break;
+    case EffectKind::kModulated: {
+      const std::vector<EffectTerm>& all = effect.trial.regression.effects();
+      const auto before =
+          std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(effect.number),
+                        [](const EffectTerm& one) { return one.kind == EffectKind::kModulated; });
+      const Modulation& found = effect.trial.fit.modulation[static_cast<std::size_t>(before)];
+      out.push_back(with_error(parameter("log_variance_slope", found.slope, "1"), found.error));
+      break;
+    }
+    default:
+      add_shared(effect, unit, out);
+  }
+}
+
+// When a course leaves its first level.
+void add_first_jump(const Subject& subject, std::vector<v1::EffectParameter>& out) {
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    const std::vector<Eigen::Index>& jumps = subject.courses[k].jumps;
+    if (jumps.empty()) continue;
+    const double after = static_cast<double>(jumps.front()) / subject.rate.value;
+    out.push_back(parameter("time_s", subject.begins(k) + after, "s"));
+    out.push_back(parameter("replicate", static_cast<double>(subject.parts[k].recorded + 1), "1"));
+    return;
+  }
+}
+
+void add_jumps(const Subject& subject, bool dwells, std::vector<v1::EffectParameter>& out) {
+  double jumps = 0.0;
+  double seconds = 0.0;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    jumps += static_cast<double>(subject.courses[k].jumps.size());
+    seconds += subject.seconds(k);
+  }
+  out.push_back(parameter("jumps", jumps, "1"));
+  if (dwells) out.push_back(parameter("dwell_s", seconds / jumps, "s"));
 }
 
 void add_noise(const TriedEffect& effect, const Subject& subject,
@@ -110,8 +178,7 @@ void add_noise(const TriedEffect& effect, const Subject& subject,
                                ? 0.0
                                : std::sqrt(covariance.matrix(place - sets.interior.begin(),
                                                              place - sets.interior.begin()));
-      const std::string unit =
-          about[p].dimension == Dimension::kPower ? unit_name(subject.quantity) + "²" : "1";
+      const std::string unit = unit_of(about[p].dimension, subject.quantity);
       const double relative = error / v[p];
       out.push_back(p == 0 ? with_log_error(parameter(about[p].name, v[p], unit), relative)
                            : with_error(parameter(about[p].name, v[p], unit), error));
@@ -128,7 +195,8 @@ void add_noise(const TriedEffect& effect, const Subject& subject,
 }  // namespace
 
 std::string coupling_unit(Quantity subject, const Witness& witness, const EffectTerm& term) {
-  std::string below = unit_name(witness.quantity) + (term.quadratic ? "²" : "");
+  const std::string own = witness.unit.empty() ? unit_name(witness.quantity) : witness.unit;
+  std::string below = own + (term.quadratic ? "²" : "");
   if (term.derivative) below = fmt::format("({}/s)", below);
   if (below == unit_name(subject)) return "1";
   return below == "1" ? unit_name(subject) : fmt::format("{}/{}", unit_name(subject), below);
@@ -142,61 +210,42 @@ std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
     add_noise(effect, subject, out);
     return out;
   }
-  const std::string unit = unit_name(subject.quantity);
   const double shape = effect.suggestion.shape_error;
+  const Trial& trial = effect.trial;
   switch (term->kind) {
-    case EffectKind::kRamp:
-      add_shared(effect, unit + "/s", out);
-      break;
     case EffectKind::kWarmUp:
       out.push_back(with_log_error(parameter("tau_s", term->tau, "s"), shape));
-      add_shared(effect, unit, out);
       break;
     case EffectKind::kLine:
       out.push_back(with_error(parameter("frequency_hz", term->frequency, "Hz"), shape));
-      add_amplitudes(effect, unit, static_cast<int>(term->harmonics), out);
       break;
     case EffectKind::kStep:
       out.push_back(parameter("time_s", term->time, "s"));
       out.push_back(parameter("replicate", term->replicate, "1"));
-      add_shared(effect, unit, out);
       break;
     case EffectKind::kWitness:
       if (term->lag > 0.0) out.push_back(with_log_error(parameter("lag_s", term->lag, "s"), shape));
       if (term->from > 0.0) out.push_back(parameter("from_hz", term->from, "Hz"));
       if (std::isfinite(term->to)) out.push_back(parameter("to_hz", term->to, "Hz"));
-      add_shared(effect, coupling_unit(subject.quantity, *subject.find(term->witness), *term), out);
       break;
-    case EffectKind::kModulated: {
-      const Modulation& last = effect.trial.fit.modulation.back();
-      out.push_back(with_error(parameter("log_variance_slope", last.slope, "1"), last.error));
+    case EffectKind::kTelegraph:
+      if (effect.effect == "step") add_first_jump(trial.regression.subject(), out);
       break;
-    }
-    case EffectKind::kTelegraph: {
-      const Subject& found = effect.trial.regression.subject();
-      double jumps = 0.0;
-      double seconds = 0.0;
-      for (std::size_t k = 0; k < found.replicates(); ++k) {
-        const std::vector<Eigen::Index>& times = found.courses[k].jumps;
-        if (effect.effect == "step" && jumps == 0.0 && !times.empty()) {
-          const double first = static_cast<double>(times.front()) / found.rate.value;
-          out.push_back(parameter("time_s", first, "s"));
-          out.push_back(parameter("replicate", static_cast<double>(k + 1), "1"));
-        }
-        jumps += static_cast<double>(times.size());
-        seconds += found.seconds(k);
-      }
-      add_shared(effect, unit, out);
-      out.push_back(parameter("jumps", jumps, "1"));
-      if (effect.effect != "step") out.push_back(parameter("dwell_s", seconds / jumps, "s"));
-      break;
-    }
     case EffectKind::kOutliers:
       out.push_back(parameter("count", effect.suggestion.dof, "1"));
       break;
-    case EffectKind::kOwnPowers:
+    default:
       break;
   }
+  add_fitted({trial, trial.regression.effects().size() - 1, effect.freedom}, out);
+  if (term->kind == EffectKind::kTelegraph)
+    add_jumps(trial.regression.subject(), effect.effect != "step", out);
+  return out;
+}
+
+std::vector<v1::EffectParameter> fitted_parameters(const Trial& trial, std::size_t number) {
+  std::vector<v1::EffectParameter> out;
+  add_fitted({trial, number}, out);
   return out;
 }
 

@@ -13,12 +13,15 @@ std::string defect_words(const Defect& defect, double rate) {
   if (defect.effect == "duplicated_samples")
     return fmt::format("{} samples repeat the one before; noise like this repeats {:.0f}",
                        defect.count, defect.expected);
-  if (defect.effect == "stuck")
-    return fmt::format("the output stands still for {} samples from {:.2f} s on", defect.count,
-                       static_cast<double>(defect.first) / rate);
+  if (defect.effect == "stuck") {
+    const std::string places =
+        defect.places > 1 ? fmt::format(" in {} places, the first", defect.places) : "";
+    return fmt::format("the output stands still for {} samples{} from {:.2f} s on", defect.count,
+                       places, static_cast<double>(defect.first) / rate);
+  }
   if (defect.effect == "saturation")
-    return fmt::format("{} samples lie at an end of the range, {:.0f} next to it", defect.count,
-                       defect.expected);
+    return fmt::format("{} samples lie at the {} end of the range, {:.0f} next to it", defect.count,
+                       defect.wrong.front().beyond > 0 ? "upper" : "lower", defect.expected);
   return fmt::format("the noise is smaller than the step of the converter: {} codes occur",
                      defect.count);
 }
@@ -73,7 +76,7 @@ void add_timing(const std::vector<recording::Replicate>& recordings, v1::Diagnos
 void put_defects_first(bool mended, v1::DiagnosisReport& to) {
   if (to.integrity_size() == 0) return;
   const v1::IntegrityFinding& finding = to.integrity(0);
-  const EffectInfo& about = effect_info(finding.effect());
+  const EffectInfo& about = defect_info(finding.effect());
   v1::EffectCandidate defect;
   defect.set_effect(finding.effect());
   defect.set_title(std::string(about.title));

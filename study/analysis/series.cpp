@@ -24,6 +24,7 @@ Result<std::size_t> channel_called(const std::string& name, const recording::Rep
   if (found != channels.end()) return static_cast<std::size_t>(found - channels.begin());
   std::string known;
   for (const recording::Channel& one : channels) known += (known.empty() ? "" : ", ") + one.name;
+  if (name.empty()) return fail(fmt::format("name one channel with --channel: {}", known));
   return fail(fmt::format("channel '{}': there is none in {}; there are {}", name, in.name, known));
 }
 

@@ -25,17 +25,21 @@ Replicate part_of(const Replicate& whole, std::size_t begin, std::size_t count) 
   return out;
 }
 
-void cut(const Replicate& whole, std::size_t channel, const std::vector<StuckRun>& runs,
-         SoundParts& to) {
+// Cuts replicate number `k`.
+void cut(const Replicate& whole, std::size_t k, std::size_t channel,
+         const std::vector<StuckRun>& runs, SoundParts& to) {
   if (runs.empty()) {
     to.replicates.push_back(whole);
+    to.places.push_back({k, 0});
     return;
   }
   std::vector<Replicate> parts;
   std::size_t begin = 0;
   std::size_t lost = 0;
   const auto keep_until = [&](std::size_t end) {
-    if (end - begin >= kFewestSamples) parts.push_back(part_of(whole, begin, end - begin));
+    if (end - begin < kFewestSamples) return;
+    parts.push_back(part_of(whole, begin, end - begin));
+    to.places.push_back({k, static_cast<Eigen::Index>(begin)});
   };
   for (const StuckRun& run : runs) {
     keep_until(run.first);
@@ -45,10 +49,13 @@ void cut(const Replicate& whole, std::size_t channel, const std::vector<StuckRun
   keep_until(whole.channels[channel].count);
   for (std::size_t i = 1; i < parts.size(); ++i)
     parts[i].name = fmt::format("{}#{}", whole.name, i + 1);
+  const auto counted = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
   to.notes.push_back(
-      fmt::format("{}: {} stands still for {} samples in {} places; it is cut there, which "
-                  "leaves {} parts, each a replicate.",
-                  whole.name, whole.channels[channel].name, lost, runs.size(), parts.size()));
+      fmt::format("{}: {} stands still for {} in {}; it is cut there, which leaves {}.", whole.name,
+                  whole.channels[channel].name, counted(lost, "sample"),
+                  counted(runs.size(), "place"), counted(parts.size(), "part")));
   to.replicates.insert(to.replicates.end(), parts.begin(), parts.end());
   to.changed = true;
 }
@@ -94,8 +101,8 @@ SoundParts sound_parts(const std::vector<Replicate>& replicates, std::size_t cha
   for_each_index(replicates.size(), [&](std::size_t k) {
     runs[k] = stuck_runs(replicates[k].channels[channel].signal());
   });
-  for (std::size_t k = 0; k < replicates.size(); ++k) cut(replicates[k], channel, runs[k], out);
-  if (out.replicates.empty()) out = {replicates, {}, false};
+  for (std::size_t k = 0; k < replicates.size(); ++k) cut(replicates[k], k, channel, runs[k], out);
+  if (out.replicates.empty()) out = {replicates, uncut(replicates.size()), {}, false};
   std::vector<std::vector<WrongSample>> wrong(out.replicates.size());
   for_each_index(wrong.size(), [&](std::size_t k) {
     wrong[k] = wrong_samples(out.replicates[k].channels[channel].signal());

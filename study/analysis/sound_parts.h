@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/subject.h"
 #include "recording/import/channel.h"
 
 namespace imunoise::study {
 
 struct SoundParts {
   std::vector<recording::Replicate> replicates;  ///< share the samples that nothing was done to
+  std::vector<Part> places;                      ///< of each in what was recorded
   std::vector<std::string> notes;                ///< what was done, a sentence each
   bool changed = false;                          ///< something was cut or replaced
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "recording/store/crc32c.h"
 #include "study/analysis/diagnose_series.h"
 #include "study/analysis/series.h"
 
@@ -12,12 +13,27 @@ namespace {
 
 constexpr int kForetold = 4;  // candidates that are added at once when they are asked for
 
-Result<v1::DiagnosisReport> report_of(const v1::Study& study, const std::string& model, bool search,
+// Tells recordings of other samples apart: by their lengths and every 61st sample.
+std::uint32_t fingerprint(const Series& series) {
+  std::vector<double> kept;
+  for (const Signal& one : series.replicates) {
+    kept.push_back(static_cast<double>(one.size()));
+    for (std::size_t t = 0; t < one.size(); t += 61) kept.push_back(one.value(t));
+  }
+  return recording::crc32c(
+      {reinterpret_cast<const char*>(kept.data()), kept.size() * sizeof(double)});
+}
+
+Result<v1::DiagnosisReport> report_of(v1::Study& study, const std::string& model, bool search,
                                       const ReadInput& read, const Progress& progress) {
   const auto recordings = read(study.input(), study.channel());
   if (!recordings) return tl::unexpected(recordings.error());
   const auto channel = channel_called(study.channel(), recordings->front());
   if (!channel) return tl::unexpected(channel.error());
+  const std::uint32_t samples = fingerprint(series_of(*recordings, *channel));
+  if (study.fingerprint() != 0 && study.fingerprint() != samples)
+    return fail("the recordings are not those that the study began with; start another study");
+  study.set_fingerprint(samples);
   DiagnoseOptions options;
   if (!model.empty()) options.model = model;
   options.witnesses.assign(study.witnesses().begin(), study.witnesses().end());

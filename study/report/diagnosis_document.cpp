@@ -49,7 +49,8 @@ std::string confusions(const v1::EffectCandidate& one) {
 }
 
 Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"What may be missing, best first",
+  Table out{report.verdict() == v1::none ? "What was tried, best first"
+                                         : "What may be missing, best first",
             {"effect", "term", "gain", "p", "held-out error", "looks like"},
             {}};
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
@@ -79,6 +80,23 @@ Table parameter_table(const v1::EffectCandidate& best, Digits digits) {
     out.rows.push_back({one.name(), value_of(one, digits)});
   out.rows.push_back({"physics", best.cause()});
   out.rows.push_back({"to be sure, record", best.record_next()});
+  return out;
+}
+
+// The effects of the last model of the ladder, with what was fitted of them.
+Table effect_table(const v1::Rung& last, Digits digits) {
+  Table out{"The effects in the last model", {"term", "", "value"}, {}};
+  for (const v1::FittedEffect& effect : last.effects()) {
+    constexpr int kMostNumbers = 4;
+    if (effect.parameters_size() == 0) out.rows.push_back({effect.term(), "", ""});
+    for (int i = 0; i < std::min(kMostNumbers, effect.parameters_size()); ++i) {
+      const v1::EffectParameter& one = effect.parameters(i);
+      out.rows.push_back({i == 0 ? effect.term() : "", one.name(), value_of(one, digits)});
+    }
+    if (effect.parameters_size() > kMostNumbers)
+      out.rows.push_back(
+          {"", fmt::format("and {} more", effect.parameters_size() - kMostNumbers), "in the JSON"});
+  }
   return out;
 }
 
@@ -116,8 +134,8 @@ Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
   for (const v1::DetectionLimit& one : report.limits()) {
     const std::string effect =
         one.witness().empty() ? one.effect() : fmt::format("{} ({})", one.effect(), one.witness());
-    out.rows.push_back({effect, fmt::format("{} {}", number(one.value(), 2, digits), one.unit()),
-                        one.parameter()});
+    const std::string unit = one.unit() == "1" ? "" : " " + one.unit();
+    out.rows.push_back({effect, number(one.value(), 2, digits) + unit, one.parameter()});
   }
   return out;
 }
@@ -155,17 +173,21 @@ std::optional<Figure> ladder_figure(const v1::DiagnosisReport& report) {
 void add_figures(const v1::DiagnosisReport& report, Section& to) {
   const std::string id = "d" + report.channel();
   if (report.ladder_size() == 0) return;
-  to.figures.push_back(
-      budget_figure(report, before_svg, "Before", report.ladder(0).model(), id + "b"));
-  add_spectrum(report, report.compared_before(), "Spectrum before", to);
+  const bool grown = report.has_compared_after();
+  to.figures.push_back(budget_figure(report, before_svg,
+                                     grown ? "Before" : "The model beside the data", report.model(),
+                                     id + "b"));
+  add_spectrum(report, report.compared_before(), grown ? "Spectrum before" : "Spectrum", to);
   for (Figure& one : comparison_figures(report, report.compared_before()))
     to.figures.push_back(std::move(one));
   if (report.ladder_size() < 2) return;
-  const v1::Rung& last = report.ladder(report.ladder_size() - 1);
-  to.figures.push_back(budget_figure(report, after_svg,
-                                     "After: the effects taken out of the measurements",
-                                     last.model(), id + "a"));
-  add_spectrum(report, report.compared_after(), "Spectrum after", to);
+  if (grown) {
+    const v1::Rung& last = report.ladder(report.ladder_size() - 1);
+    to.figures.push_back(budget_figure(report, after_svg,
+                                       "After: the effects taken out of the measurements",
+                                       last.model(), id + "a"));
+    add_spectrum(report, report.compared_after(), "Spectrum after", to);
+  }
   if (auto ladder = ladder_figure(report)) to.figures.push_back(std::move(*ladder));
 }
 
@@ -190,6 +212,8 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   }
   if (report.ladder_size() > 0) {
     out.tables.push_back(ladder_table(report, digits));
+    const v1::Rung& last = report.ladder(report.ladder_size() - 1);
+    if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
     if (report.ladder(0).drift_size() > 0) out.tables.push_back(drift_table(report, digits));
   }
   if (report.verdict() == v1::none) out.tables.push_back(limit_table(report, digits));
@@ -200,6 +224,9 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
 }  // namespace
 
 VerdictWords diagnosis_words(const v1::DiagnosisReport& report) {
+  // Several effects explain together what the best of them does not.
+  if (report.verdict() == v1::unknown && report.has_remaining() && report.remaining() == v1::none)
+    return {"effects found", Mood::kBad};
   switch (report.verdict()) {
     case v1::found:
       return {"effect found", Mood::kBad};
@@ -224,6 +251,7 @@ Document document(const v1::Study& study, Digits digits) {
   v1::DiagnosisReport report = study.diagnosis();
   report.set_channel(study.channel());
   report.clear_ladder();
+  report.clear_compared_after();  // of a candidate that nobody added
   std::vector<const v1::StudyAttempt*> path;
   for (const v1::StudyAttempt* at = &study.attempts(static_cast<int>(study.current()));;
        at = &study.attempts(static_cast<int>(at->parent()))) {
@@ -239,7 +267,10 @@ Document document(const v1::Study& study, Digits digits) {
     out.facts = "model " + path.back()->rung().model();
     out.summary = "Ask for candidates to learn what this model lacks.";
     out.figures.clear();
-    out.tables = {ladder_table(report, digits), drift_table(report, digits)};
+    const v1::Rung& last = path.back()->rung();
+    out.tables = {ladder_table(report, digits)};
+    if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
+    out.tables.push_back(drift_table(report, digits));
   }
   Table attempts{"Every model that was tried", {"", "model", "held-out error", ""}, {}};
   for (int i = 0; i < study.attempts_size(); ++i) {

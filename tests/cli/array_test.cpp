@@ -87,6 +87,16 @@ TEST_F(Array, AnswersPeople) {
   EXPECT_EQ(again.out, done.out);
 }
 
+TEST_F(Array, OfSoFewSamplesNothingIsKnownToBeShared) {
+  std::ofstream file(folder_ / "short.csv");
+  file << "p,q\n";
+  for (int i = 0; i < 17; ++i) file << i * i % 7 << ',' << i * i % 5 << '\n';
+  file.close();
+  const Outcome done = run("array short.csv --rate 1 --model WN --json");
+  ASSERT_EQ(done.status, 0) << done.errors;
+  EXPECT_FALSE(json::parse(done.out)["pairs"][0]["dependent"].get<bool>());
+}
+
 TEST_F(Array, SaysWhatItCannotDo) {
   const auto expect = [&](const std::string& arguments, const std::string& words) {
     const Outcome done = run("array a.csv --rate 100 " + arguments);

@@ -150,17 +150,41 @@ TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bench/week-0/calibration.json"));
 }
 
-TEST_F(CatalogueCommands, ACalibrationComparesDevices) {
+// Two devices, left and right, with white noise of their own at the rates that are given.
+void record_two(const std::filesystem::path& folder, double left_hz, double right_hz) {
   std::vector<testing::BenchDevice> devices(2);
   for (std::size_t d = 0; d < 2; ++d) {
     std::mt19937_64 random(1 + d);
     devices[d].name = d == 0 ? "left" : "right";
     devices[d].samples = 2048;
+    devices[d].rate_hz = d == 0 ? left_hz : right_hz;
     std::normal_distribution<double> normal;
     devices[d].channels = {
         {"gyro_x", "rad/s", [=](std::size_t, double) mutable { return 1e-3 * normal(random); }}};
   }
-  testing::record_bench(folder_ / "two", 1, testing::kSimulatedStart, devices);
+  testing::record_bench(folder, 1, testing::kSimulatedStart, devices);
+}
+
+TEST_F(CatalogueCommands, AnArrayMayBeOfSeveralDevices) {
+  record_two(folder_ / "two", 100.0, 100.0);
+  const Outcome done = run("array two --model WN --json");
+  ASSERT_EQ(done.status, 0) << done.errors;
+  EXPECT_EQ(json::parse(done.out)["sensors"], json({"left/imu/gyro_x", "right/imu/gyro_x"}));
+  EXPECT_NE(done.errors.find("joined: right/imu, 100 Hz, clock +0.0 ppm, 0 samples left out"),
+            std::string::npos)
+      << done.errors;
+  EXPECT_EQ(run("faults two --model WN --channel right/imu/gyro_x,left/imu/gyro_x").status, 0);
+  const Outcome at_a_rate = run("array two --model WN --rate 50");
+  EXPECT_NE(at_a_rate.status, 0);
+  EXPECT_NE(at_a_rate.errors.find("are for those of one"), std::string::npos) << at_a_rate.errors;
+  record_two(folder_ / "apart", 100.0, 102.4);
+  const Outcome apart = run("array apart --model WN");
+  EXPECT_NE(apart.status, 0);
+  EXPECT_NE(apart.errors.find("rates differ"), std::string::npos) << apart.errors;
+}
+
+TEST_F(CatalogueCommands, ACalibrationComparesDevices) {
+  record_two(folder_ / "two", 100.0, 100.0);
   const std::string asked = "calibrate two --model WN --no-diagnose --array --array-model WN";
   const Outcome done = run(asked);
   ASSERT_EQ(done.status, 0) << done.errors;

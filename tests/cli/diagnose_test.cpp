@@ -75,5 +75,28 @@ TEST_F(Diagnose, AStudyIsKeptInItsFile) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "page.html"));
 }
 
+TEST_F(Diagnose, WhatIsReadIsNotOverwritten) {
+  const std::string files = kFiles;
+  const std::string first = files.substr(0, files.find(' '));
+  const std::string before = read(first);
+  const Outcome done = run("diagnose " + files + " --model WN --report ./" + first);
+  EXPECT_NE(done.status, 0);
+  EXPECT_NE(done.errors.find("is one of the recordings"), std::string::npos) << done.errors;
+  EXPECT_EQ(read(first), before);
+  ASSERT_EQ(run("study new a.study " + files + " --channel gyro_x --model WN").status, 0);
+  EXPECT_NE(run("study report a.study a.study").status, 0);
+  EXPECT_EQ(run("study show a.study").status, 0);
+}
+
+TEST_F(Diagnose, AStudyWhoseRecordingIsGoneSaysSo) {
+  const std::string files = kFiles;
+  const std::string first = files.substr(0, files.find(' '));
+  ASSERT_EQ(run("study new a.study " + files + " --channel gyro_x --model WN").status, 0);
+  std::filesystem::rename(folder_ / first, folder_ / "elsewhere");
+  const Outcome done = run("study add a.study RW");
+  EXPECT_EQ(done.status, 1);
+  EXPECT_NE(done.errors.find("is gone"), std::string::npos) << done.errors;
+}
+
 }  // namespace
 }  // namespace imunoise

@@ -51,16 +51,13 @@ v1::DiagnosisReport ask(const Scene& scene) {
 
 // Whether the report adds one of the names, or puts it among its first three.
 bool tells(const v1::DiagnosisReport& report, const std::vector<std::string>& names) {
-  for (int i = 0; i < report.candidates_size(); ++i) {
-    const v1::EffectCandidate& one = report.candidates(i);
-    const bool named = std::find(names.begin(), names.end(), one.effect()) != names.end();
-    bool added = false;
-    for (const v1::Rung& rung : report.ladder()) {
-      added = added || (!rung.added().empty() && rung.added() == one.term());
-    }
-    if (named && (added || (i < 3 && report.verdict() != v1::none))) return true;
-  }
-  return false;
+  const auto right = [&](const auto& one) {
+    return std::find(names.begin(), names.end(), one.effect()) != names.end();
+  };
+  if (std::any_of(report.ladder().begin(), report.ladder().end(), right)) return true;
+  const auto& candidates = report.candidates();
+  const auto end = candidates.begin() + std::min(3, candidates.size());
+  return report.verdict() != v1::none && std::any_of(candidates.begin(), end, right);
 }
 
 std::string summary(const v1::DiagnosisReport& report) {

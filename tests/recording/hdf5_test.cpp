@@ -68,6 +68,26 @@ TEST_F(Hdf5, CountsStayCountsAndFloatsBecomeDoubles) {
   EXPECT_EQ(channels[3].unit.quantity, Quantity::kUnknown);
 }
 
+TEST_F(Hdf5, WhatStandsBesideIsReadButNoTicks) {
+  {
+    Hdf5File file(path("a.h5"));
+    ASSERT_TRUE(write_attribute(file.id(), "rate_hz", 12.5));
+    for (const auto& [name, units] :
+         {std::pair("a", "deg/s"), std::pair("b", "ticks"), std::pair("c", "K")}) {
+      const auto dataset = file.dataset(name, counts_, H5T_STD_I16BE, H5T_NATIVE_INT16);
+      ASSERT_TRUE(write_attribute(dataset.get(), "units", std::string_view(units)));
+    }
+  }
+  ImportOptions options;
+  options.channels = {"c"};
+  options.beside = true;
+  const auto got = import_one(path("a.h5"), options);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->front().channels.size(), 2U);
+  EXPECT_EQ(got->front().channels[0].name, "c");
+  EXPECT_EQ(got->front().channels[1].name, "a");
+}
+
 TEST_F(Hdf5, ATimeDatasetGivesTheRateAndIsNoChannel) {
   std::vector<std::int32_t> times(20);
   std::iota(times.begin(), times.end(), 1000);

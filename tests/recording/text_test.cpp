@@ -112,6 +112,33 @@ TEST_F(Text, UnwantedColumnsMayHoldAnything) {
   EXPECT_EQ(stored_doubles(got->front().channels[0]), std::vector<double>(20, 1.0));
 }
 
+TEST_F(Text, WhatStandsBesideIsReadWhateverItsUnit) {
+  const auto file = write(
+      "a.csv", "gyro_x [deg/s],count [ticks],baro [Pa],gyro_y [deg/s]\n" + repeated("1,2,3,4\n"));
+  ImportOptions options = at_rate(10);
+  options.channels = {"gyro_y"};
+  options.beside = true;
+  const auto got = import_one(file, options);
+  ASSERT_TRUE(got) << got.error().message;
+  std::vector<std::string> names;
+  for (const Channel& one : got->front().channels) names.push_back(one.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"gyro_y", "gyro_x", "baro"}));
+  EXPECT_EQ(got->front().channels[2].unit.symbol, "Pa");
+  EXPECT_EQ(got->front().channels[2].unit.quantity, Quantity::kUnknown);
+  options.witnesses = {"count"};
+  const auto only = import_one(file, options);
+  ASSERT_TRUE(only) << only.error().message;
+  ASSERT_EQ(only->front().channels.size(), 2U);
+  EXPECT_EQ(only->front().channels[1].name, "count");
+  options.witnesses = {"nobody"};
+  EXPECT_FALSE(import_one(file, options));
+  options.witnesses.clear();
+  options.channels = {"baro"};
+  const auto named = import_one(file, options);
+  ASSERT_FALSE(named);
+  EXPECT_NE(named.error().message.find("Pa"), std::string::npos) << named.error().message;
+}
+
 TEST_F(Text, ChannelsComeInTheOrderWantedAndOnce) {
   ImportOptions options = at_rate(10);
   options.channels = {"z", "x", "z"};

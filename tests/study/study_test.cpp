@@ -2,6 +2,7 @@
 
 #include "study/ladder/study.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -151,16 +152,66 @@ TEST(Study, ItsFileIsReadAsItWasWritten) {
   }
 }
 
+TEST(Study, OtherRecordingsAreRefused) {
+  const auto other = [](const v1::StudyInput& input, const std::string& channel) {
+    auto out = read(input, channel);
+    out->back().channels[0].count -= 1;
+    return out;
+  };
+  const auto next = apply(opened(), adding("QN"), other);
+  ASSERT_FALSE(next);
+  EXPECT_NE(next.error().message.find("not those that the study began with"), std::string::npos);
+}
+
+TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
+  const auto next = apply(opened(), adding("line(f=7)"), read);
+  ASSERT_TRUE(next) << next.error().message;
+  const v1::Rung& rung = next->attempts(1).rung();
+  ASSERT_EQ(rung.effects_size(), 1);
+  EXPECT_EQ(rung.effects(0).term(), "line(f=7)");
+  ASSERT_EQ(rung.effects(0).parameters_size(), 1);
+  EXPECT_EQ(rung.effects(0).parameters(0).name(), "amplitude");
+  EXPECT_NE(rung.fitted_model().find("sigma2="), std::string::npos) << rung.fitted_model();
+  EXPECT_FALSE(apply(*next, adding("line(f=7)"), read)) << "it is there already";
+}
+
 bool tells(const v1::DiagnosisReport& report, const std::string& words) {
   return std::any_of(report.notes().begin(), report.notes().end(), [&](const std::string& note) {
     return note.find(words) != std::string::npos;
   });
 }
 
+TEST(Diagnose, TheShortestRecordingsAreLookedAt) {
+  const auto whole = *read({}, "");
+  for (std::size_t samples = 16; samples <= 80; samples += 3) {
+    auto recordings = whole;
+    for (recording::Replicate& one : recordings) one.channels[0].count = samples;
+    DiagnoseOptions options;
+    options.model = "WN";
+    options.automatic = true;
+    const auto report = diagnose_series(recordings, 0, options);
+    EXPECT_TRUE(report) << samples << ": " << report.error().message;
+  }
+}
+
+TEST(Diagnose, WhatRemainsIsToldOnceEverythingIsAdded) {
+  DiagnoseOptions options;
+  options.model = "WN + RW";
+  options.automatic = true;
+  const auto report = diagnose_series(*read({}, ""), 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->verdict(), v1::found);
+  ASSERT_TRUE(report->has_remaining());
+  EXPECT_EQ(report->remaining(), v1::none);
+  EXPECT_NE(report->summary().find("nothing more is missing"), std::string::npos)
+      << report->summary();
+}
+
 TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   auto recordings = *read({}, "");
   auto held = std::get<std::vector<double>>(*recordings[1].channels[0].samples);
-  std::fill(held.begin() + 1000, held.begin() + 1500, held[1000]);
+  std::fill(held.begin() + 1000, held.begin() + 1400, held[1000]);
+  std::fill(held.begin() + 2000, held.begin() + 2100, held[2000]);
   recordings[1].channels[0].samples = std::make_shared<recording::Samples>(held);
   DiagnoseOptions options;
   options.model = "WN + RW";
@@ -168,12 +219,47 @@ TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   ASSERT_TRUE(report) << report.error().message;
   ASSERT_GT(report->integrity_size(), 0);
   EXPECT_EQ(report->integrity(0).effect(), "stuck");
+  EXPECT_EQ(report->integrity(0).count(), 500U);
+  EXPECT_NE(report->integrity(0).sentence().find("in 2 places, the first from 20.00 s"),
+            std::string::npos)
+      << report->integrity(0).sentence();
   EXPECT_EQ(report->candidates(0).effect(), "stuck");
   EXPECT_EQ(report->candidates(1).effect(), "quantisation");  // what the rest lacks
-  ASSERT_EQ(report->compared_before().replicates_size(), 4);
+  ASSERT_EQ(report->compared_before().replicates_size(), 5);
   EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
   EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
-  EXPECT_TRUE(tells(*report, "stands still for 500 samples"));
+  EXPECT_TRUE(tells(*report, "stands still for 500 samples in 2 places"));
+}
+
+TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {
+  auto recordings = *read({}, "");
+  auto held = std::get<std::vector<double>>(*recordings[1].channels[0].samples);
+  std::fill(held.begin() + 1000, held.begin() + 1500, held[1000]);
+  for (std::size_t t = 3000; t < held.size(); ++t) held[t] += 2.0;
+  recordings[1].channels[0].samples = std::make_shared<recording::Samples>(held);
+  DiagnoseOptions options;
+  options.model = "WN + RW + QN";
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  const v1::EffectCandidate& step = report->candidates(1);
+  ASSERT_EQ(step.effect(), "step");
+  EXPECT_EQ(step.parameters(0).name(), "time_s");
+  EXPECT_NEAR(step.parameters(0).value(), 60.0, 1.0);
+  EXPECT_EQ(step.parameters(1).value(), 2.0);
+  EXPECT_NE(step.term().find("replicate=2"), std::string::npos) << step.term();
+  // The term that was printed means the same when it is read.
+  options.model = "WN + RW + QN + " + step.term();
+  options.search = false;
+  const auto with = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(with) << with.error().message;
+  EXPECT_NEAR(with->ladder(0).heldout_error(), step.heldout_error_after(), 1e-3);
+  // Stretches of time are those of the recording, too.
+  EXPECT_NEAR(report->compared_before().times(32).from(), 30.0, 1e-9);
+  EXPECT_EQ(report->compared_before().times(32).replicate(), "run2#2");
+  for (const char* nowhere : {"step(replicate=2, t=25)", "step(replicate=4, t=10)"}) {
+    options.model = fmt::format("WN + RW + QN + {}", nowhere);
+    EXPECT_FALSE(diagnose_series(recordings, 0, options)) << nowhere;
+  }
 }
 
 TEST(Diagnose, WhatClocksAndCountersShowedIsToldButIsNoVerdict) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "core/diagnosis/useless.h"
 #include "tests/core/diagnosis/subject_of.h"
@@ -210,6 +211,24 @@ TEST(Diagnose, WhatWasFoundIsGoneOnceItIsInTheModel) {
   const Diagnosis before = of(made);
   const Diagnosis after = diagnose(before.effects[0].tried.trial);
   EXPECT_EQ(after.verdict, DiagnosisVerdict::kNone);
+}
+
+TEST(Diagnose, NoiseThatFollowsAWitnessIsGoneOnceItIsInTheModel) {
+  std::mt19937_64 random(29);
+  std::normal_distribution<double> normal;
+  const auto louder = [&](std::size_t k, double s) {
+    return std::exp(0.25 * temperature(k, s)) * normal(random);
+  };
+  const auto subject = subject_of(
+      {.model = "WN(sigma2=1e-6)", .seed = 30, .added = louder, .temperature = temperature});
+  const Diagnosis before = diagnose(fitted(subject, "WN"));
+  ASSERT_FALSE(before.effects.empty());
+  EXPECT_EQ(before.effects[0].tried.effect, "modulated_variance");
+  const Trial with = fitted(subject, "WN + modulated(temperature)");
+  const Diagnosis after = diagnose(with);
+  EXPECT_FALSE(after.worth_adding);
+  EXPECT_GT(after.misfit.time.p_value, 1e-3);
+  EXPECT_LT(before.misfit.time.p_value, 1e-6);
 }
 
 TEST(Diagnose, OneReplicateIsProvenOnItsQuarters) {

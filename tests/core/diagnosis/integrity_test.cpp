@@ -54,6 +54,14 @@ TEST(Integrity, EachDefectIsNamed) {
   for (double& one : clipped) one = std::min(one, 2.5);
   EXPECT_EQ(effects(clipped), Names{"saturation"});
 
+  // What lies at an end again and again repeats itself, which is no other defect.
+  std::vector<double> wandering = noise(0.01);
+  for (std::size_t t = 0; t < kSamples; ++t) {
+    const double slow = 1.5 * std::sin(0.002 * static_cast<double>(t));
+    wandering[t] = std::clamp(wandering[t] + slow, -2.0, 2.0);
+  }
+  EXPECT_EQ(effects(wandering), (Names{"saturation", "saturation"}));
+
   EXPECT_EQ(effects(noise(4.0)), Names{"quantisation"});
   EXPECT_EQ(effects(std::vector<double>(100, 3.0)), Names{"stuck"});
 }

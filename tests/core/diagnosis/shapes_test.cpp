@@ -25,7 +25,7 @@ void expect_its_transform(const Shape& shape, Eigen::Index n) {
 TEST(Shapes, ClosedFormsAreTheTransforms) {
   for (const Eigen::Index n : {2, 7, 96, 1000, 4095}) {
     expect_its_transform(ramp(50.0), n);
-    for (const double tau : {0.3, 20.0, 5000.0}) expect_its_transform(warm_up(tau), n);
+    for (const double tau : {0.3, 20.0, 5000.0}) expect_its_transform(warm_up(tau, 7), n);
     for (const Eigen::Index at : {Eigen::Index{1}, n / 3, n - 1, n, n + 5})
       expect_its_transform(step(at), n);
     for (const double frequency : {1e-4, 0.0123, 0.125, 0.24999})

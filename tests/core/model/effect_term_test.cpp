@@ -51,8 +51,8 @@ TEST(EffectTerm, WhatIsWrongIsSaid) {
     return read ? "accepted" : read.error().message;
   };
   EXPECT_EQ(message("WN + line"), "line: needs f=…, a number > 0");
-  EXPECT_EQ(message("WN + line(f=abc)"), "line(f=abc): 'abc' is not a number ≥ 0");
-  EXPECT_EQ(message("WN + line(f=-1)"), "line(f=-1): '-1' is not a number ≥ 0");
+  EXPECT_EQ(message("WN + line(f=abc)"), "line(f=abc): 'abc' is not a number from 0 to 1e15");
+  EXPECT_EQ(message("WN + line(f=-1)"), "line(f=-1): '-1' is not a number from 0 to 1e15");
   EXPECT_EQ(message("WN + line(f=1, harmonics=2.5)"),
             "line(f=1, harmonics=2.5): harmonics is a whole number from 1 to 50");
   EXPECT_EQ(message("WN + ramp(tau=3)"), "ramp(tau=3): 'tau=3' is not known here; it takes own");
@@ -60,7 +60,16 @@ TEST(EffectTerm, WhatIsWrongIsSaid) {
   EXPECT_EQ(message("WN + step(replicate=1.5, t=3)"),
             "step(replicate=1.5, t=3): replicate is a whole number, counted from 1");
   EXPECT_EQ(message("ramp"), message(""));
-  EXPECT_NE(message("WN + QQ").find("unknown process"), std::string::npos);
+  EXPECT_EQ(message("WN + line(f=1, f=2)"), "line(f=1, f=2): 'f' is given twice");
+  EXPECT_EQ(message("WN + line(f=1e300)"), "line(f=1e300): '1e300' is not a number from 0 to 1e15");
+  EXPECT_EQ(message("WN + witness(t, from=2, to=1)"),
+            "witness(t, from=2, to=1): from must lie below to");
+  EXPECT_EQ(message("WN + line(f=1) + LINE(f=1)"), "LINE(f=1): is in the model already");
+  EXPECT_NE(message("WN + outliers(above=1)").find("at least 3"), std::string::npos);
+  for (const char* unknown : {"WN + QQ", "WN + lien(f=3)"}) {
+    EXPECT_NE(message(unknown).find("unknown process"), std::string::npos);
+    EXPECT_NE(message(unknown).find("warm_up, line, step"), std::string::npos) << message(unknown);
+  }
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ TEST(Grammar, PointsAtTheCharacter) {
                                          {"WN(sigma2=x)", 10, "expected a number"},
                                          {"WN(sigma2=nan)", 10, "expected a number"},
                                          {"WN(sigma2=-1)", 10, "cannot be negative"},
+                                         {"WN(sigma2=1e160)", 10, "between 1e-60 and 1e+60"},
+                                         {"WN(sigma2=1e-200)", 10, "between 1e-60 and 1e+60"},
                                          {"AR1(phi=1.5)", 8, "between"},
                                          {"AR1(phi=0.5, phi=0.6)", 13, "given twice"},
                                          {"AR1(3)", 4, "takes no number"},

@@ -21,11 +21,25 @@ TEST(Units, ParsesTheSpellingsPeopleUse) {
 }
 
 TEST(Units, DegreesCelsiusStartAtTheIcePoint) {
-  const Result<Unit> celsius = parse_unit("°C");
-  ASSERT_TRUE(celsius);
-  EXPECT_EQ(celsius->to_si, 1.0);
-  EXPECT_EQ(celsius->si_offset, 273.15);
+  for (const char* text : {"°C", "C", "Celsius", "degree_C", "deg C"}) {
+    const Result<Unit> celsius = parse_unit(text);
+    ASSERT_TRUE(celsius) << text;
+    EXPECT_EQ(celsius->to_si, 1.0);
+    EXPECT_EQ(celsius->si_offset, 273.15);
+  }
+  const Result<Unit> fahrenheit = parse_unit("°F");
+  ASSERT_TRUE(fahrenheit);
+  EXPECT_NEAR(212.0 * fahrenheit->to_si + fahrenheit->si_offset, 373.15, 1e-9);
   EXPECT_EQ(parse_unit("K")->si_offset, 0.0);
+}
+
+TEST(Units, ArbitraryOnesAreNumbersAsTheyAre) {
+  for (const char* text : {"1", "a.u."}) {
+    const Result<Unit> unit = parse_unit(text);
+    ASSERT_TRUE(unit) << text;
+    EXPECT_EQ(unit->quantity, Quantity::kUnknown);
+    EXPECT_EQ(unit->to_si, 1.0);
+  }
 }
 
 TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {

@@ -27,12 +27,15 @@ TEST(AtTimes, AreZeroWhereNothingCame) {
 
 class OtherStreams : public FileTest {
  protected:
-  // Three seconds of a device whose slow stream has this unit, read beside its gyroscope.
-  Result<std::vector<Replicate>> beside_gyro(const std::string& slow_units) const {
+  // Three seconds of a device whose slow stream, and the channel in the same one, have these units,
+  // read beside its gyroscope.
+  Result<std::vector<Replicate>> beside_gyro(const std::string& slow_units,
+                                             const std::string& row_units = "") const {
     const std::filesystem::path root = path("run");
     RecordingPlan plan;
     plan.devices = {test_device()};
     plan.devices[0].mutable_streams(1)->mutable_channels(0)->set_units(slow_units);
+    plan.devices[0].mutable_streams(0)->mutable_channels(1)->set_units(row_units);
     const auto recorder = Recorder::start(posix_file_system(), root, plan);
     if (!recorder) return tl::unexpected(recorder.error());
     for (int i = 0; i < 4; ++i) EXPECT_TRUE((*recorder)->push(0, slow_block(i)));
@@ -45,10 +48,17 @@ class OtherStreams : public FileTest {
   }
 };
 
-TEST_F(OtherStreams, OfUnknownUnitAreLeftOut) {
+TEST_F(OtherStreams, OfTicksAreLeftOut) {
   const auto read = beside_gyro("ticks");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->front().channels.size(), 2U);
+}
+
+TEST_F(OtherStreams, OfTicksInTheSameStreamAreLeftOut) {
+  const auto read = beside_gyro("ticks", "ticks");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->front().channels.size(), 1U);
+  EXPECT_EQ(read->front().channels[0].name, "imu0/imu/gyro_x");
 }
 
 TEST_F(OtherStreams, AreReadBesideTheOneUnderStudy) {
