@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <thread>
 
 #include "drivers/emulator/cp2130.h"
 #include "drivers/emulator/ft232h.h"
@@ -142,6 +143,18 @@ TEST_F(LibusbCp2130, EverySampleAsItWasTaken) {
   EXPECT_EQ((*device)->info().serial, "CP0042");
   std::array<Received, 3> received;
   ASSERT_EQ(read(**device, 200, received), ReadOutcome::kSamples);
+  expect_stretch(received[kImu].rows, taken());
+}
+
+// A reader that the machine keeps waiting: the emulated device waits with it.
+TEST_F(LibusbCp2130, ABusyMachineLosesNothing) {
+  const auto device = open({});
+  ASSERT_TRUE(device) << device.error().message;
+  std::array<Received, 3> received;
+  for (std::size_t samples = 1; samples < 200; samples += 10) {
+    ASSERT_EQ(read(**device, samples, received), ReadOutcome::kSamples);
+    std::this_thread::sleep_for(50ms);
+  }
   expect_stretch(received[kImu].rows, taken());
 }
 

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr emulator::Time kStep = 2ms;       // that passes where nothing can be reaped
-constexpr emulator::Time kPause = 20ms;     // from here on it counts as one of the driver's
+constexpr emulator::Time kPause = 20ms;     // from here on an idle driver paused on purpose
 constexpr std::size_t kSetupBytes = 8;      // of a control transfer
 constexpr unsigned char kSerialString = 3;  // index of the string descriptor
 
@@ -165,7 +165,8 @@ long UsbFs::submit(UMockdevIoctlData* argument, emulator::Time pause) {
   umockdev_ioctl_data_resolve(data, G_STRUCT_OFFSET(usbdevfs_urb, buffer),
                               static_cast<gsize>(urb.urb().buffer_length), nullptr);
   const bool listens = urb.urb().endpoint == peripheral_.identity().in_endpoint;
-  if (!listens && pause >= kPause) {
+  exchange_data();
+  if (!listens && out_.empty() && pause >= kPause) {
     const emulator::Time end = peripheral_.now() + pause;
     while (peripheral_.now() < end) pass(end);
   }

@@ -19,8 +19,8 @@ namespace imunoise::testing {
 
 /// One device, plugged in from the start. It needs umockdev's library preloaded: see available().
 /// Time passes for the device as fast as libusb asks for its data, so that a busy machine changes
-/// nothing; where the driver speaks again after a pause of its own, the pause has passed as well.
-/// Its calls come from a thread of umockdev: look at the device with lock() held.
+/// nothing; where the driver had asked for nothing, paused and speaks again, the pause has passed
+/// as well. Its calls come from a thread of umockdev: look at the device with lock() held.
 class UsbFs {
  public:
   /// Borrows the peripheral.
