@@ -5,6 +5,7 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/util/json_util.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "cli/client/event_reader.h"
@@ -16,7 +17,6 @@ namespace imunoise::cli {
 namespace {
 
 constexpr long kPatience = 30;  // s, for an answer
-constexpr long kSilence = 60;   // s, without a heartbeat of events
 constexpr std::size_t kLargest = std::size_t{256} << 20U;
 
 Result<std::string> token_in(const std::filesystem::path& file) {
@@ -28,10 +28,15 @@ Result<std::string> token_in(const std::filesystem::path& file) {
 
 // What comes in: an answer, or events.
 struct Incoming {
+  using Clock = std::chrono::steady_clock;
+  bool silent() const { return silence && Clock::now() > last + *silence; }
+
   std::string text;
   EventReader events;
   const TakeEvent* take = nullptr;  // of events that are wanted
   bool enough = false;
+  std::optional<std::chrono::milliseconds> silence = {};  // the longest that is borne
+  Clock::time_point last = Clock::now();                  // when something came
   std::stop_token stop;
   CURL* curl = nullptr;
 };
@@ -39,6 +44,7 @@ struct Incoming {
 std::size_t take_bytes(const char* bytes, std::size_t size, std::size_t count, void* to) {
   auto& incoming = *static_cast<Incoming*>(to);
   const std::string_view part(bytes, size * count);
+  incoming.last = Incoming::Clock::now();
   long status = 0;
   curl_easy_getinfo(incoming.curl, CURLINFO_RESPONSE_CODE, &status);
   if (incoming.take != nullptr && status == 200) {
@@ -50,8 +56,11 @@ std::size_t take_bytes(const char* bytes, std::size_t size, std::size_t count, v
   return part.size();
 }
 
+// libcurl asks at least once a second. Its own limit on slow transfers takes a heartbeat now and
+// then for none.
 int go_on(void* from, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
-  return static_cast<const Incoming*>(from)->stop.stop_requested() ? 1 : 0;
+  const auto& incoming = *static_cast<const Incoming*>(from);
+  return incoming.stop.stop_requested() || incoming.silent() ? 1 : 0;
 }
 
 std::string refusal_in(const std::string& json, long status) {
@@ -96,6 +105,7 @@ struct DaemonClient::Connection {
     curl_easy_setopt(curl, CURLOPT_URL, url.c_str());
     const CURLcode done = curl_easy_perform(curl);
     if (incoming.enough || incoming.stop.stop_requested()) return std::string();
+    if (incoming.silent()) return fail(place() + ": fell silent; is the daemon's machine well?");
     if (done != CURLE_OK)
       return fail(
           fmt::format("{}: no answer ({}); does imunoised run, and are you in the group "
@@ -146,13 +156,12 @@ Result<std::string> DaemonClient::post(const std::string& target,
 }
 
 Result<void> DaemonClient::follow(const std::string& target, const TakeEvent& take,
-                                  const std::stop_token& stop) {
+                                  const std::stop_token& stop, std::chrono::milliseconds silence) {
   curl_easy_reset(connection_->curl);
   connection_->prepare();
-  curl_easy_setopt(connection_->curl, CURLOPT_LOW_SPEED_LIMIT, 1L);
-  curl_easy_setopt(connection_->curl, CURLOPT_LOW_SPEED_TIME, kSilence);
   Incoming incoming;
   incoming.take = &take;
+  incoming.silence = silence;
   incoming.stop = stop;
   const auto done = connection_->ask(target, incoming);
   if (!done) return tl::unexpected(done.error());

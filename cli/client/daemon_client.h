@@ -2,6 +2,7 @@
 
 // Asks a running imunoised. libcurl stays behind this header.
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -38,9 +39,9 @@ class DaemonClient {
   Result<std::string> get(const std::string& target);
   Result<std::string> post(const std::string& target, const google::protobuf::Message& request);
   /// Hands over events as they come, until they are not wanted any more, somebody wants it to stop,
-  /// or the daemon ends.
-  Result<void> follow(const std::string& target, const TakeEvent& take,
-                      const std::stop_token& stop);
+  /// or the daemon ends. Error: not even a heartbeat came for so long (the daemon's own: 15 s).
+  Result<void> follow(const std::string& target, const TakeEvent& take, const std::stop_token& stop,
+                      std::chrono::milliseconds silence = std::chrono::minutes(1));
 
  private:
   struct Connection;

@@ -1,5 +1,7 @@
 // Every sample that an emulated MTi sends, through the plugin, in every protocol and format.
 
+#include <cmath>
+
 #include "tests/drivers/xsens/mti_fixture.h"
 
 namespace imunoise::testing {
@@ -116,17 +118,18 @@ TEST_F(MtiSamples, AnOutputThatTheDeviceSendsMoreSlowlyIsAStreamOfItsOwn) {
   EXPECT_EQ((*session)->all_refused(0) + (*session)->all_refused(1), 0U);
 }
 
-class Shock final : public emulator::SampleSource {
+// A tenth of a second in two, so that it matters not when somebody begins to listen.
+class Shocks final : public emulator::SampleSource {
  public:
   emulator::Measurement measure(double time) override {
-    return {.specific_force = {0.0, time > 0.15 ? 70.0 : 0.0, 0.0}};
+    return {.specific_force = {0.0, std::fmod(time, 0.2) > 0.1 ? 70.0 : 0.0, 0.0}};
   }
 };
 
 TEST_F(MtiSamples, ClippingAndAFailedSelfTestAreFlags) {
   emulator::MtiOptions options;
   options.self_test_passed = false;
-  plug_in(options, {}, std::make_unique<Shock>());
+  plug_in(options, {}, std::make_unique<Shocks>());
   auto session = open({{"output", "acc"}});
   ASSERT_TRUE(session) << session.error().message;
   ASSERT_TRUE((*session)->read_rows(60)) << (*session)->failure();
