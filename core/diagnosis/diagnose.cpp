@@ -37,6 +37,20 @@ bool rivals(const RankedEffect& one, const RankedEffect& other, double significa
   return both - with.fit.log_likelihood < 0.5 * second.tried.likelihood_gain;
 }
 
+// Would it show if there were a third level half-way? Of three that are visited alike two explain
+// three quarters. The rest, a third of what they explain under the noise that they leave, must pay
+// for its jumps as the others do; else noise that walks hides it.
+bool levels_show(const TriedEffect& effect) {
+  constexpr double kThird = 1.0 / 3.0;
+  const auto* term = std::get_if<EffectTerm>(&effect.suggestion.added);
+  if (term == nullptr || term->kind != EffectKind::kTelegraph) return true;
+  const Regression& regression = effect.trial.regression;
+  const Eigen::Index at = regression.first(regression.effects().size() - 1);
+  const EffectCoefficients& found = effect.trial.fit.effects;
+  const double explained = 0.5 * found.value(at) * found.value(at) / found.covariance(at, at);
+  return kThird * explained > effect.suggestion.search.log_places;
+}
+
 // Candidates whose evidence is as good, and what was not recorded.
 void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
                      double significant) {
@@ -54,6 +68,7 @@ void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
       const bool could = id == "temperature" ? one.tried.slow : told_by_spectrum(one.tried.effect);
       if (could) add_unique(one.confused_with, id, one.tried.effect);
     }
+    if (!levels_show(one.tried)) add_unique(one.confused_with, "step", one.tried.effect);
     if (one.tried.suggestion.backwards)
       add_unique(one.confused_with, "gauss_markov", one.tried.effect);
   }

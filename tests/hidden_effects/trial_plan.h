@@ -21,7 +21,7 @@ struct TrialPlan {
   std::string only;  ///< IMUNOISE_TRIAL_ONLY: effects whose name holds this text
 
   std::uint64_t seed(std::size_t repeat) const {
-    return (test_seeds ? 3'000'001U : 1U) + static_cast<std::uint64_t>(repeat);
+    return (test_seeds ? 4'000'001U : 1U) + static_cast<std::uint64_t>(repeat);
   }
   bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }
 };

@@ -170,7 +170,7 @@ TEST(Diagnose, OutliersAreTakenOut) {
 
 TEST(Diagnose, JumpsBetweenTwoLevels) {
   const auto up = [](std::size_t k, double s) {
-    return std::fmod(s + 11.0 * static_cast<double>(k), 53.0) < 20.0 ? 0.4 : 0.0;
+    return std::fmod(s + 11.0 * static_cast<double>(k), 53.0) < 20.0 ? 0.8 : 0.0;
   };
   const Diagnosis diagnosis = of({.seed = 13, .added = up});
   expect_found(diagnosis, "telegraph");
@@ -178,7 +178,19 @@ TEST(Diagnose, JumpsBetweenTwoLevels) {
   EXPECT_EQ(print(model), "WN + RW + telegraph");
   // A model that is given finds the same again.
   const Trial again = fitted(subject_of({.seed = 13, .added = up}), "WN + RW + telegraph");
-  EXPECT_NEAR(again.fit.effects.value(0), 0.4, 4.0 * std::sqrt(again.fit.effects.covariance(0, 0)));
+  EXPECT_NEAR(again.fit.effects.value(0), 0.8, 4.0 * std::sqrt(again.fit.effects.covariance(0, 0)));
+}
+
+// A third level half-way would not show beside noise that walks.
+TEST(Diagnose, FaintJumpsMayHaveMoreLevelsThanTwo) {
+  const Diagnosis diagnosis =
+      of({.seed = 13, .added = [](std::size_t k, double s) {
+            return std::fmod(s + 11.0 * static_cast<double>(k), 53.0) < 20.0 ? 0.4 : 0.0;
+          }});
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.effect, "telegraph");
+  EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kOneOf);
+  EXPECT_EQ(diagnosis.effects[0].confused_with, std::vector<std::string>{"step"});
 }
 
 TEST(Diagnose, ASlowRampMayBeATemperatureThatNobodyRecorded) {
