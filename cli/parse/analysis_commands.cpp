@@ -61,6 +61,7 @@ ParsedCommand wv_command(CLI::App& program) {
   wv->footer(kWvExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   add_input(*wv, raw->input);
+  add_measure(*wv, raw->input);
   add_confidence(*wv, *raw);
   add_json(*wv, *raw);
   return {wv, [raw] {
@@ -77,6 +78,7 @@ ParsedCommand fit_command(CLI::App& program) {
   const auto estimator = std::make_shared<std::string>("mugmwm");
   const auto svg = std::make_shared<std::string>();
   add_input(*fit, raw->input);
+  add_measure(*fit, raw->input);
   add_confidence(*fit, *raw);
   add_json(*fit, *raw);
   add_report(*fit, *raw);
@@ -110,6 +112,7 @@ ParsedCommand test_command(CLI::App& program) {
   const auto raw = std::make_shared<RawAnalysis>();
   const auto bootstrap = std::make_shared<BootstrapOptions>();
   add_input(*test, raw->input);
+  add_measure(*test, raw->input);
   add_json(*test, *raw);
   add_report(*test, *raw);
   add_model(*test, *raw);
@@ -133,6 +136,7 @@ ParsedCommand select_command(CLI::App& program) {
   const auto models = std::make_shared<std::vector<std::string>>();
   const auto splits = std::make_shared<std::string>("leave-one-out");
   add_input(*select, raw->input);
+  add_measure(*select, raw->input);
   add_json(*select, *raw);
   add_report(*select, *raw);
   add_weights(*select, *raw);
@@ -185,6 +189,7 @@ ParsedCommand dynamic_command(CLI::App& program) {
   const auto covariate = std::make_shared<study::CovariateOptions>();
   const auto bins = std::make_shared<std::string>("auto");
   add_input(*dynamic, raw->input);
+  add_measure(*dynamic, raw->input);
   add_confidence(*dynamic, *raw);
   add_json(*dynamic, *raw);
   add_report(*dynamic, *raw);

@@ -63,6 +63,7 @@ ParsedCommand array_command(CLI::App& program) {
   const auto options = std::make_shared<study::ArraySeriesOptions>();
   const auto rule = std::make_shared<std::string>("unit-gain");
   add_input(*array, raw->input);
+  add_scales(*array, raw->input);
   add_confidence(*array, *raw);
   add_json(*array, *raw);
   add_report(*array, *raw);
@@ -86,7 +87,6 @@ ParsedCommand array_command(CLI::App& program) {
       ->check(CLI::IsMember({"unit-gain", "non-negative", "unit-length"}))
       ->capture_default_str();
   return {array, [raw, groups, options, rule, estimator] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
             ArrayArguments out{input_from(raw->input), *options, show_from(*raw)};
             out.array.model = model_from(*raw);
             for (const std::string& group : *groups) out.array.groups.push_back(names_in(group));
@@ -129,8 +129,6 @@ ParsedCommand mixed_command(CLI::App& program) {
   mixed->add_option("--seed", options->regression.seed, "Seed of the bootstrap")
       ->capture_default_str();
   return {mixed, [raw, groups, options] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for regression");
-            if (raw->input.per_octave != 1) refuse("--per-octave", "not for regression");
             MixedArguments out{input_from(raw->input), *options, show_from(*raw)};
             out.mixed.model = model_from(*raw);
             for (const std::string& group : *groups) out.mixed.groups.push_back(names_in(group));
@@ -149,6 +147,7 @@ ParsedCommand faults_command(CLI::App& program) {
   const auto training = std::make_shared<std::vector<std::string>>();
   const auto options = std::make_shared<study::FaultSeriesOptions>();
   add_input(*faults, raw->input);
+  add_scales(*faults, raw->input);
   add_json(*faults, *raw);
   add_report(*faults, *raw);
   add_model(*faults, *raw, study::kDefaultArrayModel);
@@ -165,7 +164,6 @@ ParsedCommand faults_command(CLI::App& program) {
       ->check(CLI::Range(1e-9, 1000.0))
       ->capture_default_str();
   return {faults, [raw, groups, training, options] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for arrays");
             FaultsArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
             RawInput good = raw->input;
             good.files = *training;

@@ -47,8 +47,6 @@ ParsedCommand diagnose_command(CLI::App& program) {
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
   return {diagnose, [raw, options, svg] {
-            if (!raw->input.robust.empty()) refuse("--robust", "not for diagnosis");
-            if (raw->input.per_octave != 1) refuse("--per-octave", "not for diagnosis");
             DiagnoseArguments out{input_from(raw->input), {}, *options, show_from(*raw)};
             out.channels = out.input.import.channels;
             out.diagnose.model = model_from(*raw);

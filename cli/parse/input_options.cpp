@@ -50,9 +50,16 @@ void add_input(CLI::App& command, RawInput& raw) {
       .add_option("--split-into", raw.split_into, "Cut each file into K replicates of equal length")
       ->check(CLI::Range(1, 100000))
       ->type_name("K");
+}
+
+void add_scales(CLI::App& command, RawInput& raw) {
   command.add_option("--per-octave", raw.per_octave, "Scales an octave")
       ->check(CLI::IsMember({1, 2, 4}))
       ->capture_default_str();
+}
+
+void add_measure(CLI::App& command, RawInput& raw) {
+  add_scales(command, raw);
   command.add_option("--robust", raw.robust, "Robust estimator, by its nominal efficiency")
       ->check(CLI::IsMember({"0.6", "0.8", "0.9"}));
 }

@@ -27,8 +27,12 @@ struct RawInput {
 CLI::Validator above_zero();
 CLI::Validator zero_or_above();
 
-/// Adds FILES and everything that says how they are read and measured.
+/// Adds FILES and everything that says how they are read.
 void add_input(CLI::App& command, RawInput& raw);
+/// Adds how many scales their wavelet variance is measured at.
+void add_scales(CLI::App& command, RawInput& raw);
+/// Adds everything that says how it is measured.
+void add_measure(CLI::App& command, RawInput& raw);
 
 // What was typed, looked up. They throw CLI::ValidationError.
 InputArguments input_from(const RawInput& raw);

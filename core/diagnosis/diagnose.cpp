@@ -116,14 +116,15 @@ std::string parameter_of(const Suggestion& one) {
 }
 
 // How large the coefficient of a search must be to pass the threshold nine times in ten.
-std::optional<DetectionLimit> limit_of(const Suggestion& one, double level) {
+std::optional<DetectionLimit> limit_of(const Suggestion& one, double level, Hertz rate) {
   if (!(one.information > 0.0)) return std::nullopt;
   const double needed = gain_needed(level, one.dof, one.power, one.search);
   const double nine_in_ten = normal_quantile(0.9);
-  const auto* term = std::get_if<EffectTerm>(&one.added);
-  return DetectionLimit{std::string(one.effect), term != nullptr ? term->witness : "",
-                        parameter_of(one),
-                        (std::sqrt(2.0 * needed) + nine_in_ten) / std::sqrt(one.information)};
+  DetectionLimit out{std::string(one.effect), one.added, parameter_of(one),
+                     (std::sqrt(2.0 * needed) + nine_in_ten) / std::sqrt(one.information)};
+  if (auto* term = std::get_if<EffectTerm>(&out.added))
+    *term = rounded(*term, one.shape_error, rate);
+  return out;
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
   fill_confusions(out.effects, subject, level);
   progress.report(1.0);
   for (const Suggestion& one : all) {
-    if (auto limit = limit_of(one, level / static_cast<double>(all.size())))
+    if (auto limit = limit_of(one, level / static_cast<double>(all.size()), subject.rate))
       out.limits.push_back(std::move(*limit));
   }
   out.worth_adding = !out.effects.empty() && out.effects[0].familywise_p < level &&

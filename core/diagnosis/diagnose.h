@@ -24,7 +24,7 @@ struct RankedEffect {
 /// What the smallest effect is that would have been seen nine times in ten.
 struct DetectionLimit {
   std::string effect;
-  std::string witness;
+  AddedTerm added;  ///< where the search came nearest to seeing one
   std::string parameter;
   double value = 0.0;
 };

@@ -14,11 +14,14 @@ struct NoiseChange {
   Process added;  ///< it alone
 };
 
+/// A term of a model: of its noise, or beside it.
+using AddedTerm = std::variant<EffectTerm, NoiseChange>;
+
 /// What may be missing, as a search found it: a term that could be added, at the place where it
 /// explains most. To first order only; the joint fit with it is what counts.
 struct Suggestion {
   std::string_view effect;  ///< its id in the catalogue
-  std::variant<EffectTerm, NoiseChange> added;
+  AddedTerm added;
   double score_nats = 0.0;  ///< log-likelihood that it would gain, to first order
   double dof = 1.0;         ///< coefficients, or powers, that it adds
   bool power = false;       ///< it is a power: one-sided

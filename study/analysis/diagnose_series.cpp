@@ -90,7 +90,7 @@ Result<Chosen> current_model(const Series& series, const DiagnoseOptions& option
 }
 
 Step step_of(const TriedEffect& effect) {
-  return {.added = added_term(effect),
+  return {.added = printed(effect.suggestion.added),
           .effect = effect.effect,
           .why = fmt::format("{} explains {:.1f} nats; its evidence against chance is {:.1f} nats.",
                              effect.effect, effect.likelihood_gain, effect.gain)};

@@ -67,7 +67,7 @@ v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<E
   v1::EffectCandidate to;
   to.set_effect(tried.effect);
   to.set_title(std::string(about.title));
-  to.set_term(added_term(tried));
+  to.set_term(printed(tried.suggestion.added));
   if (const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added))
     to.set_witness(term->witness);
   if (!tried.shared_with.empty()) to.set_witness(tried.shared_with);
@@ -143,10 +143,10 @@ std::string integral_unit(Quantity quantity) {
 
 }  // namespace
 
-std::string added_term(const TriedEffect& effect) {
-  if (const auto* term = std::get_if<EffectTerm>(&effect.suggestion.added)) return print(*term);
+std::string printed(const AddedTerm& added) {
+  if (const auto* term = std::get_if<EffectTerm>(&added)) return print(*term);
   Model alone;
-  alone.terms.emplace_back(std::get<NoiseChange>(effect.suggestion.added).added);
+  alone.terms.emplace_back(std::get<NoiseChange>(added).added);
   return print(alone);
 }
 
@@ -164,15 +164,18 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
     if (seen) continue;
     v1::DetectionLimit& limit = *to.add_limits();
     limit.set_effect(from.effect);
-    limit.set_witness(from.witness);
     limit.set_parameter(from.parameter);
     limit.set_value(from.value);
-    const Witness* witness = subject.find(from.witness);
+    const auto* term = std::get_if<EffectTerm>(&from.added);
+    const Witness* witness = term != nullptr ? subject.find(term->witness) : nullptr;
     const std::string unit(si_symbol(subject.quantity));
-    limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, {})
+    limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, *term)
                    : from.parameter == "power" ? unit_of(Dimension::kPower, subject.quantity)
                    : from.parameter == "slope" ? unit + "/s"
                                                : unit);
+    if (witness != nullptr) limit.set_witness(witness->name);
+    // A wave, a step or a ramp is one anywhere; couplings and noises have kinds.
+    if (witness != nullptr || term == nullptr) limit.set_term(printed(from.added));
   }
 }
 

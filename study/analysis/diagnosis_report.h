@@ -30,6 +30,6 @@ v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, dou
 v1::NoiseBudget budget_of(const Trial& trial, const LeftOver& left);
 
 /// What an effect adds to the model, in the grammar.
-std::string added_term(const TriedEffect& effect);
+std::string printed(const AddedTerm& added);
 
 }  // namespace imunoise::study

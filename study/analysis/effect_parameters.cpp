@@ -45,6 +45,10 @@ std::string unit_name(Quantity quantity) {
   return symbol.empty() ? "1" : std::string(symbol);
 }
 
+std::string unit_name(const Witness& witness) {
+  return witness.unit.empty() ? unit_name(witness.quantity) : witness.unit;
+}
+
 // The number of a replicate as it was recorded and, of what follows a cut, when it begins.
 std::string place_of(const Subject& subject, std::size_t replicate) {
   const std::size_t number = subject.parts[replicate].recorded + 1;
@@ -128,7 +132,10 @@ void add_fitted(const FittedEffect& effect, std::vector<v1::EffectParameter>& ou
           std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(effect.number),
                         [](const EffectTerm& one) { return one.kind == EffectKind::kModulated; });
       const Modulation& found = effect.trial.fit.modulation[static_cast<std::size_t>(before)];
-      out.push_back(with_error(parameter("log_variance_slope", found.slope, "1"), found.error));
+      const std::string below = unit_name(*subject.find(term.witness));
+      out.push_back(with_error(parameter("log_variance_slope", found.slope / found.deviation,
+                                         below == "1" ? below : "1/" + below),
+                               found.error / found.deviation));
       break;
     }
     default:
@@ -195,8 +202,7 @@ void add_noise(const TriedEffect& effect, const Subject& subject,
 }  // namespace
 
 std::string coupling_unit(Quantity subject, const Witness& witness, const EffectTerm& term) {
-  const std::string own = witness.unit.empty() ? unit_name(witness.quantity) : witness.unit;
-  std::string below = own + (term.quadratic ? "²" : "");
+  std::string below = unit_name(witness) + (term.quadratic ? "²" : "");
   if (term.derivative) below = fmt::format("({}/s)", below);
   if (below == unit_name(subject)) return "1";
   return below == "1" ? unit_name(subject) : fmt::format("{}/{}", unit_name(subject), below);

@@ -135,7 +135,9 @@ Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
     const std::string effect =
         one.witness().empty() ? one.effect() : fmt::format("{} ({})", one.effect(), one.witness());
     const std::string unit = one.unit() == "1" ? "" : " " + one.unit();
-    out.rows.push_back({effect, number(one.value(), 2, digits) + unit, one.parameter()});
+    const std::string of =
+        one.term().empty() ? one.parameter() : fmt::format("{}, {}", one.parameter(), one.term());
+    out.rows.push_back({effect, number(one.value(), 2, digits) + unit, of});
   }
   return out;
 }

@@ -124,7 +124,7 @@ TEST_F(Array, SaysWhatItCannotDo) {
   expect("--group gyro_a,gyro_b --group gyro_b,gyro_c", "'gyro_b' is in two groups");
   expect("--optimise 1,2", "13 weights");
   expect("--optimise sometimes", "13 weights");
-  expect("--robust 0.6", "not for arrays");
+  expect("--robust 0.6", "--robust");
   const Outcome mixed = run("array mixed.csv --rate 100");
   EXPECT_NE(mixed.status, 0);
   EXPECT_NE(mixed.errors.find("measure the same thing"), std::string::npos) << mixed.errors;

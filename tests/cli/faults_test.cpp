@@ -108,7 +108,7 @@ TEST_F(Faults, SaysWhatItCannotDo) {
   expect("good.csv --rate 100 --train nobody.csv", "no such file");
   expect("good.csv --rate 100 --train other.csv", "other channels");
   expect("good.csv --rate 100 --false-alarms-per-hour 0", "--false-alarms-per-hour");
-  expect("good.csv --rate 100 --robust 0.6", "not for arrays");
+  expect("good.csv --rate 100 --robust 0.6", "--robust");
 }
 
 }  // namespace

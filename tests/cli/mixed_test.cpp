@@ -89,7 +89,7 @@ TEST_F(Mixed, SaysWhatItCannotDo) {
   expect("--channel a --regress a", "none is left");
   expect("--channel a,b --regress time --model 'DR + WN'", "ramp");
   expect("--channel a,b --regress time --group a,c", "no sensor 'c'");
-  expect("--channel a,b --regress time --robust 0.6", "not for regression");
+  expect("--channel a,b --regress time --robust 0.6", "--robust");
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <stop_token>
 #include <thread>
 
@@ -175,6 +177,37 @@ TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
   EXPECT_FALSE(apply(*next, adding("line(f=7)"), read)) << "it is there already";
 }
 
+TEST(Study, ModulationIsToldPerUnitOfItsWitness) {
+  constexpr Hertz kRate{50.0};
+  constexpr double kSlope = 0.3;  // of the logarithm of the variance, 1/K
+  const ReadInput warmed = [](const v1::StudyInput& input, const std::string& channel) {
+    auto recordings = *read(input, channel);
+    for (recording::Replicate& one : recordings) {
+      auto values = std::get<std::vector<double>>(*one.channels[0].samples);
+      std::vector<double> kelvins(values.size());
+      for (std::size_t t = 0; t < values.size(); ++t) {
+        kelvins[t] = 300.0 + 2.0 * std::sin(0.003 * static_cast<double>(t));
+        values[t] *= std::exp(0.5 * kSlope * (kelvins[t] - 300.0));
+      }
+      one.channels[0].samples = std::make_shared<recording::Samples>(std::move(values));
+      one.channels.push_back({"temperature",
+                              std::make_shared<recording::Samples>(std::move(kelvins)), 0, 4096,
+                              1.0, 0.0, *parse_unit("K"), kRate});
+    }
+    return Result<std::vector<recording::Replicate>>(std::move(recordings));
+  };
+  v1::StudyRequest open;
+  open.mutable_open()->set_channel("gyro_x");
+  open.mutable_open()->set_model("WN + RW + QN + modulated(temperature)");
+  const auto study = apply({}, open, warmed);
+  ASSERT_TRUE(study) << study.error().message;
+  const v1::EffectParameter& slope = study->attempts(0).rung().effects(0).parameters(0);
+  EXPECT_EQ(slope.name(), "log_variance_slope");
+  EXPECT_EQ(slope.unit(), "1/K");
+  // The error is √(2/12288) over the temperature's deviation of √2 K.
+  EXPECT_NEAR(slope.value(), kSlope, 4.0 * std::sqrt(2.0 / 12288.0) / std::sqrt(2.0));
+}
+
 bool tells(const v1::DiagnosisReport& report, const std::string& words) {
   return std::any_of(report.notes().begin(), report.notes().end(), [&](const std::string& note) {
     return note.find(words) != std::string::npos;
@@ -192,6 +225,32 @@ TEST(Diagnose, TheShortestRecordingsAreLookedAt) {
     const auto report = diagnose_series(recordings, 0, options);
     EXPECT_TRUE(report) << samples << ": " << report.error().message;
   }
+}
+
+// A coupling behind a lag, or squared, is another one, in another unit.
+TEST(Diagnose, LimitsTellWhichCouplingTheyAreOf) {
+  constexpr Hertz kRate{50.0};
+  auto recordings = *read({}, "");
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Model own = *parse_model("WN(sigma2=1) + RW(gamma2=1e-3)", kRate);
+    auto samples = std::make_shared<recording::Samples>(simulate(own, 4096, 22, k));
+    recordings[k].channels.push_back(
+        {"temperature", samples, 0, 4096, 1.0, 0.0, *parse_unit("K"), kRate});
+  }
+  DiagnoseOptions options;
+  options.model = "WN + RW + QN";
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  std::map<std::string, std::string> units;
+  for (const v1::DetectionLimit& one : report->limits()) {
+    if (one.effect() == "line") {
+      EXPECT_EQ(one.term(), "") << "any frequency is meant";
+    }
+    if (one.witness() != "temperature") continue;
+    EXPECT_TRUE(units.emplace(one.term(), one.unit()).second) << one.term() << " twice";
+  }
+  EXPECT_EQ(units["witness(temperature)"], "rad/s/K");
+  EXPECT_EQ(units["witness(temperature, quadratic)"], "rad/s/K²");
 }
 
 TEST(Diagnose, WhatRemainsIsToldOnceEverythingIsAdded) {
