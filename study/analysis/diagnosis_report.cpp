@@ -174,8 +174,9 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
                    : from.parameter == "slope" ? unit + "/s"
                                                : unit);
     if (witness != nullptr) limit.set_witness(witness->name);
-    // A wave, a step or a ramp is one anywhere; couplings and noises have kinds.
-    if (witness != nullptr || term == nullptr) limit.set_term(printed(from.added));
+    const bool anywhere =
+        term != nullptr && (term->kind == EffectKind::kLine || term->kind == EffectKind::kStep);
+    if (!anywhere) limit.set_term(printed(from.added));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <stop_token>
 #include <thread>
 
@@ -242,13 +243,16 @@ TEST(Diagnose, LimitsTellWhichCouplingTheyAreOf) {
   const auto report = diagnose_series(recordings, 0, options);
   ASSERT_TRUE(report) << report.error().message;
   std::map<std::string, std::string> units;
+  std::set<std::string> ramps;
   for (const v1::DetectionLimit& one : report->limits()) {
     if (one.effect() == "line") {
       EXPECT_EQ(one.term(), "") << "any frequency is meant";
     }
+    if (one.effect() == "rate_ramp") ramps.insert(one.term());
     if (one.witness() != "temperature") continue;
     EXPECT_TRUE(units.emplace(one.term(), one.unit()).second) << one.term() << " twice";
   }
+  EXPECT_EQ(ramps, (std::set<std::string>{"ramp", "ramp(own)"}));
   EXPECT_EQ(units["witness(temperature)"], "rad/s/K");
   EXPECT_EQ(units["witness(temperature, quadratic)"], "rad/s/K²");
 }
