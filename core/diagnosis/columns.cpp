@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/diagnosis/shapes.h"
 #include "core/spectrum/cosine_transform.h"
@@ -43,11 +45,13 @@ bool in_part_of_the_frequencies(const EffectTerm& term) {
   return term.from > 0.0 || std::isfinite(term.to);
 }
 
-Eigen::VectorXd witness_cosines(const EffectTerm& term, const Witness& witness, std::size_t k,
-                                double rate) {
-  Eigen::VectorXd out = as_it_is(term) ? witness.cosines[k]
+SharedVector witness_cosines(const EffectTerm& term, const Witness& witness, std::size_t k,
+                             double rate) {
+  const bool whole = !in_part_of_the_frequencies(term);
+  if (whole && as_it_is(term)) return witness.cosines[k];
+  Eigen::VectorXd out = as_it_is(term) ? Eigen::VectorXd(witness.cosines[k])
                                        : cosine_transform(witness_samples(term, witness, k, rate));
-  keep_between(out, term.from, term.to, rate);
+  if (!whole) keep_between(out, term.from, term.to, rate);
   return out;
 }
 
@@ -72,6 +76,15 @@ std::optional<std::size_t> stepping(const EffectTerm& term, const Subject& subje
                         std::lround(term.time * subject.rate.value));
 }
 
+// The columns of a matrix, which they share.
+std::vector<SharedVector> columns_of(Eigen::MatrixXd matrix) {
+  const auto shared = std::make_shared<const Eigen::MatrixXd>(std::move(matrix));
+  std::vector<SharedVector> out;
+  for (Index i = 0; i < shared->cols(); ++i)
+    out.emplace_back(shared, shared->col(i).data(), shared->rows());
+  return out;
+}
+
 // Regressors that every replicate has: one set of coefficients, or one a replicate.
 template <class CosinesOf>
 Regressors in_all(const Subject& subject, bool own, const std::vector<std::string>& names,
@@ -89,6 +102,23 @@ Regressors in_all(const Subject& subject, bool own, const std::vector<std::strin
       out.coefficients.push_back({name, own ? k : CoefficientName::kAll});
   }
   return out;
+}
+
+// Effects of known form: replicates of one length that begin alike share their columns.
+Regressors shaped(const EffectTerm& term, const Subject& subject, bool own,
+                  const std::vector<std::string>& names) {
+  const auto key = [&](std::size_t k) {
+    return std::pair(subject.length(k), subject.parts[k].first);
+  };
+  std::map<std::pair<Index, Index>, std::vector<SharedVector>> made;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) made[key(k)];
+  std::vector<decltype(made)::iterator> each;
+  for (auto one = made.begin(); one != made.end(); ++one) each.push_back(one);
+  for_each_index(each.size(), [&](std::size_t i) {
+    const auto [length, first] = each[i]->first;
+    each[i]->second = columns_of(shape_of(term, subject.rate.value, first).cosines(length));
+  });
+  return in_all(subject, own, names, [&](std::size_t k) { return made.at(key(k)); });
 }
 
 std::vector<std::string> wave_names(int harmonics) {
@@ -120,75 +150,67 @@ Eigen::VectorXd rate_of_change(const VectorRef& x, double rate) {
 }
 
 Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
-  const double rate = subject.rate.value;
-  const auto shaped = [&](bool own, const std::vector<std::string>& names) {
-    return in_all(subject, own, names, [&](std::size_t k) {
-      return shape_of(term, rate, subject.parts[k].first).cosines(subject.length(k));
-    });
-  };
   switch (term.kind) {
     case EffectKind::kRamp:
-      return shaped(term.own, {"slope"});
+      return shaped(term, subject, term.own, {"slope"});
     case EffectKind::kWarmUp:
-      return shaped(term.own, {"amplitude"});
+      return shaped(term, subject, term.own, {"amplitude"});
     case EffectKind::kLine:
-      return shaped(true, wave_names(static_cast<int>(term.harmonics)));
+      return shaped(term, subject, true, wave_names(static_cast<int>(term.harmonics)));
     case EffectKind::kStep: {
       Regressors out{std::vector<Columns>(subject.replicates()), {}};
       const std::size_t k = *stepping(term, subject);
-      for (std::size_t i = 0; i < subject.replicates(); ++i)
-        out.replicates[i].cosines.resize(subject.length(i) - 1, 0);
-      const Shape shape = shape_of(term, rate, subject.parts[k].first);
-      out.replicates[k] = {shape.cosines(subject.length(k)), {0}};
+      const Shape shape = shape_of(term, subject.rate.value, subject.parts[k].first);
+      out.replicates[k] = {columns_of(shape.cosines(subject.length(k))), {0}};
       out.coefficients.push_back({"height", k});
       return out;
     }
     case EffectKind::kWitness: {
       const Witness& witness = *subject.find(term.witness);
       return in_all(subject, term.own, {term.quadratic ? "quadratic_coefficient" : "coefficient"},
-                    [&](std::size_t k) { return witness_cosines(term, witness, k, rate); });
+                    [&](std::size_t k) {
+                      return std::vector{witness_cosines(term, witness, k, subject.rate.value)};
+                    });
     }
     case EffectKind::kTelegraph:
       if (subject.courses.empty()) break;  // not sought yet
       return in_all(subject, false, {"height"},
-                    [&](std::size_t k) { return subject.courses[k].cosines; });
+                    [&](std::size_t k) { return std::vector{subject.courses[k].cosines}; });
     case EffectKind::kModulated:
     case EffectKind::kOutliers:
     case EffectKind::kOwnPowers:
       break;
   }
-  Regressors none{std::vector<Columns>(subject.replicates()), {}};
-  for (std::size_t i = 0; i < subject.replicates(); ++i)
-    none.replicates[i].cosines.resize(subject.length(i) - 1, 0);
-  return none;
+  return {std::vector<Columns>(subject.replicates()), {}};
 }
 
-Eigen::MatrixXd samples_of_regressor(const EffectTerm& term, const Subject& subject,
-                                     std::size_t replicate) {
+void add_effect(const EffectTerm& term, const Subject& subject, std::size_t replicate,
+                const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
+  if (coefficients.size() == 0) return;
   const double rate = subject.rate.value;
-  const Index n = subject.length(replicate);
   switch (term.kind) {
     case EffectKind::kRamp:
     case EffectKind::kWarmUp:
     case EffectKind::kLine:
-      return shape_of(term, rate, subject.parts[replicate].first).samples(n);
     case EffectKind::kStep:
-      if (stepping(term, subject) != replicate) break;
-      return shape_of(term, rate, subject.parts[replicate].first).samples(n);
+      shape_of(term, rate, subject.parts[replicate].first).add(coefficients, to);
+      return;
     case EffectKind::kWitness: {
       const Witness& witness = *subject.find(term.witness);
-      if (!in_part_of_the_frequencies(term)) return witness_samples(term, witness, replicate, rate);
-      return inverse_cosine_transform(witness_cosines(term, witness, replicate, rate));
+      to += coefficients(0) *
+            (in_part_of_the_frequencies(term)
+                 ? inverse_cosine_transform(witness_cosines(term, witness, replicate, rate))
+                 : witness_samples(term, witness, replicate, rate));
+      return;
     }
     case EffectKind::kTelegraph:
-      if (subject.courses.empty()) break;
-      return inverse_cosine_transform(subject.courses[replicate].cosines);
+      to += coefficients(0) * inverse_cosine_transform(subject.courses[replicate].cosines);
+      return;
     case EffectKind::kModulated:
     case EffectKind::kOutliers:
     case EffectKind::kOwnPowers:
-      break;
+      return;
   }
-  return Eigen::MatrixXd(n, 0);
 }
 
 Result<void> check(const EffectTerm& term, const Subject& subject) {

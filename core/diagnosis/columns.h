@@ -13,8 +13,8 @@ namespace imunoise {
 /// coefficient is a place in the list of all of the effect's; those shared by the replicates have
 /// the same place in each.
 struct Columns {
-  Eigen::MatrixXd cosines;           ///< (samples - 1) × columns, their cosine_transform()
-  std::vector<Eigen::Index> places;  ///< one a column
+  std::vector<SharedVector> cosines;  ///< the cosine_transform() of each
+  std::vector<Eigen::Index> places;   ///< one a column
 };
 
 /// A coefficient of an effect, for people.
@@ -34,10 +34,10 @@ struct Regressors {
 /// Precondition: the effect's witness exists and its replicate too, see check().
 Regressors regressors_of(const EffectTerm& term, const Subject& subject);
 
-/// The columns of an effect in one replicate as samples, up to a constant each; none where it has
-/// no coefficient there.
-Eigen::MatrixXd samples_of_regressor(const EffectTerm& term, const Subject& subject,
-                                     std::size_t replicate);
+/// Adds an effect to one replicate: its columns there as samples, up to a constant each, times
+/// coefficients, one a column.
+void add_effect(const EffectTerm& term, const Subject& subject, std::size_t replicate,
+                const Eigen::VectorXd& coefficients, Eigen::VectorXd& to);
 
 /// Error: a witness or replicate that the subject does not have, or a frequency that it cannot
 /// show.

@@ -22,13 +22,16 @@ WaveletVariance variance_of(const Eigen::VectorXd& samples, const Subject& subje
   return wavelet_variance(Signal(all, subject.rate, subject.quantity), Scales::for_samples(n));
 }
 
-double wavelet_error(const WaveletVariance& left, const Model& noise) {
-  const std::vector<WaveletVariance> measured{left};
-  const MomentCovariances covariances = moment_covariances(noise, measured);
-  const auto scores = normal_scores(noise, measured, covariances);
-  const Eigen::VectorXd z =
-      scores[0].residual(left.variance, variance(noise, left.scales.half_widths()));
-  return z.size() > 0 ? z.squaredNorm() / static_cast<double>(z.size()) : 1.0;
+// One number a replicate.
+std::vector<double> wavelet_errors(const std::vector<WaveletVariance>& left, const Model& noise) {
+  const auto scores = normal_scores(noise, left, moment_covariances(noise, left));
+  std::vector<double> out;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const Eigen::VectorXd z =
+        scores[k].residual(left[k].variance, variance(noise, left[k].scales.half_widths()));
+    out.push_back(z.size() > 0 ? z.squaredNorm() / static_cast<double>(z.size()) : 1.0);
+  }
+  return out;
 }
 
 double log_likelihood_of(const Regression& one, const Eigen::VectorXd& coefficients,
@@ -80,24 +83,27 @@ double Errors::total_likelihood() const {
 
 LeftOver left_over(const Trial& trial) {
   const Subject& subject = trial.regression.subject();
-  LeftOver out{std::vector<Eigen::VectorXd>(subject.replicates()),
-               std::vector<WaveletVariance>(subject.replicates())};
+  LeftOver out{std::vector<WaveletVariance>(subject.replicates()), {}};
+  RunOffs run_off(trial);
   for_each_index(subject.replicates(), [&](std::size_t k) {
-    out.samples[k] = trial.regression.residual_samples(trial.fit.effects.value, k);
-    out.variances[k] = variance_of(out.samples[k], subject);
+    const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
+    out.variances[k] = variance_of(left, subject);
+    run_off.add(k, left);
   });
+  out.run_off = run_off.found();
   return out;
 }
 
 Errors training_errors(const Trial& trial, const LeftOver& left) {
   const std::size_t count = trial.regression.subject().replicates();
+  const std::vector<Model>& own = trial.fit.own_powers;
   Errors out{std::vector<double>(count), std::vector<double>(count)};
+  if (own.empty()) out.error = wavelet_errors(left.variances, trial.fit.model.noise);
   for_each_index(count, [&](std::size_t k) {
-    const Model& noise =
-        trial.fit.own_powers.empty() ? trial.fit.model.noise : trial.fit.own_powers[k];
-    const Eigen::VectorXd& at = trial.fit.effects.value;
-    out.error[k] = wavelet_error(left.variances[k], noise);
-    out.log_likelihood[k] = log_likelihood_of(trial.regression.of({k}), at, noise);
+    const Model& noise = own.empty() ? trial.fit.model.noise : own[k];
+    if (!own.empty()) out.error[k] = wavelet_errors({left.variances[k]}, noise).front();
+    out.log_likelihood[k] =
+        log_likelihood_of(trial.regression.of({k}), trial.fit.effects.value, noise);
   });
   return out;
 }
@@ -124,7 +130,7 @@ Errors heldout_errors(const Trial& trial) {
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
-    out.error[k] = wavelet_error(variance_of(left_in(at, k), all.subject()), noise);
+    out.error[k] = wavelet_errors({variance_of(left_in(at, k), all.subject())}, noise).front();
     out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
   });
   return out;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/diagnosis/candidates.h"
+#include "core/diagnosis/run_off.h"
 #include "core/wavelet/wavelet_variance.h"
 
 namespace imunoise {
@@ -20,10 +20,10 @@ struct Errors {
   double total_likelihood() const;
 };
 
-/// What the effects of a model leave of each replicate, and its wavelet variance.
+/// What the effects of a model leave of the replicates: moments and drift of it.
 struct LeftOver {
-  std::vector<Eigen::VectorXd> samples;
-  std::vector<WaveletVariance> variances;
+  std::vector<WaveletVariance> variances;  ///< a replicate each
+  std::vector<RunOff> run_off;
 };
 LeftOver left_over(const Trial& trial);
 

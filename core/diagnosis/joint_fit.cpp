@@ -71,15 +71,25 @@ Innovations innovations(const Regression& regression, const JointFit& fit) {
   Innovations out{regression.replicates(), {}};
   out.white.resize(out.replicates.size());
   for_each_index(out.white.size(), [&](std::size_t i) {
-    const std::size_t k = out.replicates[i];
-    const Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, k);
-    const Model& noise = fit.own_powers.empty() ? fit.model.noise : fit.own_powers[k];
-    const Eigen::ArrayXd spectrum = spectrum_of_cosines(noise, left.size() + 1);
-    out.white[i] = inverse_cosine_transform((left.array() / spectrum.sqrt()).matrix());
+    out.white[i] = innovations(regression, fit, out.replicates[i]);
   });
+  return out;
+}
+
+Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit, std::size_t k) {
+  Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, k);
+  const Bands bands(left.size() + 1);
+  const Eigen::ArrayXd level =
+      spectrum(fit.own_powers.empty() ? fit.model.noise : fit.own_powers[k], bands.frequency);
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    left.segment(begin, bands.edges[static_cast<std::size_t>(b) + 1] - begin) /=
+        std::sqrt(level(b));
+  }
+  Eigen::VectorXd out = rough_inverse_cosine_transform(left);  // white: no digits to lose
   const std::vector<const Witness*> witnesses = modulating(regression);
   for (std::size_t m = 0; m < fit.modulation.size(); ++m)
-    take_out(fit.modulation[m], *witnesses[m], out);
+    take_out(fit.modulation[m], witnesses[m]->samples[k], out);
   return out;
 }
 

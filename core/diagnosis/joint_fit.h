@@ -26,6 +26,9 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
 /// What the replicates that count would be, were the fit true: transformed, divided by the root of
 /// the spectrum, and transformed back; less what modulates them.
 Innovations innovations(const Regression& regression, const JointFit& fit);
+/// Those of one replicate.
+Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit,
+                            std::size_t replicate);
 
 /// The witnesses of the modulated effects, in their order.
 std::vector<const Witness*> modulating(const Regression& regression);

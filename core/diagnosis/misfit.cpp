@@ -6,6 +6,7 @@
 #include "core/diagnosis/normal_power.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/linear_algebra.h"
+#include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
@@ -106,41 +107,51 @@ MisfitReport misfit_of(const Trial& trial) {
   const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
   out.spectrum = chi_square_test(left.squaredNorm(), std::max<Index>(0, n - inverse.rank));
 
-  const Innovations all = innovations(trial.regression, trial.fit);
-  out.times = time_misfits(all, subject.rate.value);
+  // One replicate after the other: all their innovations at once would be as long as the recording.
+  struct Seen {
+    std::vector<TimeMisfit> times;
+    double squares = 0.0;
+    double fourth = 0.0;
+    double samples = 0.0;
+  };
+  const std::vector<std::size_t>& replicates = trial.regression.replicates();
+  std::vector<Seen> each(replicates.size());
+  for_each_index(each.size(), [&](std::size_t i) {
+    const std::size_t k = replicates[i];
+    const Eigen::VectorXd white = innovations(trial.regression, trial.fit, k);
+    each[i] = {time_misfits(white, k, subject.rate.value), white.squaredNorm(),
+               white.array().square().square().sum(), static_cast<double>(white.size())};
+  });
   double chi = 0.0;
-  for (const TimeMisfit& one : out.times) chi += one.sigma * one.sigma;
-  out.time = chi_square_test(
-      chi, static_cast<Index>(out.times.size()) - static_cast<Index>(all.white.size()));
   double squares = 0.0;
   double fourth = 0.0;
   double samples = 0.0;
-  for (const Eigen::VectorXd& white : all.white) {
-    squares += white.squaredNorm();
-    fourth += white.array().square().square().sum();
-    samples += static_cast<double>(white.size());
+  for (const Seen& one : each) {
+    for (const TimeMisfit& stretch : one.times) chi += stretch.sigma * stretch.sigma;
+    out.times.insert(out.times.end(), one.times.begin(), one.times.end());
+    squares += one.squares;
+    fourth += one.fourth;
+    samples += one.samples;
   }
+  out.time = chi_square_test(chi, static_cast<Index>(out.times.size() - each.size()));
   out.excess_kurtosis = fourth * samples / (squares * squares) - 3.0;
   out.kurtosis = chi_square_test(out.excess_kurtosis * out.excess_kurtosis * samples / 24.0, 1);
   return out;
 }
 
-std::vector<TimeMisfit> time_misfits(const Innovations& innovations, double rate) {
+std::vector<TimeMisfit> time_misfits(const VectorRef& white, std::size_t replicate, double rate) {
   constexpr Index kStretches = 16;
   std::vector<TimeMisfit> out;
-  for (std::size_t i = 0; i < innovations.white.size(); ++i) {
-    const Eigen::VectorXd& white = innovations.white[i];
-    const Index length = white.size() / kStretches;
-    // Each replicate against its own level: that is another question.
-    const double level = white.squaredNorm() / static_cast<double>(white.size());
-    const double seconds = static_cast<double>(length) / rate;
-    for (Index at = 0; at < kStretches; ++at) {
-      const double ratio =
-          white.segment(at * length, length).squaredNorm() / (level * static_cast<double>(length));
-      out.push_back({innovations.replicates[i], static_cast<double>(at) * seconds,
-                     static_cast<double>(at + 1) * seconds, ratio,
-                     normal_score(ratio, static_cast<double>(length))});
-    }
+  const Index length = white.size() / kStretches;
+  // Each replicate against its own level: that is another question.
+  const double level = white.squaredNorm() / static_cast<double>(white.size());
+  const double seconds = static_cast<double>(length) / rate;
+  for (Index at = 0; at < kStretches; ++at) {
+    const double ratio =
+        white.segment(at * length, length).squaredNorm() / (level * static_cast<double>(length));
+    out.push_back({replicate, static_cast<double>(at) * seconds,
+                   static_cast<double>(at + 1) * seconds, ratio,
+                   normal_score(ratio, static_cast<double>(length))});
   }
   return out;
 }

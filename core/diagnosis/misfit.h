@@ -36,9 +36,9 @@ struct MisfitReport {
 };
 MisfitReport misfit_of(const Trial& trial);
 
-/// The variance of innovations over 16 stretches of each replicate, against the whole replicate.
-/// `rate` in Hz.
-std::vector<TimeMisfit> time_misfits(const Innovations& innovations, double rate);
+/// The variance of a replicate's innovations over 16 stretches, against the whole of it. `rate` in
+/// Hz.
+std::vector<TimeMisfit> time_misfits(const VectorRef& white, std::size_t replicate, double rate);
 
 /// Chance that a true model fits as badly as the worst of the three.
 double misfit_p_value(const MisfitReport& misfit);

@@ -23,7 +23,7 @@ Stretches stretches_of(const Witness& witness, const Innovations& innovations) {
   Index place = 0;
   for (std::size_t i = 0; i < innovations.white.size(); ++i) {
     const Eigen::VectorXd& y = innovations.white[i];
-    const Eigen::VectorXd& c = witness.samples[innovations.replicates[i]];
+    const SharedVector& c = witness.samples[innovations.replicates[i]];
     for (Index t = 0; t + kStretch <= y.size(); t += kStretch, ++place) {
       out.power(place) = y.segment(t, kStretch).squaredNorm();
       out.witness(place) = c.segment(t, kStretch).mean();
@@ -70,14 +70,15 @@ Modulation modulation_by(const Witness& witness, const Innovations& innovations)
 }
 
 void take_out(const Modulation& modulation, const Witness& witness, Innovations& innovations) {
-  for (std::size_t i = 0; i < innovations.white.size(); ++i) {
-    Eigen::VectorXd& y = innovations.white[i];
-    const Eigen::VectorXd& c = witness.samples[innovations.replicates[i]];
-    for (Index t = 0; t < y.size(); t += kStretch) {
-      const Index size = std::min(kStretch, y.size() - t);
-      const double at = (c.segment(t, size).mean() - modulation.mean) / modulation.deviation;
-      y.segment(t, size) /= std::sqrt(modulation.level * std::exp(modulation.slope * at));
-    }
+  for (std::size_t i = 0; i < innovations.white.size(); ++i)
+    take_out(modulation, witness.samples[innovations.replicates[i]], innovations.white[i]);
+}
+
+void take_out(const Modulation& modulation, const VectorRef& witness, Eigen::VectorXd& white) {
+  for (Index t = 0; t < white.size(); t += kStretch) {
+    const Index size = std::min(kStretch, white.size() - t);
+    const double at = (witness.segment(t, size).mean() - modulation.mean) / modulation.deviation;
+    white.segment(t, size) /= std::sqrt(modulation.level * std::exp(modulation.slope * at));
   }
 }
 

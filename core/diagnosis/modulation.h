@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/diagnosis/subject.h"
+#include "core/support/linear_algebra.h"
 
 namespace imunoise {
 
@@ -29,6 +30,8 @@ Modulation modulation_by(const Witness& witness, const Innovations& innovations)
 
 /// Divides innovations by what a modulation makes of their deviation.
 void take_out(const Modulation& modulation, const Witness& witness, Innovations& innovations);
+/// The same of one replicate; `witness`: its samples there.
+void take_out(const Modulation& modulation, const VectorRef& witness, Eigen::VectorXd& white);
 
 /// What a modulation gains on innovations that it was not estimated from, nats.
 double predicted_gain(const Modulation& modulation, const Witness& witness,

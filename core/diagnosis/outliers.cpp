@@ -35,7 +35,7 @@ Outliers find_outliers(const Current& current, double above) {
 
 double outlier_threshold(const Subject& subject) {
   double samples = 0.0;
-  for (const Eigen::VectorXd& x : subject.samples) samples += static_cast<double>(x.size());
+  for (const SharedVector& x : subject.samples) samples += static_cast<double>(x.size());
   constexpr double kOnceIn = 20.0;
   return normal_quantile(1.0 - 0.5 / (kOnceIn * samples));
 }
@@ -47,10 +47,12 @@ std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& o
     if (outliers.places[k].empty()) return;
     out->own_nats[k] +=
         0.5 * outliers.above * outliers.above * static_cast<double>(outliers.places[k].size());
+    Eigen::VectorXd samples = out->samples[k];
     for (std::size_t i = 0; i < outliers.places[k].size(); ++i)
-      out->samples[k](outliers.places[k][i]) -= outliers.sizes[k][i];
-    out->samples[k].array() -= out->samples[k].mean();
-    out->cosines[k] = cosine_transform(out->samples[k]);
+      samples(outliers.places[k][i]) -= outliers.sizes[k][i];
+    samples.array() -= samples.mean();
+    out->cosines[k] = cosine_transform(samples);
+    out->samples[k] = std::move(samples);
   });
   return out;
 }

@@ -24,18 +24,22 @@ BandedPower empty_bands(Index n, Hertz rate) {
   return {bands.frequency, bands.count, zero, zero, zero, static_cast<std::size_t>(n), rate};
 }
 
+// Numbers i ≥ j as one.
+Index pair_of(Index i, Index j) { return i * (i + 1) / 2 + j; }
+
 // One series in blocks of so many samples, each less its mean.
-std::vector<Eigen::VectorXd> cut(const VectorRef& x, std::size_t blocks, Index length) {
-  std::vector<Eigen::VectorXd> out(blocks);
+std::vector<SharedVector> cut(const VectorRef& x, std::size_t blocks, Index length) {
+  std::vector<SharedVector> out;
   for (std::size_t b = 0; b < blocks; ++b) {
-    out[b] = x.segment(static_cast<Index>(b) * length, length);
-    out[b].array() -= out[b].mean();
+    Eigen::VectorXd block = x.segment(static_cast<Index>(b) * length, length);
+    block.array() -= block.mean();
+    out.emplace_back(std::move(block));
   }
   return out;
 }
 
-std::vector<Eigen::VectorXd> transformed(const std::vector<Eigen::VectorXd>& blocks) {
-  std::vector<Eigen::VectorXd> out(blocks.size());
+std::vector<SharedVector> transformed(const std::vector<SharedVector>& blocks) {
+  std::vector<SharedVector> out(blocks.size());
   for_each_index(out.size(), [&](std::size_t b) { out[b] = cosine_transform(blocks[b]); });
   return out;
 }
@@ -43,43 +47,59 @@ std::vector<Eigen::VectorXd> transformed(const std::vector<Eigen::VectorXd>& blo
 }  // namespace
 
 Regression::Regression(std::shared_ptr<const Subject> subject)
-    : subject_(std::move(subject)),
-      replicates_(subject_->replicates()),
-      moments_(subject_->replicates()) {
+    : subject_(std::move(subject)), replicates_(subject_->replicates()) {
   std::iota(replicates_.begin(), replicates_.end(), 0);
-  for_each_index(moments_.size(), [&](std::size_t k) { fill_moments(k); });
+  fill_moments();
 }
 
-void Regression::fill_moments(std::size_t replicate) {
-  const Eigen::VectorXd& response = subject_->cosines[replicate];
-  std::vector<Eigen::Ref<const Eigen::VectorXd>> all{response};
+void Regression::fill_moments() {
+  moments_.assign(subject_->replicates(), nullptr);
+  for_each_index(moments_.size(), [&](std::size_t k) { extend_moments(k); });
+}
+
+void Regression::extend_moments(std::size_t replicate) {
+  const SharedVector& response = subject_->cosines[replicate];
+  const Bands bands(response.size() + 1);
   Moments made{empty_bands(response.size() + 1, subject_->rate), {}, {}};
+  made.product.resize(bands.size(), 0);
+  if (moments_[replicate]) made = *moments_[replicate];
+  std::vector<const SharedVector*> all{&response};
+  made.places.clear();
   for (std::size_t e = 0; e < columns_.size(); ++e) {
     const Columns& columns = columns_[e]->replicates[replicate];
-    for (Index i = 0; i < columns.cosines.cols(); ++i) {
-      all.emplace_back(columns.cosines.col(i));
-      made.places.push_back(first_[e] + columns.places[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < columns.places.size(); ++i) {
+      all.push_back(&columns.cosines[i]);
+      made.places.push_back(first_[e] + columns.places[i]);
     }
   }
-  const Bands bands(response.size() + 1);
+  const Index known = made.product.cols();
   const auto size = static_cast<Index>(all.size());
-  made.product.assign(static_cast<std::size_t>(bands.size()), Eigen::MatrixXd(size, size));
-  for (std::size_t b = 0; b < made.product.size(); ++b) {
-    const Index begin = bands.edges[b];
-    const Index width = bands.edges[b + 1] - begin;
+  made.product.conservativeResize(Eigen::NoChange, pair_of(size, 0));
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    const Index width = bands.edges[static_cast<std::size_t>(b) + 1] - begin;
     for (Index i = 0; i < size; ++i) {
       for (Index j = 0; j <= i; ++j) {
-        const double mean = all[static_cast<std::size_t>(i)]
-                                .segment(begin, width)
-                                .dot(all[static_cast<std::size_t>(j)].segment(begin, width)) /
-                            static_cast<double>(width);
-        made.product[b](i, j) = mean;
-        made.product[b](j, i) = mean;
+        if (pair_of(i, j) < known) continue;
+        made.product(b, pair_of(i, j)) =
+            all[static_cast<std::size_t>(i)]
+                ->segment(begin, width)
+                .dot(all[static_cast<std::size_t>(j)]->segment(begin, width)) /
+            static_cast<double>(width);
       }
     }
-    made.bands.power(static_cast<Index>(b)) = made.product[b](0, 0);
   }
-  moments_[replicate] = std::move(made);
+  made.bands.power = made.product.col(0);
+  moments_[replicate] = std::make_shared<const Moments>(std::move(made));
+}
+
+Eigen::ArrayXd Regression::Moments::of_columns(const Eigen::MatrixXd& symmetric) const {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(product.rows());
+  for (Index i = 0; i < symmetric.rows(); ++i) {
+    for (Index j = 0; j <= i; ++j)
+      out += (i == j ? 1.0 : 2.0) * symmetric(i, j) * product.col(pair_of(i + 1, j + 1));
+  }
+  return out;
 }
 
 Regression Regression::with(const EffectTerm& term) const {
@@ -90,7 +110,7 @@ Regression Regression::with(const EffectTerm& term) const {
   const bool empty = columns->coefficients.empty();
   out.columns_.push_back(std::move(columns));
   out.first_.push_back(static_cast<Index>(out.names_.size()));
-  if (!empty) for_each_index(moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  if (!empty) for_each_index(moments_.size(), [&](std::size_t k) { out.extend_moments(k); });
   return out;
 }
 
@@ -103,7 +123,7 @@ Regression Regression::without(std::size_t effect) const {
   out.names_.erase(out.names_.begin() + first_[effect], out.names_.begin() + first_[effect + 1]);
   out.first_.erase(out.first_.begin() + place + 1);
   for (std::size_t e = effect + 1; e < out.first_.size(); ++e) out.first_[e] -= taken;
-  for_each_index(moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  out.fill_moments();
   return out;
 }
 
@@ -116,7 +136,7 @@ Regression Regression::of(const std::vector<std::size_t>& replicates) const {
 Regression Regression::on(std::shared_ptr<const Subject> subject) const {
   Regression out = *this;
   out.subject_ = std::move(subject);
-  for_each_index(out.moments_.size(), [&](std::size_t k) { out.fill_moments(k); });
+  out.fill_moments();
   return out;
 }
 
@@ -134,7 +154,8 @@ Regression Regression::in_blocks(std::size_t blocks) const {
     Witness& to = parts->witnesses.emplace_back(Witness{from.name, from.quantity, {}, {}});
     // The level of a block is part of what it says about the noise there.
     for (std::size_t b = 0; b < blocks; ++b)
-      to.samples.emplace_back(from.samples[0].segment(static_cast<Index>(b) * length, length));
+      to.samples.emplace_back(
+          Eigen::VectorXd(from.samples[0].segment(static_cast<Index>(b) * length, length)));
     to.cosines = transformed(to.samples);
   }
   if (!subject_->own_nats.empty())
@@ -146,20 +167,21 @@ Regression Regression::in_blocks(std::size_t blocks) const {
   for (CoefficientName& name : out.names_) name.replicate = CoefficientName::kAll;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     auto made = std::make_shared<Regressors>();
-    made->replicates.assign(blocks, {Eigen::MatrixXd(length - 1, 0), {}});
-    const Eigen::MatrixXd samples = samples_of_regressor(effects_[e], *subject_, 0);
-    for (Index i = 0; i < samples.cols(); ++i) {
-      const std::vector<Eigen::VectorXd> each = cut(samples.col(i), blocks, length);
+    made->replicates.resize(blocks);
+    const auto columns = static_cast<Index>(columns_[e]->replicates[0].places.size());
+    for (Index i = 0; i < columns; ++i) {
+      Eigen::VectorXd samples = Eigen::VectorXd::Zero(subject_->length(0));
+      add_effect(effects_[e], *subject_, 0, Eigen::VectorXd::Unit(columns, i), samples);
+      const std::vector<SharedVector> each = cut(samples, blocks, length);
       double all = 0.0;
-      for (const Eigen::VectorXd& one : each) all += one.squaredNorm();
+      for (const SharedVector& one : each) all += one.squaredNorm();
       std::vector<std::size_t> felt;
       for (std::size_t b = 0; b < blocks; ++b) {
         constexpr double kNothing = 1e-12;
         if (!(each[b].squaredNorm() > kNothing * all)) continue;
         felt.push_back(b);
         Columns& to = made->replicates[b];
-        to.cosines.conservativeResize(Eigen::NoChange, to.cosines.cols() + 1);
-        to.cosines.rightCols(1) = cosine_transform(each[b]);
+        to.cosines.emplace_back(cosine_transform(each[b]));
         to.places.push_back(i);
       }
       if (felt.size() == 1)
@@ -167,7 +189,7 @@ Regression Regression::in_blocks(std::size_t blocks) const {
     }
     out.columns_.push_back(std::move(made));
   }
-  for_each_index(blocks, [&](std::size_t b) { out.fill_moments(b); });
+  out.fill_moments();
   return out;
 }
 
@@ -175,18 +197,16 @@ Regression::Normal Regression::normal_equations(const Model& noise) const {
   const auto n = static_cast<Index>(names_.size());
   Normal out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   for (const std::size_t k : replicates_) {
-    const Moments& at = moments_[k];
+    const Moments& at = *moments_[k];
     const auto q = static_cast<Index>(at.places.size());
     if (q == 0) continue;
-    const Eigen::ArrayXd weight = weights(at.bands, noise);
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(1 + q, 1 + q);
-    for (std::size_t b = 0; b < at.product.size(); ++b)
-      sum += weight(static_cast<Index>(b)) * at.product[b];
+    const Eigen::VectorXd sum = at.product.matrix().transpose() * weights(at.bands, noise).matrix();
     for (Index i = 0; i < q; ++i) {
       const Index row = at.places[static_cast<std::size_t>(i)];
-      out.moment(row) += sum(1 + i, 0);
+      out.moment(row) += sum(pair_of(1 + i, 0));
       for (Index j = 0; j < q; ++j)
-        out.gram(row, at.places[static_cast<std::size_t>(j)]) += sum(1 + i, 1 + j);
+        out.gram(row, at.places[static_cast<std::size_t>(j)]) +=
+            sum(pair_of(1 + std::max(i, j), 1 + std::min(i, j)));
     }
   }
   return out;
@@ -221,16 +241,16 @@ EffectCoefficients Regression::under(const Model& noise, const Eigen::VectorXd& 
 std::vector<BandedPower> Regression::residual(const Eigen::VectorXd& coefficients) const {
   std::vector<BandedPower> out;
   for (const std::size_t k : replicates_) {
-    const Moments& at = moments_[k];
-    Eigen::VectorXd left = Eigen::VectorXd::Ones(1 + static_cast<Index>(at.places.size()));
-    for (std::size_t i = 0; i < at.places.size(); ++i)
-      left(1 + static_cast<Index>(i)) = -coefficients(at.places[i]);
-    BandedPower bands = at.bands;
-    if (!at.places.empty()) {
-      for (std::size_t b = 0; b < at.product.size(); ++b)
-        bands.power(static_cast<Index>(b)) = std::max(0.0, left.dot(at.product[b] * left));
-    }
-    out.push_back(std::move(bands));
+    const Moments& at = *moments_[k];
+    out.push_back(at.bands);
+    const auto q = static_cast<Index>(at.places.size());
+    if (q == 0) continue;
+    Eigen::VectorXd own(q);
+    for (Index i = 0; i < q; ++i) own(i) = coefficients(at.places[static_cast<std::size_t>(i)]);
+    Eigen::ArrayXd& power = out.back().power;
+    power += at.of_columns(own * own.transpose());
+    for (Index i = 0; i < q; ++i) power -= 2.0 * own(i) * at.product.col(pair_of(1 + i, 0));
+    power = power.max(0.0);
   }
   return out;
 }
@@ -239,7 +259,7 @@ std::vector<Eigen::ArrayXd> Regression::leverage(const EffectCoefficients& found
                                                  const Model& noise) const {
   std::vector<Eigen::ArrayXd> out;
   for (const std::size_t k : replicates_) {
-    const Moments& at = moments_[k];
+    const Moments& at = *moments_[k];
     const auto q = static_cast<Index>(at.places.size());
     Eigen::MatrixXd covariance(q, q);
     for (Index i = 0; i < q; ++i) {
@@ -247,16 +267,7 @@ std::vector<Eigen::ArrayXd> Regression::leverage(const EffectCoefficients& found
         covariance(i, j) = found.covariance(at.places[static_cast<std::size_t>(i)],
                                             at.places[static_cast<std::size_t>(j)]);
     }
-    const Eigen::ArrayXd weight = weights(at.bands, noise);
-    Eigen::ArrayXd share = Eigen::ArrayXd::Zero(weight.size());
-    if (q > 0) {
-      for (std::size_t b = 0; b < at.product.size(); ++b) {
-        const auto place = static_cast<Index>(b);
-        share(place) =
-            weight(place) * covariance.cwiseProduct(at.product[b].bottomRightCorner(q, q)).sum();
-      }
-    }
-    out.push_back(std::move(share));
+    out.emplace_back(weights(at.bands, noise) * at.of_columns(covariance));
   }
   return out;
 }
@@ -281,10 +292,8 @@ Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients
   Eigen::VectorXd out = subject_->cosines[replicate];
   for (std::size_t e = 0; e < columns_.size(); ++e) {
     const Columns& columns = columns_[e]->replicates[replicate];
-    for (Index i = 0; i < columns.cosines.cols(); ++i) {
-      out -= coefficients(first_[e] + columns.places[static_cast<std::size_t>(i)]) *
-             columns.cosines.col(i);
-    }
+    for (std::size_t i = 0; i < columns.places.size(); ++i)
+      out -= coefficients(first_[e] + columns.places[i]) * columns.cosines[i];
   }
   return out;
 }
@@ -294,10 +303,10 @@ Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients
   Eigen::VectorXd out = subject_->samples[replicate];
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Columns& columns = columns_[e]->replicates[replicate];
-    if (columns.places.empty()) continue;
-    const Eigen::MatrixXd samples = samples_of_regressor(effects_[e], *subject_, replicate);
+    Eigen::VectorXd own(static_cast<Index>(columns.places.size()));
     for (std::size_t i = 0; i < columns.places.size(); ++i)
-      out -= coefficients(first_[e] + columns.places[i]) * samples.col(static_cast<Index>(i));
+      own(static_cast<Index>(i)) = -coefficients(first_[e] + columns.places[i]);
+    add_effect(effects_[e], *subject_, replicate, own, out);
   }
   return out;
 }

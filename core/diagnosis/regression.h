@@ -62,9 +62,14 @@ class Regression {
  private:
   // Products within the bands of one replicate: of the response, then of its columns.
   struct Moments {
-    BandedPower bands;                     // of the response
-    std::vector<Eigen::Index> places;      // of its columns among all coefficients
-    std::vector<Eigen::MatrixXd> product;  // a band, (1 + columns)², mean over the band
+    BandedPower bands;                 // of the response
+    std::vector<Eigen::Index> places;  // of its columns among all coefficients
+    // Bands × pairs, mean over the band. The response is number 0, its columns are those from 1 on;
+    // numbers i ≥ j are pair_of(i, j).
+    Eigen::ArrayXXd product;
+    // Σ over pairs of what a symmetric matrix (columns)² says of them, a band each; less the
+    // response.
+    Eigen::ArrayXd of_columns(const Eigen::MatrixXd& symmetric) const;
   };
 
   std::shared_ptr<const Subject> subject_;
@@ -73,10 +78,12 @@ class Regression {
   std::vector<Eigen::Index> first_{0};
   // The columns of each effect, shared with the regressions that this one was made from.
   std::vector<std::shared_ptr<const Regressors>> columns_;
-  std::vector<std::size_t> replicates_;  // those that count
-  std::vector<Moments> moments_;         // one a replicate of the subject
+  std::vector<std::size_t> replicates_;                  // those that count
+  std::vector<std::shared_ptr<const Moments>> moments_;  // one a replicate of the subject
 
-  void fill_moments(std::size_t replicate);
+  void fill_moments();
+  // Of what there are already, all but products with further columns.
+  void extend_moments(std::size_t replicate);
   // Normal equations of all coefficients.
   struct Normal {
     Eigen::MatrixXd gram;

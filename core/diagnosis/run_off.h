@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/diagnosis/heldout.h"
+#include "core/diagnosis/candidates.h"
 
 namespace imunoise {
 
@@ -14,8 +14,20 @@ struct RunOff {
   double measured = 0.0;   ///< over all replicates, with the model's effects taken out
 };
 
-/// After 1, 10, 100 and 1000 s, as far as the replicates are long enough.
-/// `left`: left_over() of the model.
-std::vector<RunOff> run_off_of(const Trial& trial, const LeftOver& left);
+/// After 1, 10, 100 and 1000 s, as far as the replicates of a trial are long enough.
+class RunOffs {
+ public:
+  explicit RunOffs(const Trial& trial);
+  /// Takes in a replicate, with the effects taken out. Thread-safe, each replicate once.
+  void add(std::size_t replicate, const Eigen::VectorXd& left);
+  /// Once all replicates are in.
+  std::vector<RunOff> found() const;
+
+ private:
+  const Trial* trial_;
+  std::vector<double> seconds_;
+  Scales half_widths_;
+  std::vector<Eigen::ArrayXd> each_;  // a replicate: its wavelet variance at the half-widths
+};
 
 }  // namespace imunoise

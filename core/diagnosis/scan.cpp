@@ -10,7 +10,7 @@ Current current_of(const Regression& regression, const JointFit& fit) {
   Current out{regression,
               fit,
               pooled(regression.residual(fit.effects, fit.model.noise)),
-              std::vector<Eigen::VectorXd>(count),
+              std::vector<SharedVector>(count),
               std::vector<Eigen::ArrayXd>(count),
               std::vector<Eigen::VectorXd>(count)};
   for_each_index(count, [&](std::size_t k) {

@@ -38,7 +38,7 @@ struct Current {
   const Regression& regression;
   const JointFit& fit;
   std::vector<BandedPower> pooled;        ///< what the fit leaves, see pooled()
-  std::vector<Eigen::VectorXd> cosines;   ///< what it leaves of each replicate
+  std::vector<SharedVector> cosines;      ///< what it leaves of each replicate
   std::vector<Eigen::ArrayXd> spectrum;   ///< of the noise at these
   std::vector<Eigen::VectorXd> weighted;  ///< the inverse transform of cosines/spectrum: in time
 

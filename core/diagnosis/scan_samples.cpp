@@ -24,7 +24,7 @@ Suggestions scan_samples(const Current& current) {
   const double above = outlier_threshold(subject);
   if (const Outliers found = find_outliers(current, above); found.count > 0) {
     double samples = 0.0;
-    for (const Eigen::VectorXd& x : subject.samples) samples += static_cast<double>(x.size());
+    for (const SharedVector& x : subject.samples) samples += static_cast<double>(x.size());
     const auto count = static_cast<double>(found.count);
     // So many places out of all samples: about log(samples^count / count!).
     out.push_back({.effect = "outliers",

@@ -26,7 +26,7 @@ struct Cumulated {
 
 // At the octaves of frequency: entry i holds all below 2^i/2T. `regressor`: one transform a
 // replicate.
-Cumulated cumulated(const Current& current, const std::vector<Eigen::VectorXd>& regressor) {
+Cumulated cumulated(const Current& current, const std::vector<SharedVector>& regressor) {
   const auto octaves =
       static_cast<Index>(std::ceil(std::log2(static_cast<double>(current.subject().length(0)))));
   Cumulated out{Eigen::ArrayXd::Zero(octaves + 1), Eigen::ArrayXd::Zero(octaves + 1)};
@@ -96,9 +96,9 @@ void add_static(const Current& current, const Witness& witness, Suggestions& out
 void add_rocking(const Current& current, const Witness& witness, Suggestions& out) {
   const Subject& subject = current.subject();
   if (!feels_rocking(subject.quantity, witness)) return;
-  std::vector<Eigen::VectorXd> turning;
-  for (const Eigen::VectorXd& x : witness.samples)
-    turning.push_back(cosine_transform(rate_of_change(x, subject.rate.value)));
+  std::vector<SharedVector> turning;
+  for (const SharedVector& x : witness.samples)
+    turning.emplace_back(cosine_transform(rate_of_change(x, subject.rate.value)));
   const Cumulated sums = cumulated(current, turning);
   const Index last = sums.product.size() - 1;
   const EffectTerm rate{.kind = EffectKind::kWitness, .witness = witness.name, .derivative = true};

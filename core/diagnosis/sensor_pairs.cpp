@@ -40,7 +40,7 @@ struct Products {
   }
 };
 
-using Cosines = std::vector<Eigen::VectorXd>;  // a replicate each
+using Cosines = std::vector<SharedVector>;  // a replicate each
 
 std::vector<Products> products_of(const Cosines& a, const Cosines& b, std::size_t octaves) {
   std::vector<Products> out(octaves);

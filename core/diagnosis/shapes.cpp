@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <span>
+#include <vector>
 
 #include "core/spectrum/fourier.h"
 
@@ -23,7 +23,8 @@ double scale_of(Index n) { return std::sqrt(2.0 / static_cast<double>(n)); }
 // n-1.
 template <class One>
 void for_each_coefficient(Index n, const One& one) {
-  const std::span<const std::complex<double>> turns = quarter_turns(static_cast<std::size_t>(n));
+  const auto table = quarter_turns(static_cast<std::size_t>(n));
+  const std::vector<std::complex<double>>& turns = *table;
   for (Index k = 1; k < n; ++k) {
     const bool low = 2 * k <= n;
     const std::complex<double> turn = turns[static_cast<std::size_t>(low ? k : n - k)];
@@ -108,49 +109,50 @@ void wave_cosines(Index n, double omega, Eigen::Ref<Eigen::MatrixXd> out) {
   });
 }
 
-// cos ωt and sin ωt: each stretch is the first one, turned.
-void wave_samples(double omega, Eigen::Ref<Eigen::MatrixXd> out) {
+// Adds a cos ωt + b sin ωt: each stretch is the first one, turned.
+void add_wave(double omega, double a, double b, Eigen::VectorXd& to) {
   constexpr Index kStretch = 512;
-  const Eigen::ArrayXd angle = omega * times(std::min(kStretch, out.rows()));
+  const Eigen::ArrayXd angle = omega * times(std::min(kStretch, to.size()));
   const Eigen::ArrayXd cosine = angle.cos();
   const Eigen::ArrayXd sine = angle.sin();
-  for (Index begin = 0; begin < out.rows(); begin += kStretch) {
-    const Index size = std::min(kStretch, out.rows() - begin);
+  for (Index begin = 0; begin < to.size(); begin += kStretch) {
+    const Index size = std::min(kStretch, to.size() - begin);
     const double c = std::cos(omega * static_cast<double>(begin));
     const double s = std::sin(omega * static_cast<double>(begin));
-    out.col(0).segment(begin, size) = c * cosine.head(size) - s * sine.head(size);
-    out.col(1).segment(begin, size) = s * cosine.head(size) + c * sine.head(size);
+    to.segment(begin, size).array() +=
+        (a * c + b * s) * cosine.head(size) + (b * c - a * s) * sine.head(size);
   }
 }
 
 }  // namespace
 
 Shape ramp(double rate) {
-  return {[=](Index n) -> Eigen::MatrixXd { return times(n) / rate; },
+  return {[=](const Eigen::VectorXd& slope, Eigen::VectorXd& to) {
+            to.array() += slope(0) / rate * times(to.size());
+          },
           [=](Index n) -> Eigen::MatrixXd { return ramp_cosines(n, rate); }};
 }
 
 Shape warm_up(double tau, Index after) {
   const double left = std::exp(-static_cast<double>(after) / tau);
-  return {[=](Index n) -> Eigen::MatrixXd { return left * (-times(n) / tau).exp(); },
+  return {[=](const Eigen::VectorXd& amplitude, Eigen::VectorXd& to) {
+            to.array() += amplitude(0) * left * (-times(to.size()) / tau).exp();
+          },
           [=](Index n) -> Eigen::MatrixXd { return left * warm_up_cosines(n, tau); }};
 }
 
 Shape step(Index at) {
-  return {[=](Index n) -> Eigen::MatrixXd {
-            Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, 1);
-            if (at < n) out.bottomRows(n - at).setOnes();
-            return out;
+  return {[=](const Eigen::VectorXd& height, Eigen::VectorXd& to) {
+            if (at < to.size()) to.tail(to.size() - at).array() += height(0);
           },
           [=](Index n) -> Eigen::MatrixXd { return step_cosines(n, std::min(at, n)); }};
 }
 
 Shape waves(double frequency, int harmonics) {
   const auto omega = [=](int h) { return 2.0 * std::numbers::pi * (h + 1) * frequency; };
-  return {[=](Index n) {
-            Eigen::MatrixXd out(n, 2 * harmonics);
-            for (int h = 0; h < harmonics; ++h) wave_samples(omega(h), out.middleCols(2 * h, 2));
-            return out;
+  return {[=](const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
+            for (int h = 0; h < harmonics; ++h)
+              add_wave(omega(h), coefficients(2 * h), coefficients(2 * h + 1), to);
           },
           [=](Index n) {
             Eigen::MatrixXd out(n - 1, 2 * harmonics);

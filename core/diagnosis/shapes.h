@@ -5,11 +5,13 @@
 
 namespace imunoise {
 
-/// A course of known form over n samples, and its cosine_transform() in closed form (sums of
-/// geometric series): it costs no Fourier transform. A column a coefficient.
+/// A course of known form, a sum of columns times coefficients.
 struct Shape {
-  std::function<Eigen::MatrixXd(Eigen::Index n)> samples;
-  std::function<Eigen::MatrixXd(Eigen::Index n)> cosines;  ///< (n - 1) × columns
+  /// Adds it to a series.
+  std::function<void(const Eigen::VectorXd& coefficients, Eigen::VectorXd& to)> add;
+  /// The cosine_transform() of each column over n samples, (n - 1) × columns, in closed form (sums
+  /// of geometric series): it costs no Fourier transform.
+  std::function<Eigen::MatrixXd(Eigen::Index n)> cosines;
 };
 
 /// t/rate, in s at a rate in Hz.

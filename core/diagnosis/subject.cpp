@@ -51,8 +51,8 @@ Subject make_subject(const std::vector<Signal>& replicates,
   for (const NamedChannel& channel : witnesses) {
     assert(channel.replicates.size() == count);
     out.witnesses.push_back({channel.name, channel.replicates[0].quantity(),
-                             std::vector<Eigen::VectorXd>(count),
-                             std::vector<Eigen::VectorXd>(count), channel.unit});
+                             std::vector<SharedVector>(count), std::vector<SharedVector>(count),
+                             channel.unit});
   }
   // One task a channel and replicate; the channel under study comes first.
   for_each_index((1 + witnesses.size()) * count, [&](std::size_t task) {
@@ -67,7 +67,7 @@ Subject make_subject(const std::vector<Signal>& replicates,
   std::erase_if(out.witnesses, [&](const Witness& one) {
     const bool still =
         std::all_of(one.samples.begin(), one.samples.end(),
-                    [](const Eigen::VectorXd& x) { return x.size() == 0 || x.isZero(0.0); });
+                    [](const SharedVector& x) { return x.size() == 0 || x.isZero(0.0); });
     if (still) out.still.push_back({one.name, one.quantity, {}, {}, one.unit});
     return still;
   });

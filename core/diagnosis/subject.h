@@ -8,6 +8,7 @@
 #include "core/signal/signal.h"
 #include "core/spectrum/banded_power.h"
 #include "core/support/progress.h"
+#include "core/support/shared_vector.h"
 #include "core/support/units.h"
 
 namespace imunoise {
@@ -16,9 +17,9 @@ namespace imunoise {
 struct Witness {
   std::string name;
   Quantity quantity = Quantity::kUnknown;
-  std::vector<Eigen::VectorXd> samples;  ///< a replicate each, SI, mean zero
-  std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
-  std::string unit{};                    ///< of the samples, where their quantity is unknown
+  std::vector<SharedVector> samples;  ///< a replicate each, SI, mean zero
+  std::vector<SharedVector> cosines;  ///< their cosine_transform()
+  std::string unit{};                 ///< of the samples, where their quantity is unknown
 };
 
 /// A replicate that jumps between two levels, -½ and ½.
@@ -26,7 +27,7 @@ struct TwoLevelCourse {
   double start = -0.5;                ///< the first level
   std::vector<Eigen::Index> jumps{};  ///< samples before which it jumps, rising
   double log_places = 0.0;            ///< logarithm of how many courses have as many jumps
-  Eigen::VectorXd cosines{};          ///< its cosine_transform()
+  SharedVector cosines{};             ///< its cosine_transform()
 };
 
 /// Where a replicate lies in what was recorded: a recording that is cut makes several.
@@ -43,9 +44,9 @@ std::vector<Part> uncut(std::size_t replicates);
 struct Subject {
   Hertz rate;
   Quantity quantity = Quantity::kUnknown;
-  std::vector<Eigen::VectorXd> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
-  std::vector<Eigen::VectorXd> cosines;  ///< their cosine_transform()
-  std::vector<Part> parts;               ///< a replicate each, in the order of what was recorded
+  std::vector<SharedVector> samples;  ///< a replicate each, of a quick_length(), SI, mean zero
+  std::vector<SharedVector> cosines;  ///< their cosine_transform()
+  std::vector<Part> parts;            ///< a replicate each, in the order of what was recorded
   std::vector<Witness> witnesses;
   std::vector<Witness> still{};  ///< recorded too, but they never change: no samples are kept
   std::vector<TwoLevelCourse> courses{};  ///< a replicate each, once found; see with_two_levels()

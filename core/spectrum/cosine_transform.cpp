@@ -23,6 +23,27 @@ std::size_t folded_place(std::size_t t, std::size_t n) {
   return t % 2 == 0 ? t / 2 : n - 1 - t / 2;
 }
 
+template <class Number>
+Eigen::VectorXd inverse(const VectorRef& c) {
+  const auto n = static_cast<std::size_t>(c.size()) + 1;
+  assert(n >= 2 && quick_length(n) == n);
+  const auto table = quarter_turns(n);
+  const std::vector<std::complex<double>>& turns = *table;
+  const double scale = std::sqrt(0.5 * static_cast<double>(n));
+  std::vector<std::complex<Number>> spectrum(n / 2 + 1);
+  for (std::size_t k = 1; k < spectrum.size(); ++k) {
+    spectrum[k] = static_cast<std::complex<Number>>(
+        scale * turns[k] *
+        std::complex<double>(c(static_cast<Eigen::Index>(k) - 1),
+                             -c(static_cast<Eigen::Index>(n - k) - 1)));
+  }
+  const std::vector<Number> folded = from_half_spectrum(spectrum, n);
+  Eigen::VectorXd out(c.size() + 1);
+  for (std::size_t t = 0; t < n; ++t)
+    out(static_cast<Eigen::Index>(t)) = static_cast<double>(folded[folded_place(t, n)]);
+  return out;
+}
+
 }  // namespace
 
 std::size_t quick_length(std::size_t n) {
@@ -38,7 +59,8 @@ Eigen::VectorXd cosine_transform(const VectorRef& x) {
   for (std::size_t t = 0; t < n; ++t)
     folded[folded_place(t, n)] = x(static_cast<Eigen::Index>(t)) - mean;
   const std::vector<std::complex<double>> spectrum = half_spectrum(folded);
-  const std::span<const std::complex<double>> turns = quarter_turns(n);
+  const auto table = quarter_turns(n);
+  const std::vector<std::complex<double>>& turns = *table;
   const double scale = std::sqrt(2.0 / static_cast<double>(n));
   Eigen::VectorXd out(x.size() - 1);
   // c_k = Re(e^{-iπk/2n} V_k), and V_{n-k} is the conjugate of V_k.
@@ -50,22 +72,8 @@ Eigen::VectorXd cosine_transform(const VectorRef& x) {
   return out;
 }
 
-Eigen::VectorXd inverse_cosine_transform(const VectorRef& c) {
-  const auto n = static_cast<std::size_t>(c.size()) + 1;
-  assert(n >= 2 && quick_length(n) == n);
-  const std::span<const std::complex<double>> turns = quarter_turns(n);
-  const double scale = std::sqrt(0.5 * static_cast<double>(n));
-  std::vector<std::complex<double>> spectrum(n / 2 + 1);
-  for (std::size_t k = 1; k < spectrum.size(); ++k) {
-    spectrum[k] = scale * turns[k] *
-                  std::complex<double>(c(static_cast<Eigen::Index>(k) - 1),
-                                       -c(static_cast<Eigen::Index>(n - k) - 1));
-  }
-  const std::vector<double> folded = from_half_spectrum(spectrum, n);
-  Eigen::VectorXd out(c.size() + 1);
-  for (std::size_t t = 0; t < n; ++t)
-    out(static_cast<Eigen::Index>(t)) = folded[folded_place(t, n)];
-  return out;
-}
+Eigen::VectorXd inverse_cosine_transform(const VectorRef& c) { return inverse<double>(c); }
+
+Eigen::VectorXd rough_inverse_cosine_transform(const VectorRef& c) { return inverse<float>(c); }
 
 }  // namespace imunoise

@@ -57,14 +57,17 @@ void add_innovations(const Trial& trial, const std::vector<std::string>& names,
     one.set_excess(from.excess);
     one.set_error(from.error);
   }
-  for (const TimeMisfit& from : time_misfits(white, rate)) {
-    v1::TimeStretch& one = *to.add_times();
-    one.set_replicate(names[from.replicate]);
-    const double begins = subject.begins(from.replicate);
-    one.set_from(begins + from.from);
-    one.set_to(begins + from.to);
-    one.set_ratio(from.ratio);
-    one.set_sigma(from.sigma);
+  for (std::size_t i = 0; i < white.white.size(); ++i) {
+    const std::size_t k = white.replicates[i];
+    const double begins = subject.begins(k);
+    for (const TimeMisfit& from : time_misfits(white.white[i], k, rate)) {
+      v1::TimeStretch& one = *to.add_times();
+      one.set_replicate(names[k]);
+      one.set_from(begins + from.from);
+      one.set_to(begins + from.to);
+      one.set_ratio(from.ratio);
+      one.set_sigma(from.sigma);
+    }
   }
 }
 

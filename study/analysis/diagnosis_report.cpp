@@ -223,7 +223,7 @@ v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, dou
   out.set_misfit_p(misfit_p);
   out.set_why(step.why);
   const std::string unit = integral_unit(trial.regression.subject().quantity);
-  for (const RunOff& from : run_off_of(trial, left)) {
+  for (const RunOff& from : left.run_off) {
     v1::Drift& drift = *out.add_drift();
     drift.set_seconds(from.seconds);
     drift.set_predicted(from.predicted);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/spectrum/banded_power.h"
+#include "core/spectrum/fourier.h"
 
 namespace imunoise {
 namespace {
@@ -41,6 +42,29 @@ TEST(CosineTransform, IsWhatItsFormulaSays) {
     const Eigen::VectorXd x = some_series(n);
     const Eigen::VectorXd direct = dense_transform(n) * x;
     EXPECT_LT((cosine_transform(x) - direct).norm(), 1e-12 * x.norm()) << n;
+  }
+}
+
+// White coefficients, for which the rough one is meant, of a length with every quick factor.
+TEST(CosineTransform, RoughOrNotTheInverseGivesTheSeriesBack) {
+  for (const Eigen::Index n : {2, 7, 12, 65, 1001, 30030}) {
+    Eigen::VectorXd x = some_series(n);
+    x.array() -= x.mean();
+    const Eigen::VectorXd cosines = cosine_transform(x);
+    const double length = x.norm();
+    EXPECT_LT((inverse_cosine_transform(cosines) - x).norm(), 1e-13 * length) << n;
+    EXPECT_LT((rough_inverse_cosine_transform(cosines) - x).norm(), 1e-6 * length) << n;
+  }
+}
+
+TEST(CosineTransform, QuarterTurnsAreExactFarOut) {
+  constexpr std::size_t kN = 1'000'000;
+  const auto turns = quarter_turns(kN);
+  ASSERT_EQ(turns->size(), kN / 2 + 1);
+  for (const std::size_t k :
+       {std::size_t{0}, std::size_t{511}, std::size_t{512}, std::size_t{77777}, kN / 2}) {
+    const double angle = std::numbers::pi * static_cast<double>(k) / (2.0 * kN);
+    EXPECT_LT(std::abs((*turns)[k] - std::polar(1.0, angle)), 1e-15) << k;
   }
 }
 
