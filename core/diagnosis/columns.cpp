@@ -30,8 +30,8 @@ void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate)
 // The witness as the term takes it: behind its lag, squared, its change.
 Eigen::VectorXd witness_samples(const EffectTerm& term, const Witness& witness, std::size_t k,
                                 double rate) {
-  Eigen::VectorXd x = witness.samples[k];
-  if (term.lag > 0.0) x = lagged(x, term.lag * rate);
+  Eigen::VectorXd x = term.lag > 0.0 ? lagged(witness.samples[k], term.lag * rate)
+                                     : Eigen::VectorXd(witness.samples[k]);
   if (term.quadratic) x = x.array().square();
   if (term.derivative) x = rate_of_change(x, rate);
   return x;
@@ -197,10 +197,14 @@ void add_effect(const EffectTerm& term, const Subject& subject, std::size_t repl
       return;
     case EffectKind::kWitness: {
       const Witness& witness = *subject.find(term.witness);
-      to += coefficients(0) *
-            (in_part_of_the_frequencies(term)
-                 ? inverse_cosine_transform(witness_cosines(term, witness, replicate, rate))
-                 : witness_samples(term, witness, replicate, rate));
+      if (in_part_of_the_frequencies(term)) {
+        to += coefficients(0) *
+              inverse_cosine_transform(witness_cosines(term, witness, replicate, rate));
+      } else if (as_it_is(term)) {
+        to += coefficients(0) * witness.samples[replicate];
+      } else {
+        to += coefficients(0) * witness_samples(term, witness, replicate, rate);
+      }
       return;
     }
     case EffectKind::kTelegraph:

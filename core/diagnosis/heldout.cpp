@@ -16,10 +16,14 @@ using Index = Eigen::Index;
 constexpr std::size_t kBlocks = 4;    // of a single replicate, which stand in for replicates
 constexpr Index kShortestCut = 4096;  // samples
 
-WaveletVariance variance_of(const Eigen::VectorXd& samples, const Subject& subject) {
-  const auto n = static_cast<std::size_t>(samples.size());
-  const std::span<const double> all(samples.data(), n);
-  return wavelet_variance(Signal(all, subject.rate, subject.quantity), Scales::for_samples(n));
+Scales scales_of(const Eigen::VectorXd& samples) {
+  return Scales::for_samples(static_cast<std::size_t>(samples.size()));
+}
+
+WaveletVariance variance_of(const Eigen::VectorXd& samples, const Subject& subject,
+                            const Scales& scales) {
+  const std::span<const double> all(samples.data(), static_cast<std::size_t>(samples.size()));
+  return wavelet_variance(Signal(all, subject.rate, subject.quantity), scales);
 }
 
 // One number a replicate.
@@ -84,13 +88,15 @@ double Errors::total_likelihood() const {
 LeftOver left_over(const Trial& trial) {
   const Subject& subject = trial.regression.subject();
   LeftOver out{std::vector<WaveletVariance>(subject.replicates()), {}};
-  RunOffs run_off(trial);
+  std::vector<WaveletVariance> all(subject.replicates());
+  const Scales run_off = run_off_scales(subject);
   for_each_index(subject.replicates(), [&](std::size_t k) {
     const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
-    out.variances[k] = variance_of(left, subject);
-    run_off.add(k, left);
+    const Scales octaves = scales_of(left);
+    all[k] = variance_of(left, subject, octaves.with(run_off));
+    out.variances[k] = at_scales(all[k], octaves);
   });
-  out.run_off = run_off.found();
+  out.run_off = run_off_of(trial, all);
   return out;
 }
 
@@ -130,7 +136,9 @@ Errors heldout_errors(const Trial& trial) {
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
-    out.error[k] = wavelet_errors({variance_of(left_in(at, k), all.subject())}, noise).front();
+    const Eigen::VectorXd left = left_in(at, k);
+    out.error[k] =
+        wavelet_errors({variance_of(left, all.subject(), scales_of(left))}, noise).front();
     out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
   });
   return out;

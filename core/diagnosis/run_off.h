@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/diagnosis/candidates.h"
+#include "core/wavelet/wavelet_variance.h"
 
 namespace imunoise {
 
@@ -14,20 +15,11 @@ struct RunOff {
   double measured = 0.0;   ///< over all replicates, with the model's effects taken out
 };
 
-/// After 1, 10, 100 and 1000 s, as far as the replicates of a trial are long enough.
-class RunOffs {
- public:
-  explicit RunOffs(const Trial& trial);
-  /// Takes in a replicate, with the effects taken out. Thread-safe, each replicate once.
-  void add(std::size_t replicate, const Eigen::VectorXd& left);
-  /// Once all replicates are in.
-  std::vector<RunOff> found() const;
+/// The half-widths that run_off_of() takes: 1, 10, 100 and 1000 s, as far as the replicates are
+/// long enough.
+Scales run_off_scales(const Subject& subject);
 
- private:
-  const Trial* trial_;
-  std::vector<double> seconds_;
-  Scales half_widths_;
-  std::vector<Eigen::ArrayXd> each_;  // a replicate: its wavelet variance at the half-widths
-};
+/// `left`: what the effects of a trial leave of each replicate, at those scales and any others.
+std::vector<RunOff> run_off_of(const Trial& trial, const std::vector<WaveletVariance>& left);
 
 }  // namespace imunoise

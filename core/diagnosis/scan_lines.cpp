@@ -35,7 +35,7 @@ Eigen::ArrayXd gains(const Current& current, std::size_t k, Index padded) {
   const Eigen::VectorXd& u = current.weighted[k];
   std::vector<double> series(static_cast<std::size_t>(padded), 0.0);
   std::copy(u.data(), u.data() + u.size(), series.begin());
-  const std::vector<std::complex<double>> spectrum = half_spectrum(series);
+  const std::vector<std::complex<double>> spectrum = half_spectrum(std::move(series));
   Eigen::ArrayXd out(static_cast<Index>(spectrum.size()));
   for (Index i = 0; i < out.size(); ++i) {
     const double f = static_cast<double>(i) / static_cast<double>(padded);

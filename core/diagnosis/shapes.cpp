@@ -4,9 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <vector>
 
-#include "core/spectrum/fourier.h"
+#include "core/spectrum/turns.h"
+#include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
@@ -20,16 +20,19 @@ Eigen::ArrayXd times(Index n) {
 double scale_of(Index n) { return std::sqrt(2.0 / static_cast<double>(n)); }
 
 // Calls `one` with k, the cosine and the sine of half the angle θ_k = πk/n of coefficient k = 1 …
-// n-1.
+// n-1; on several threads. What is small has all its digits.
 template <class One>
 void for_each_coefficient(Index n, const One& one) {
-  const auto table = quarter_turns(static_cast<std::size_t>(n));
-  const std::vector<std::complex<double>>& turns = *table;
-  for (Index k = 1; k < n; ++k) {
-    const bool low = 2 * k <= n;
-    const std::complex<double> turn = turns[static_cast<std::size_t>(low ? k : n - k)];
-    one(k, low ? turn.real() : turn.imag(), low ? turn.imag() : turn.real());
-  }
+  constexpr Index kPiece = 1 << 16;
+  const Turns turns(4 * static_cast<std::size_t>(n));
+  for_each_index(static_cast<std::size_t>((n + kPiece - 1) / kPiece), [&](std::size_t piece) {
+    const Index begin = static_cast<Index>(piece) * kPiece;
+    for (Index k = std::max<Index>(begin, 1); k < std::min(n, begin + kPiece); ++k) {
+      const bool low = 2 * k <= n;
+      const std::complex<double> turn = turns(static_cast<std::size_t>(low ? k : n - k));
+      one(k, low ? turn.real() : turn.imag(), low ? turn.imag() : turn.real());
+    }
+  });
 }
 
 Eigen::VectorXd ramp_cosines(Index n, double rate) {
@@ -151,8 +154,11 @@ Shape step(Index at) {
 Shape waves(double frequency, int harmonics) {
   const auto omega = [=](int h) { return 2.0 * std::numbers::pi * (h + 1) * frequency; };
   return {[=](const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
-            for (int h = 0; h < harmonics; ++h)
-              add_wave(omega(h), coefficients(2 * h), coefficients(2 * h + 1), to);
+            for (int h = 0; h < harmonics; ++h) {
+              const double a = coefficients(2 * h);
+              const double b = coefficients(2 * h + 1);
+              if (a != 0.0 || b != 0.0) add_wave(omega(h), a, b, to);
+            }
           },
           [=](Index n) {
             Eigen::MatrixXd out(n - 1, 2 * harmonics);

@@ -30,7 +30,8 @@ StepProducts::StepProducts(const Eigen::VectorXd& weighted, const Eigen::ArrayXd
     turning += w * turn * turn;
   }
   path_ = static_cast<double>(n) * std::sqrt(turning / total);
-  for (const std::complex<double>& one : half_spectrum(weight)) wave_.push_back(one.real());
+  for (const std::complex<double>& one : half_spectrum(std::move(weight)))
+    wave_.push_back(one.real());
   for (Index t = n - 1; t >= 1; --t) product_(t) = product_(t + 1) + weighted(t);
 }
 

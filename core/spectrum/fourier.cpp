@@ -1,16 +1,18 @@
 #include "core/spectrum/fourier.h"
 
 #include <algorithm>
-#include <deque>
-#include <mutex>
-#include <numbers>
+#include <cmath>
 #include <unsupported/Eigen/FFT>
+
+#include "core/spectrum/turns.h"
 
 namespace imunoise {
 namespace {
 
-// Twiddle factors cost as much as a transform, and a recording's replicates have one length: each
-// thread keeps those of the lengths that it used last.
+template <class Number>
+using Complex = std::complex<Number>;
+
+// Each thread keeps the twiddle factors of the lengths that it used last.
 template <class Number>
 class Plans {
  public:
@@ -21,12 +23,11 @@ class Plans {
 
  private:
   Eigen::FFT<Number>& kept(std::size_t n) {
-    constexpr std::size_t kMostKept = 4;
+    constexpr std::size_t kMostKept = 16;
     if (std::find(lengths_.begin(), lengths_.end(), n) == lengths_.end()) {
       if (lengths_.size() == kMostKept) *this = Plans();
       lengths_.push_back(n);
     }
-    transform_.SetFlag(Eigen::FFT<Number>::HalfSpectrum);
     return transform_;
   }
 
@@ -34,56 +35,132 @@ class Plans {
   Eigen::FFT<Number> transform_;
 };
 
-using Turns = std::vector<std::complex<double>>;
-
-// Products of two short tables: a sine for each would take as long as the transform.
-Turns turns_of(std::size_t n) {
-  constexpr std::size_t kStretch = 512;
-  const double angle = 0.5 * std::numbers::pi / static_cast<double>(n);
-  Turns within(kStretch);
-  for (std::size_t k = 0; k < kStretch; ++k)
-    within[k] = std::polar(1.0, angle * static_cast<double>(k));
-  Turns out(n / 2 + 1);
-  for (std::size_t begin = 0; begin < out.size(); begin += kStretch) {
-    const std::complex<double> first = std::polar(1.0, angle * static_cast<double>(begin));
-    const std::size_t end = std::min(out.size(), begin + kStretch);
-    for (std::size_t k = begin; k < end; ++k) out[k] = first * within[k - begin];
+// Of n complex numbers; the inverse without its factor 1/n.
+template <class Number>
+void transform_at_once(const Complex<Number>* x, std::size_t n, bool inverse,
+                       Complex<Number>* out) {
+  if (n == 1) {
+    *out = *x;
+    return;
   }
+  Eigen::FFT<Number>& plan = Plans<Number>::of(n);
+  plan.SetFlag(Eigen::FFT<Number>::Unscaled);
+  const auto count = static_cast<Eigen::Index>(n);
+  if (inverse) {
+    plan.inv(out, x, count);
+  } else {
+    plan.fwd(out, x, count);
+  }
+}
+
+// The largest divisor of n that is at most its root.
+std::size_t middle_divisor(std::size_t n) {
+  auto out = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
+  while (n % out != 0) --out;
   return out;
+}
+
+// The same, x being overwritten. Of many numbers the transform does not fit the cache: laid out as
+// rows × columns it is a transform of each column, a turn of each number and a transform of each
+// row, read out by columns (Bailey 1990); a few columns, or rows, are gathered at a time.
+template <class Number>
+void transform(Complex<Number>* x, std::size_t n, bool inverse, Complex<Number>* out) {
+  constexpr std::size_t kFits = 4096;
+  const std::size_t rows = middle_divisor(n);
+  if (n <= kFits || rows == 1) return transform_at_once(x, n, inverse, out);
+  constexpr std::size_t kGathered = 16;
+  const std::size_t columns = n / rows;
+  const Turns turns(n);
+  std::vector<Complex<Number>> gathered(kGathered * columns);
+  std::vector<Complex<Number>> one(rows);
+  for (std::size_t begin = 0; begin < columns; begin += kGathered) {
+    const std::size_t count = std::min(kGathered, columns - begin);
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t c = 0; c < count; ++c) gathered[c * rows + r] = x[r * columns + begin + c];
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      transform_at_once(&gathered[c * rows], rows, inverse, one.data());
+      for (std::size_t r = 0; r < rows; ++r) {
+        const std::complex<double> turn = turns(r * (begin + c));
+        gathered[c * rows + r] =
+            one[r] * static_cast<Complex<Number>>(inverse ? turn : std::conj(turn));
+      }
+    }
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t c = 0; c < count; ++c) x[r * columns + begin + c] = gathered[c * rows + r];
+    }
+  }
+  for (std::size_t begin = 0; begin < rows; begin += kGathered) {
+    const std::size_t count = std::min(kGathered, rows - begin);
+    for (std::size_t r = 0; r < count; ++r)
+      transform_at_once(x + (begin + r) * columns, columns, inverse, &gathered[r * columns]);
+    for (std::size_t c = 0; c < columns; ++c) {
+      for (std::size_t r = 0; r < count; ++r) out[c * rows + begin + r] = gathered[r * columns + c];
+    }
+  }
+}
+
+// An even number of real ones are half as many complex ones, z_j = x_2j + i x_2j+1. With E and O
+// the transforms of those at even and odd places, Z = E + iO and X_k = E_k + w O_k, w =
+// e^{-2πik/n}, where E and O at h - k are the conjugates of those at k, h = n/2. From the numbers a
+// at k and b at h - k this makes f (a + b* ± (a - b*) v) there, the second of them conjugated: with
+// v = -iw X of Z, with v = iw* Z of X.
+template <class Number>
+void recombine(std::vector<Complex<Number>>& x, std::size_t n, Number f, bool inverse) {
+  const Turns turns(n);
+  const std::size_t half = n / 2;
+  for (std::size_t k = 0; 2 * k <= half; ++k) {
+    const std::complex<double> turn = turns(k);  // w*
+    const auto vr = static_cast<Number>(-turn.imag());
+    const auto vi = static_cast<Number>(inverse ? turn.real() : -turn.real());
+    Complex<Number>& a = x[k];
+    Complex<Number>& b = x[half - k];
+    const Number er = f * (a.real() + b.real());
+    const Number ei = f * (a.imag() - b.imag());
+    const Number dr = f * (a.real() - b.real());
+    const Number di = f * (a.imag() + b.imag());
+    const Number odd_r = dr * vr - di * vi;
+    const Number odd_i = dr * vi + di * vr;
+    a = {er + odd_r, ei + odd_i};
+    b = {er - odd_r, odd_i - ei};
+  }
 }
 
 }  // namespace
 
-std::vector<std::complex<double>> half_spectrum(std::span<const double> x) {
-  std::vector<std::complex<double>> out(x.size() / 2 + 1);
-  Plans<double>::of(x.size()).fwd(out.data(), x.data(), static_cast<Eigen::Index>(x.size()));
+std::vector<std::complex<double>> half_spectrum(std::vector<double> x) {
+  const std::size_t n = x.size();
+  if (n % 2 != 0) {
+    std::vector<std::complex<double>> whole(x.begin(), x.end());
+    std::vector<std::complex<double>> out(n);
+    transform(whole.data(), n, false, out.data());
+    out.resize(n / 2 + 1);
+    return out;
+  }
+  std::vector<std::complex<double>> out(n / 2 + 1);
+  transform(reinterpret_cast<std::complex<double>*>(x.data()), n / 2, false, out.data());
+  out.back() = out.front();
+  recombine(out, n, 0.5, false);
   return out;
 }
 
 template <class Number>
-std::vector<Number> from_half_spectrum(const std::vector<std::complex<Number>>& spectrum,
-                                       std::size_t n) {
+std::vector<Number> from_half_spectrum(std::vector<std::complex<Number>> spectrum, std::size_t n) {
+  const auto scale = static_cast<Number>(1.0 / static_cast<double>(n));
   std::vector<Number> out(n);
-  Plans<Number>::of(n).inv(out.data(), spectrum.data(), static_cast<Eigen::Index>(n));
+  if (n % 2 != 0) {
+    for (std::size_t k = n / 2; k > 0; --k) spectrum.push_back(std::conj(spectrum[k]));
+    std::vector<std::complex<Number>> whole(n);
+    transform(spectrum.data(), n, true, whole.data());
+    for (std::size_t t = 0; t < n; ++t) out[t] = scale * whole[t].real();
+    return out;
+  }
+  recombine(spectrum, n, scale, true);
+  transform(spectrum.data(), n / 2, true, reinterpret_cast<std::complex<Number>*>(out.data()));
   return out;
 }
 
-template std::vector<double> from_half_spectrum(const std::vector<std::complex<double>>&,
-                                                std::size_t);
-template std::vector<float> from_half_spectrum(const std::vector<std::complex<float>>&,
-                                               std::size_t);
-
-std::shared_ptr<const Turns> quarter_turns(std::size_t n) {
-  constexpr std::size_t kMostKept = 4;
-  static std::mutex mutex;
-  static std::deque<std::pair<std::size_t, std::shared_ptr<const Turns>>> kept;  // newest first
-  const std::lock_guard lock(mutex);
-  const auto found =
-      std::find_if(kept.begin(), kept.end(), [&](const auto& one) { return one.first == n; });
-  if (found != kept.end()) return found->second;
-  kept.emplace_front(n, std::make_shared<const Turns>(turns_of(n)));
-  if (kept.size() > kMostKept) kept.pop_back();
-  return kept.front().second;
-}
+template std::vector<double> from_half_spectrum(std::vector<std::complex<double>>, std::size_t);
+template std::vector<float> from_half_spectrum(std::vector<std::complex<float>>, std::size_t);
 
 }  // namespace imunoise

@@ -1,23 +1,17 @@
 #pragma once
 
 #include <complex>
-#include <memory>
-#include <span>
 #include <vector>
 
 namespace imunoise {
 
 /// Discrete Fourier transform of n ≥ 2 real numbers, X_k = Σ_t x_t e^{-2πikt/n}, at k = 0 … n/2.
-/// Quick for a quick_length(); what depends on the length alone is kept for the thread's next call.
-std::vector<std::complex<double>> half_spectrum(std::span<const double> x);
+/// Quick for a quick_length().
+std::vector<std::complex<double>> half_spectrum(std::vector<double> x);
 
 /// Its inverse: n numbers of their n/2 + 1 coefficients. `Number` is double, or float where errors
 /// of 1e-6 of the root mean square do not matter: less than half the time.
 template <class Number>
-std::vector<Number> from_half_spectrum(const std::vector<std::complex<Number>>& spectrum,
-                                       std::size_t n);
-
-/// e^{iπk/2n} at k = 0 … n/2, to 1e-15; those of the last few lengths are kept for all threads.
-std::shared_ptr<const std::vector<std::complex<double>>> quarter_turns(std::size_t n);
+std::vector<Number> from_half_spectrum(std::vector<std::complex<Number>> spectrum, std::size_t n);
 
 }  // namespace imunoise

@@ -24,6 +24,7 @@ class SharedVector : public Eigen::Map<const Eigen::VectorXd> {
   SharedVector& operator=(const SharedVector& other) {
     if (this == &other) return *this;
     owner_ = other.owner_;
+    // As Eigen says that a Map is made one of other numbers.
     new (static_cast<Numbers*>(this)) Numbers(other.data(), other.size());
     return *this;
   }

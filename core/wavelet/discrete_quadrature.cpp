@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 namespace imunoise {
 namespace {
@@ -51,9 +52,7 @@ struct Recurrence {
   }
 };
 
-}  // namespace
-
-DiscreteRule discrete_rule(std::int64_t points) {
+DiscreteRule made(std::int64_t points) {
   assert(points >= DiscreteRule::kLeastPoints);
   const Recurrence recurrence(points);
   const double half = 0.5 * recurrence.points;
@@ -72,6 +71,16 @@ DiscreteRule discrete_rule(std::int64_t points) {
     out.weights[static_cast<std::size_t>(i)] = 1.0 / value.norm;
   }
   return out;
+}
+
+}  // namespace
+
+DiscreteRule discrete_rule(std::int64_t points) {
+  constexpr std::size_t kMostKept = 512;
+  thread_local std::unordered_map<std::int64_t, DiscreteRule> kept;
+  if (const auto found = kept.find(points); found != kept.end()) return found->second;
+  if (kept.size() == kMostKept) kept.clear();
+  return kept.emplace(points, made(points)).first->second;
 }
 
 }  // namespace imunoise

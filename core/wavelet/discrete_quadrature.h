@@ -14,7 +14,7 @@ struct DiscreteRule {
   std::array<double, kOrder> weights;
 };
 
-/// The rule for N points, N ≥ kLeastPoints.
+/// The rule for N points, N ≥ kLeastPoints. The thread's last few hundred are kept.
 DiscreteRule discrete_rule(std::int64_t points);
 
 }  // namespace imunoise

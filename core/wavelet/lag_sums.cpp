@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
 
 #include "core/support/parallel.h"
 #include "core/wavelet/discrete_quadrature.h"
@@ -17,13 +16,12 @@ namespace {
 class Summation {
  public:
   Summation(std::int64_t samples, std::int64_t mj, std::int64_t mk,
-            const std::vector<ScaleCovariance>& gammas, std::map<std::int64_t, DiscreteRule>& rules)
+            const std::vector<ScaleCovariance>& gammas)
       : samples_(static_cast<double>(samples)),
         mj_(static_cast<double>(mj)),
         mk_(static_cast<double>(mk)),
         gammas_(gammas),
-        values_(static_cast<Eigen::Index>(gammas.size())),
-        rules_(rules) {
+        values_(static_cast<Eigen::Index>(gammas.size())) {
     const auto size = static_cast<Eigen::Index>(gammas.size());
     products = Eigen::MatrixXd::Zero(size, size);
     plain = Eigen::VectorXd::Zero(size);
@@ -55,11 +53,9 @@ class Summation {
       if (done < reach_ || length < DiscreteRule::kLeastPoints) {
         for (std::int64_t s = from; s < from + length; ++s) add(static_cast<double>(s), 1.0);
       } else {
-        auto found = rules_.find(length);
-        if (found == rules_.end()) found = rules_.emplace(length, discrete_rule(length)).first;
-        for (std::size_t i = 0; i < DiscreteRule::kOrder; ++i) {
-          add(static_cast<double>(from) + found->second.nodes[i], found->second.weights[i]);
-        }
+        const DiscreteRule rule = discrete_rule(length);
+        for (std::size_t i = 0; i < DiscreteRule::kOrder; ++i)
+          add(static_cast<double>(from) + rule.nodes[i], rule.weights[i]);
       }
       done += length;
     }
@@ -91,7 +87,6 @@ class Summation {
   double mk_;
   const std::vector<ScaleCovariance>& gammas_;
   Eigen::VectorXd values_;
-  std::map<std::int64_t, DiscreteRule>& rules_;
   std::int64_t reach_ = 0;
 };
 
@@ -125,7 +120,6 @@ LagSums::LagSums(std::span<const SumCovariance> processes, const Scales& scales,
   // Rows are unequal in cost: hand out the longest first.
   for_each_index(scales.size(), [&](std::size_t row) {
     const std::size_t j = scales.size() - 1 - row;
-    std::map<std::int64_t, DiscreteRule> rules;
     for (std::size_t k = 0; k <= j; ++k) {
       std::vector<ScaleCovariance> gammas;
       double tail = 0.0;
@@ -135,7 +129,7 @@ LagSums::LagSums(std::span<const SumCovariance> processes, const Scales& scales,
       }
       const auto reach = static_cast<std::int64_t>(std::min(tail, static_cast<double>(samples)));
       const std::vector<std::int64_t> breaks = break_points(scales[j], scales[k], total, reach);
-      Summation sum(total, scales[j], scales[k], gammas, rules);
+      Summation sum(total, scales[j], scales[k], gammas);
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         sum.add_interval(breaks[i], breaks[i + 1]);
       }

@@ -51,7 +51,7 @@ class ScaleCovariance {
         sum += weight * lag * (linear_ + cubic_ * lag * lag);
       });
     }
-    if (beyond < static_cast<double>(process_.near.size())) {
+    if (!process_.near.empty() && beyond < static_cast<double>(process_.near.size())) {
       for_each_lag(s, [&](double weight, double lag) {
         const auto at = static_cast<std::size_t>(lag);
         if (at < process_.near.size()) sum += weight * process_.near[at];
@@ -123,6 +123,7 @@ class ScaleCovariance {
 
   double exponential(const Exponential& e, double s, double beyond) const {
     if (beyond > 0.0) {
+      if (!(e.rate.real() * beyond < kNothing)) return 0.0;
       if (e.real) return e.tail.real() * std::exp(-e.rate.real() * beyond);
       return (e.tail * std::exp(-e.rate * beyond)).real();
     }
@@ -140,8 +141,11 @@ class ScaleCovariance {
       return sum * e.kernel.real();
     }
     for_each_lag(s, [&](double weight, double lag) {
-      const Complex value = e.split ? exponential_remainder(e.rate * lag) : std::exp(-e.rate * lag);
-      sum += weight * (e.kernel * value).real();
+      if (e.split) {
+        sum += weight * (e.kernel * exponential_remainder(e.rate * lag)).real();
+      } else if (e.rate.real() * lag < kNothing) {
+        sum += weight * (e.kernel * std::exp(-e.rate * lag)).real();
+      }
     });
     return sum;
   }

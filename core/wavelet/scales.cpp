@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <iterator>
 
 namespace imunoise {
 
@@ -30,6 +31,12 @@ Eigen::ArrayXd Scales::half_widths() const {
   std::transform(begin(), end(), out.begin(),
                  [](std::int64_t m) { return static_cast<double>(m); });
   return out;
+}
+
+Scales Scales::with(const Scales& others) const {
+  std::vector<std::int64_t> all;
+  std::set_union(begin(), end(), others.begin(), others.end(), std::back_inserter(all));
+  return Scales(std::move(all));
 }
 
 Scales Scales::where(const std::vector<bool>& keep) const {

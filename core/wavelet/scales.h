@@ -30,6 +30,8 @@ class Scales {
 
   /// The half-widths as numbers.
   Eigen::ArrayXd half_widths() const;
+  /// These and others, each once.
+  Scales with(const Scales& others) const;
   /// Only the scales at which `keep` is true (one entry a scale).
   Scales where(const std::vector<bool>& keep) const;
 

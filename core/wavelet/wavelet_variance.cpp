@@ -53,6 +53,19 @@ WaveletVariance wavelet_variance(const Signal& signal, const Scales& scales, dou
   return out;
 }
 
+WaveletVariance at_scales(const WaveletVariance& wv, const Scales& scales) {
+  WaveletVariance out = wv;
+  out.scales = scales;
+  out.variance.resize(static_cast<Eigen::Index>(scales.size()));
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const auto found = std::lower_bound(wv.scales.begin(), wv.scales.end(), scales[i]);
+    assert(found != wv.scales.end() && *found == scales[i]);
+    out.variance(static_cast<Eigen::Index>(i)) = wv.variance(found - wv.scales.begin());
+  }
+  set_chi_square_interval(out);
+  return out;
+}
+
 Eigen::ArrayXd equivalent_degrees(const Scales& scales, std::size_t samples) {
   const Eigen::ArrayXd m = scales.half_widths();
   return ((static_cast<double>(samples) - 2.0 * m + 1.0) / (2.0 * m)).max(1.0);

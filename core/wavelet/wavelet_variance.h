@@ -33,6 +33,9 @@ struct WaveletVariance {
 WaveletVariance wavelet_variance(const Signal& signal, const Scales& scales,
                                  double confidence = 0.95, const Progress& progress = {});
 
+/// Some of the scales of a classical estimate. Precondition: it has them.
+WaveletVariance at_scales(const WaveletVariance& wv, const Scales& scales);
+
 /// Equivalent degrees of freedom max(M/2m, 1) of each scale (Percival & Walden 2000, η3).
 Eigen::ArrayXd equivalent_degrees(const Scales& scales, std::size_t samples);
 /// Fills edof from scales and samples, and then the interval.

@@ -8,6 +8,7 @@
 #include <ostream>
 #include <utility>
 
+#include "core/support/memory.h"
 #include "daemon/process/program.h"
 #include "study/report/json.h"
 
@@ -49,6 +50,7 @@ class Reports {
 }  // namespace
 
 int compute_for_parent(std::istream& in, std::ostream& out) {
+  keep_freed_memory();
   const std::string text(std::istreambuf_iterator<char>(in), {});
   v1::JobOrder order;
   if (!JsonStringToMessage(text, &order).ok()) return 2;

@@ -21,7 +21,14 @@ Result<v1::Study> compute_here(const v1::JobOrder& order, const Progress& progre
     const Progress only_stopping = progress.part(0.0, 0.0);
     return recording::import_recording(*files, input.files(0), options, only_stopping);
   };
-  return study::apply(order.study(), order.request(), read, progress);
+  // What a recording showed is known only to who may read it.
+  const bool opens = order.request().has_open();
+  const v1::StudyInput& input = opens ? order.request().open().input() : order.study().input();
+  const bool may = input.files_size() == 1 && files->list(input.files(0));
+  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30U;  // recordings need the disk
+  std::optional<study::SeenPlaces> keep;
+  if (may) keep = study::SeenPlaces{.beside = false, .other = order.cache(), .most_bytes = kMost};
+  return study::apply(order.study(), order.request(), read, progress, keep);
 }
 
 }  // namespace imunoise::service

@@ -99,6 +99,7 @@ class StudyMethods {
     *order.mutable_study() = std::move(study);
     *order.mutable_request() = asked;
     for (const auto& one : records_.folders()) order.add_folders(one.string());
+    order.set_cache(studies_.cache().string());
     return compute_(order, progress);
   }
 

@@ -25,6 +25,8 @@ class StudyStore {
   /// Error: 400 for a name that is none, 404, 500 where the file is damaged.
   Answer<v1::Study> read(const std::string& name) const;
   bool contains(const std::string& name) const;
+  /// The folder for what can be worked out again; it may not be there.
+  std::filesystem::path cache() const { return folder_ / ".imunoise"; }
   /// Makes the folder, too. After a power cut there is nothing or the whole study. Error: there is
   /// one of this name; the disk's.
   Result<void> create(const std::string& name, const v1::Study& study);

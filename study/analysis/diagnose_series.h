@@ -7,7 +7,7 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/diagnosis.pb.h"
-#include "recording/import/channel.h"
+#include "study/analysis/seen_channel.h"
 
 namespace imunoise::study {
 
@@ -16,7 +16,6 @@ struct DiagnoseOptions {
   std::optional<std::string> model;
   std::vector<std::string> witnesses;  ///< names of channels; empty: all but the one diagnosed
   bool automatic = false;              ///< add what is found, and go on
-  bool search = true;                  ///< false: fit the model and judge it, seek nothing
   int foretold = 0;                    ///< of so many candidates the next rung is worked out
   double level = 0.05;                 ///< chance of a false alarm over all candidates
 };
@@ -26,5 +25,15 @@ struct DiagnoseOptions {
 Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recordings,
                                             std::size_t channel, const DiagnoseOptions& options,
                                             const Progress& progress = {});
+
+/// The same of a channel that was looked at beside the witnesses that may be blamed;
+/// `options.witnesses` is not heeded.
+Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
+                                             const DiagnoseOptions& options,
+                                             const Progress& progress = {});
+
+/// The simplest sub-model of the default that predicts replicates as well as the best does
+/// (CV-WVIC).
+Result<std::string> model_for(const RecordedChannel& look, const Progress& progress = {});
 
 }  // namespace imunoise::study

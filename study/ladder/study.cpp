@@ -6,6 +6,7 @@
 
 #include "recording/store/crc32c.h"
 #include "study/analysis/diagnose_series.h"
+#include "study/analysis/judge.h"
 #include "study/analysis/series.h"
 
 namespace imunoise::study {
@@ -24,22 +25,18 @@ std::uint32_t fingerprint(const Series& series) {
       {reinterpret_cast<const char*>(kept.data()), kept.size() * sizeof(double)});
 }
 
-Result<v1::DiagnosisReport> report_of(v1::Study& study, const std::string& model, bool search,
-                                      const ReadInput& read, const Progress& progress) {
-  const auto recordings = read(study.input(), study.channel());
-  if (!recordings) return tl::unexpected(recordings.error());
-  const auto channel = channel_called(study.channel(), recordings->front());
-  if (!channel) return tl::unexpected(channel.error());
-  const std::uint32_t samples = fingerprint(series_of(*recordings, *channel));
-  if (study.fingerprint() != 0 && study.fingerprint() != samples)
-    return fail("the recordings are not those that the study began with; start another study");
-  study.set_fingerprint(samples);
-  DiagnoseOptions options;
-  if (!model.empty()) options.model = model;
-  options.witnesses.assign(study.witnesses().begin(), study.witnesses().end());
-  options.search = search;
-  options.foretold = search ? kForetold : 0;
-  return diagnose_series(*recordings, *channel, options, progress);
+Result<void> same_samples(const v1::Study& study, std::uint32_t samples) {
+  if (study.fingerprint() == 0 || study.fingerprint() == samples) return {};
+  return fail("the recordings are not those that the study began with; start another study");
+}
+
+// Whether a witness has as many samples as the channel in each replicate.
+bool is_beside(const Witness& witness, const Subject& subject) {
+  if (witness.samples.size() != subject.replicates()) return false;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    if (witness.samples[k].size() != subject.length(k)) return false;
+  }
+  return true;
 }
 
 // A study tells likelihoods over that of its first model.
@@ -47,16 +44,118 @@ void count_from_first(const v1::Study& study, v1::Rung& rung) {
   rung.set_log_likelihood(rung.log_likelihood() - study.first_log_likelihood());
 }
 
-// Fits a model and judges it.
-Result<v1::Rung> climbed(v1::Study& study, const std::string& model, const std::string& added,
-                         const ReadInput& read, const Progress& progress) {
-  auto report = report_of(study, model, false, read, progress);
-  if (!report) return tl::unexpected(report.error());
-  study.set_channel(report->channel());
-  v1::Rung rung = std::move(*report->mutable_ladder(0));
-  rung.set_added(added);
-  if (study.attempts_size() == 0) study.set_first_log_likelihood(rung.log_likelihood());
-  count_from_first(study, rung);
+// Does what is asked of one study.
+class Operation {
+ public:
+  Operation(v1::Study& study, const ReadInput& read, const Progress& progress,
+            const std::optional<SeenPlaces>& keep)
+      : study_(study), read_(read), progress_(progress), keep_(keep) {}
+
+  Result<void> open(const v1::StudyRequest::Open& request);
+  Result<void> seek();
+  Result<void> add(const v1::StudyRequest::Add& request);
+  Result<void> undo();
+
+ private:
+  WitnessNames allowed() const {
+    if (study_.witnesses().empty()) return std::nullopt;
+    return std::vector<std::string>(study_.witnesses().begin(), study_.witnesses().end());
+  }
+  bool may_name(const std::string& witness) const;
+  Result<WitnessNames> needed_by(const std::string& model,
+                                 const recording::Replicate& recording) const;
+  Result<RecordedChannel> looked(const std::optional<std::string>& model);
+  Result<std::optional<SeenChannel>> seen_before(const std::string& model) const;
+  Result<v1::Rung> climbed(const std::string& model, const std::string& added,
+                           std::optional<SeenChannel> seen, const Progress& progress);
+
+  v1::Study& study_;
+  const ReadInput& read_;
+  const Progress& progress_;
+  const std::optional<SeenPlaces>& keep_;
+  std::optional<SeenFolder> folder_;  // of what was read
+};
+
+bool Operation::may_name(const std::string& witness) const {
+  const WitnessNames may = allowed();
+  return !may || std::find(may->begin(), may->end(), witness) != may->end();
+}
+
+// Those that a model follows; all, where it follows one that there is not, so that it can be said
+// which there are.
+Result<WitnessNames> Operation::needed_by(const std::string& model,
+                                          const recording::Replicate& recording) const {
+  const auto read = parse_full_model(model, recording.rate);
+  if (!read) return tl::unexpected(read.error());
+  WitnessNames out = witnesses_of(*read);
+  for (const std::string& name : *out) {
+    const bool recorded = std::any_of(recording.channels.begin(), recording.channels.end(),
+                                      [&](const auto& one) { return one.name == name; });
+    if (!recorded || !may_name(name) || name == study_.channel()) return allowed();
+  }
+  return out;
+}
+
+// Reads the recordings: a channel beside the witnesses that a model needs, or all.
+Result<RecordedChannel> Operation::looked(const std::optional<std::string>& model) {
+  if (keep_) folder_.emplace(study_.input(), *keep_);
+  auto recordings = read_(study_.input(), study_.channel());
+  if (!recordings) return tl::unexpected(recordings.error());
+  const auto channel = channel_called(study_.channel(), recordings->front());
+  if (!channel) return tl::unexpected(channel.error());
+  const std::uint32_t samples = fingerprint(series_of(*recordings, *channel));
+  if (auto same = same_samples(study_, samples); !same) return tl::unexpected(same.error());
+  if (auto known = check_witnesses(allowed(), recordings->front()); !known)
+    return tl::unexpected(known.error());
+  const Result<WitnessNames> witnesses = model ? needed_by(*model, recordings->front()) : allowed();
+  if (!witnesses) return tl::unexpected(witnesses.error());
+  auto out = look_at(std::move(*recordings), *channel, *witnesses, progress_.part(0.0, 0.1));
+  if (!out) return out;
+  out->seen.fingerprint = samples;
+  study_.set_fingerprint(samples);
+  study_.set_channel(out->seen.name);
+  return out;
+}
+
+// What was kept, with the witnesses that a model follows; nothing if any of it is missing. Error: a
+// model that cannot be read.
+Result<std::optional<SeenChannel>> Operation::seen_before(const std::string& model) const {
+  const std::optional<SeenChannel> nothing;
+  if (!keep_ || study_.fingerprint() == 0) return nothing;
+  const SeenFolder folder(study_.input(), *keep_);
+  auto out = folder.find(study_.channel());
+  if (!out || out->fingerprint != study_.fingerprint()) return nothing;
+  const auto read = parse_full_model(model, out->subject->rate);
+  if (!read) return tl::unexpected(read.error());
+  Subject subject = *out->subject;
+  for (const std::string& name : witnesses_of(*read)) {
+    if (!may_name(name)) return nothing;
+    auto witness = folder.find_witness(study_.channel(), name);
+    if (!witness || !is_beside(*witness, subject)) return nothing;
+    subject.witnesses.push_back(std::move(*witness));
+  }
+  out->subject = std::make_shared<const Subject>(std::move(subject));
+  return out;
+}
+
+// Fits a model and judges it. `seen`: where the channel was looked at already.
+Result<v1::Rung> Operation::climbed(const std::string& model, const std::string& added,
+                                    std::optional<SeenChannel> seen, const Progress& progress) {
+  if (!seen) {
+    auto before = seen_before(model);
+    if (!before) return tl::unexpected(before.error());
+    seen = std::move(*before);
+  }
+  if (!seen) {
+    auto look = looked(model);
+    if (!look) return tl::unexpected(look.error());
+    seen = std::move(look->seen);
+  }
+  auto rung = judge(model, *seen, {.added = added, .why = ""}, progress);
+  if (!rung) return rung;
+  if (folder_) folder_->keep(*seen);
+  if (study_.attempts_size() == 0) study_.set_first_log_likelihood(rung->log_likelihood());
+  count_from_first(study_, *rung);
   return rung;
 }
 
@@ -84,74 +183,90 @@ void append(v1::Study& study, std::optional<std::uint32_t> parent, v1::Rung rung
   study.clear_diagnosis();
 }
 
-Result<void> open(v1::Study& study, const v1::StudyRequest::Open& request, const ReadInput& read,
-                  const Progress& progress) {
-  study.Clear();
-  study.set_version(1);
-  *study.mutable_input() = request.input();
-  study.set_channel(request.channel());
-  *study.mutable_witnesses() = request.witnesses();
-  auto rung = climbed(study, request.model(), "", read, progress);
+Result<void> Operation::open(const v1::StudyRequest::Open& request) {
+  study_.Clear();
+  study_.set_version(1);
+  *study_.mutable_input() = request.input();
+  study_.set_channel(request.channel());
+  *study_.mutable_witnesses() = request.witnesses();
+  Result<std::string> model = request.model();
+  std::optional<SeenChannel> seen;
+  if (model->empty()) {
+    auto look = looked("WN");  // no model needs fewer witnesses
+    if (!look) return tl::unexpected(look.error());
+    model = model_for(*look, progress_.part(0.1, 0.5));
+    if (!model) return tl::unexpected(model.error());
+    seen = std::move(look->seen);
+  }
+  const Progress rest = progress_.part(seen ? 0.5 : 0.1, 1.0);
+  auto rung = climbed(*model, "", std::move(seen), rest);
   if (!rung) return tl::unexpected(rung.error());
-  append(study, std::nullopt, std::move(*rung));
+  append(study_, std::nullopt, std::move(*rung));
   return {};
 }
 
-Result<void> add(v1::Study& study, const v1::StudyRequest::Add& request, const ReadInput& read,
-                 const Progress& progress) {
-  const std::uint32_t from = request.has_branch_from() ? request.branch_from() : study.current();
-  if (from >= static_cast<std::uint32_t>(study.attempts_size()))
+Result<void> Operation::add(const v1::StudyRequest::Add& request) {
+  const std::uint32_t from = request.has_branch_from() ? request.branch_from() : study_.current();
+  if (from >= static_cast<std::uint32_t>(study_.attempts_size()))
     return fail(
-        fmt::format("attempt {}: there are {}, counted from 0", from, study.attempts_size()));
-  if (auto known = known_rung(study, from, request.term())) {
-    append(study, from, std::move(*known));
+        fmt::format("attempt {}: there are {}, counted from 0", from, study_.attempts_size()));
+  if (auto known = known_rung(study_, from, request.term())) {
+    append(study_, from, std::move(*known));
     return {};
   }
-  const std::string& model = study.attempts(static_cast<int>(from)).rung().model();
-  auto rung =
-      climbed(study, fmt::format("{} + {}", model, request.term()), request.term(), read, progress);
+  const std::string& model = study_.attempts(static_cast<int>(from)).rung().model();
+  auto rung = climbed(fmt::format("{} + {}", model, request.term()), request.term(), std::nullopt,
+                      progress_.part(0.1, 1.0));
   if (!rung) return tl::unexpected(rung.error());
-  append(study, from, std::move(*rung));
+  append(study_, from, std::move(*rung));
   return {};
 }
 
-Result<void> undo(v1::Study& study) {
-  v1::StudyAttempt& attempt = *study.mutable_attempts(static_cast<int>(study.current()));
+Result<void> Operation::undo() {
+  v1::StudyAttempt& attempt = *study_.mutable_attempts(static_cast<int>(study_.current()));
   if (!attempt.has_parent()) return fail("nothing to undo: this is the study's first model");
   attempt.set_undone(true);
-  study.set_current(attempt.parent());
-  study.clear_diagnosis();
+  study_.set_current(attempt.parent());
+  study_.clear_diagnosis();
   return {};
 }
 
-Result<void> seek(v1::Study& study, const ReadInput& read, const Progress& progress) {
-  auto report = report_of(study, current_model(study), true, read, progress);
+Result<void> Operation::seek() {
+  const auto look = looked(std::nullopt);
+  if (!look) return tl::unexpected(look.error());
+  if (folder_) folder_->keep(look->seen);
+  DiagnoseOptions options;
+  options.model = current_model(study_);
+  options.foretold = kForetold;
+  auto report = diagnose_channel(*look, options, progress_.part(0.1, 1.0));
   if (!report) return tl::unexpected(report.error());
   for (v1::EffectCandidate& one : *report->mutable_candidates()) {
-    if (one.has_next()) count_from_first(study, *one.mutable_next());
+    if (one.has_next()) count_from_first(study_, *one.mutable_next());
   }
-  *study.mutable_diagnosis() = std::move(*report);
+  *study_.mutable_diagnosis() = std::move(*report);
   return {};
 }
 
 }  // namespace
 
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
-                        const ReadInput& read, const Progress& progress) {
+                        const ReadInput& read, const Progress& progress,
+                        const std::optional<SeenPlaces>& keep) {
   v1::Study out = study;
+  Operation operation(out, read, progress, keep);
   Result<void> done;
   switch (request.operation_case()) {
     case v1::StudyRequest::kOpen:
-      done = open(out, request.open(), read, progress);
+      done = operation.open(request.open());
       break;
     case v1::StudyRequest::kCandidates:
-      done = seek(out, read, progress);
+      done = operation.seek();
       break;
     case v1::StudyRequest::kAdd:
-      done = add(out, request.add(), read, progress);
+      done = operation.add(request.add());
       break;
     case v1::StudyRequest::kUndo:
-      done = undo(out);
+      done = operation.undo();
       break;
     case v1::StudyRequest::OPERATION_NOT_SET:
       return fail("the request asks nothing of the study");

@@ -4,11 +4,13 @@
 // back.
 
 #include <functional>
+#include <optional>
 
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/study.pb.h"
 #include "recording/import/channel.h"
+#include "study/seen/seen_folder.h"
 
 namespace imunoise::study {
 
@@ -18,9 +20,11 @@ using ReadInput = std::function<Result<std::vector<recording::Replicate>>(
 
 /// Does what a request asks of a study; `study` is empty for an Open. Nothing changes on an error:
 /// a file, channel or model that cannot be read, a term that does not fit, nothing to undo, an
-/// attempt that does not exist, or the caller stopped it.
+/// attempt that does not exist, or the caller stopped it. What was worked out of the recordings is
+/// kept where `keep` says; unset: nowhere.
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
-                        const ReadInput& read, const Progress& progress = {});
+                        const ReadInput& read, const Progress& progress = {},
+                        const std::optional<SeenPlaces>& keep = std::nullopt);
 
 /// The current model, in the grammar.
 const std::string& current_model(const v1::Study& study);

@@ -14,6 +14,7 @@
 
 #include "core/model/model.h"
 #include "study/analysis/diagnose_series.h"
+#include "study/analysis/judge.h"
 #include "study/ladder/study_file.h"
 namespace imunoise::study {
 namespace {
@@ -311,11 +312,11 @@ TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {
   EXPECT_EQ(step.parameters(1).value(), 2.0);
   EXPECT_NE(step.term().find("replicate=2"), std::string::npos) << step.term();
   // The term that was printed means the same when it is read.
-  options.model = "WN + RW + QN + " + step.term();
-  options.search = false;
-  const auto with = diagnose_series(recordings, 0, options);
+  const auto look = look_at(recordings, 0, {});
+  ASSERT_TRUE(look) << look.error().message;
+  const auto with = judge("WN + RW + QN + " + step.term(), look->seen, {});
   ASSERT_TRUE(with) << with.error().message;
-  EXPECT_NEAR(with->ladder(0).heldout_error(), step.heldout_error_after(), 1e-3);
+  EXPECT_NEAR(with->heldout_error(), step.heldout_error_after(), 1e-3);
   // Stretches of time are those of the recording, too.
   EXPECT_NEAR(report->compared_before().times(32).from(), 30.0, 1e-9);
   EXPECT_EQ(report->compared_before().times(32).replicate(), "run2#2");

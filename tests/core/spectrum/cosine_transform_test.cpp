@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/spectrum/banded_power.h"
-#include "core/spectrum/fourier.h"
+#include "core/spectrum/turns.h"
 
 namespace imunoise {
 namespace {
@@ -45,6 +45,23 @@ TEST(CosineTransform, IsWhatItsFormulaSays) {
   }
 }
 
+// Long ones are cut in rows and columns.
+TEST(CosineTransform, IsWhatItsFormulaSaysOfLongSeries) {
+  for (const Eigen::Index n : {16384, 30030, 27027, 15625}) {
+    const Eigen::VectorXd x = some_series(n);
+    const Eigen::VectorXd all = cosine_transform(x);
+    for (const Eigen::Index k : {Eigen::Index{1}, Eigen::Index{2}, n / 3, n / 2, n - 1}) {
+      double direct = 0.0;
+      for (Eigen::Index t = 0; t < n; ++t)
+        direct +=
+            x(t) * std::cos(std::numbers::pi * static_cast<double>(k * (2 * t + 1) % (4 * n)) /
+                            (2.0 * static_cast<double>(n)));
+      direct *= std::sqrt(2.0 / static_cast<double>(n));
+      EXPECT_NEAR(all(k - 1), direct, 1e-12 * x.norm()) << n << " " << k;
+    }
+  }
+}
+
 // White coefficients, for which the rough one is meant, of a length with every quick factor.
 TEST(CosineTransform, RoughOrNotTheInverseGivesTheSeriesBack) {
   for (const Eigen::Index n : {2, 7, 12, 65, 1001, 30030}) {
@@ -57,14 +74,12 @@ TEST(CosineTransform, RoughOrNotTheInverseGivesTheSeriesBack) {
   }
 }
 
-TEST(CosineTransform, QuarterTurnsAreExactFarOut) {
-  constexpr std::size_t kN = 1'000'000;
-  const auto turns = quarter_turns(kN);
-  ASSERT_EQ(turns->size(), kN / 2 + 1);
-  for (const std::size_t k :
-       {std::size_t{0}, std::size_t{511}, std::size_t{512}, std::size_t{77777}, kN / 2}) {
-    const double angle = std::numbers::pi * static_cast<double>(k) / (2.0 * kN);
-    EXPECT_LT(std::abs((*turns)[k] - std::polar(1.0, angle)), 1e-15) << k;
+TEST(Turns, AreExactFarOut) {
+  constexpr std::size_t kN = 4'000'000;
+  const Turns turns(kN);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1023}, std::size_t{1024}, kN / 3, kN}) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kN;
+    EXPECT_LT(std::abs(turns(k) - std::polar(1.0, angle)), 1e-15) << k;
   }
 }
 

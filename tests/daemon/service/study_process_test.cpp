@@ -62,6 +62,19 @@ TEST_F(StudyProcess, ReadsNothingOutsideItsFolders) {
   v1::JobOrder order = opening();
   order.set_folders(0, (folder_.path() / "data/other").string());
   EXPECT_FALSE(app::compute_in_child(kProgram)(order, {}).has_value());
+  const auto cache = folder_.path() / "cache";
+  EXPECT_FALSE(std::filesystem::exists(cache));
+
+  // Not even what a recording showed before.
+  v1::JobOrder adding = opening();
+  adding.set_cache(cache.string());
+  *adding.mutable_study() = service::compute_here(adding, {}).value();
+  EXPECT_FALSE(std::filesystem::is_empty(cache));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "data/array/monday/.imunoise"));
+  adding.mutable_request()->mutable_add()->set_term("RW");
+  EXPECT_TRUE(app::compute_in_child(kProgram)(adding, {}).has_value());
+  adding.set_folders(0, (folder_.path() / "data/other").string());
+  EXPECT_FALSE(app::compute_in_child(kProgram)(adding, {}).has_value());
 }
 
 TEST_F(StudyProcess, EndsWhenItIsAsked) {

@@ -1,0 +1,14 @@
+#include "core/support/memory.h"
+
+#include <malloc.h>
+
+namespace imunoise {
+
+void keep_freed_memory() {
+  constexpr int kLongestKept = 32 << 20;  // bytes at once; the most that malloc takes
+  constexpr int kKept = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, kLongestKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+}
+
+}  // namespace imunoise

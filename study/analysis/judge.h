@@ -1,0 +1,29 @@
+#pragma once
+
+// How well a model does, once it is fitted: a rung of the ladder.
+
+#include <string>
+
+#include "core/model/effect_term.h"
+#include "study/analysis/diagnosis_report.h"
+#include "study/analysis/seen_channel.h"
+
+namespace imunoise::study {
+
+/// The model with starting values for its noise: those that fit the moments of the channel as it
+/// is. Error: a model that cannot be read, more parameters than scales, an effect that the channel
+/// cannot show or whose witness it lacks.
+Result<FullModel> started(const std::string& model, const SeenChannel& seen,
+                          const Progress& progress = {});
+
+/// Fits a model and judges it. Error: as started(), or the caller stopped it.
+Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const Step& step,
+                       const Progress& progress = {});
+
+/// Error on replicates that the model was not fitted to; none where nothing can be held out.
+std::optional<Errors> errors_held_out(const Trial& model);
+
+/// The channels that a model's effects follow.
+std::vector<std::string> witnesses_of(const FullModel& model);
+
+}  // namespace imunoise::study

@@ -1,0 +1,71 @@
+#include "study/analysis/seen_channel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/spectrum/cross_power.h"
+#include "study/analysis/measure.h"
+#include "study/analysis/prepare.h"
+#include "study/analysis/series.h"
+
+namespace imunoise::study {
+namespace {
+
+std::vector<NamedChannel> beside(const std::vector<recording::Replicate>& recordings,
+                                 std::size_t channel, const WitnessNames& wanted) {
+  const std::vector<recording::Channel>& known = recordings.front().channels;
+  std::vector<NamedChannel> out;
+  for (std::size_t c = 0; c < known.size(); ++c) {
+    const bool asked =
+        !wanted || std::find(wanted->begin(), wanted->end(), known[c].name) != wanted->end();
+    if (c == channel || !asked) continue;
+    const Series series = series_of(recordings, c);
+    const Unit& unit = known[c].unit;
+    out.push_back({series.channel, series.replicates,
+                   unit.quantity == Quantity::kUnknown ? unit.symbol : ""});
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<void> check_witnesses(const WitnessNames& witnesses, const recording::Replicate& in) {
+  for (const std::string& name : witnesses.value_or(std::vector<std::string>())) {
+    const bool exists =
+        std::any_of(in.channels.begin(), in.channels.end(),
+                    [&](const recording::Channel& one) { return one.name == name; });
+    if (!exists) return fail(fmt::format("witness {}: no such channel", name));
+  }
+  return {};
+}
+
+Result<RecordedChannel> look_at(std::vector<recording::Replicate> recorded, std::size_t channel,
+                                const WitnessNames& witnesses, const Progress& progress) {
+  const Series whole = series_of(recorded, channel);
+  for (std::size_t k = 0; k < whole.replicates.size(); ++k) {
+    if (whole.replicates[k].size() < kFewestSamples)
+      return fail(
+          fmt::format("{}: {} samples are too few", whole.names[k], whole.replicates[k].size()));
+  }
+  if (auto known = check_witnesses(witnesses, recorded.front()); !known)
+    return tl::unexpected(known.error());
+  RecordedChannel out{.recorded = std::move(recorded), .channel = channel, .parts = {}, .seen = {}};
+  out.parts = sound_parts(out.recorded, channel);
+  const Series series = series_of(out.parts.replicates, channel);
+  auto moments = measure(series, {}, progress.part(0.0, 0.3));
+  if (!moments) return tl::unexpected(moments.error());
+  if (auto sound = check_replicates(series, *moments); !sound) return tl::unexpected(sound.error());
+  out.seen = {.name = series.channel,
+              .replicates = series.names,
+              .notes = out.parts.notes,
+              .changed = out.parts.changed,
+              .moments = std::move(*moments),
+              .subject = std::make_shared<const Subject>(
+                  make_subject(series.replicates, beside(out.parts.replicates, channel, witnesses),
+                               out.parts.places, progress.part(0.3, 1.0)))};
+  if (progress.stopped()) return fail("stopped");  // the subject is then not whole
+  return out;
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,180 @@
+#include "study/seen/seen_folder.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "recording/import/sidecar.h"
+#include "recording/store/crc32c.h"
+#include "study/seen/seen_record.h"
+
+namespace imunoise::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+// To be raised whenever the same samples would be cut, mended or transformed otherwise, beside the
+// program's own version.
+constexpr int kVersion = 1;
+constexpr std::string_view kSuffix = ".seen";
+constexpr std::string_view kPartSuffix = ".part";  // write_seen_file()'s
+
+// Names what a file holds as long as nobody writes to it.
+std::string stamp(const fs::path& file) {
+  struct stat at {};
+  if (stat(file.c_str(), &at) != 0) return file.string() + " none\n";
+  return fmt::format("{} {}.{} {} {}.{} {}.{}\n", file.string(), at.st_dev, at.st_ino, at.st_size,
+                     at.st_mtim.tv_sec, at.st_mtim.tv_nsec, at.st_ctim.tv_sec, at.st_ctim.tv_nsec);
+}
+
+// A file and its sidecar; of a recording's folder every file in it. Nothing where one cannot be
+// seen.
+std::optional<std::string> stamps(const fs::path& path) {
+  std::error_code wrong;
+  if (!fs::is_directory(path, wrong)) return stamp(path) + stamp(recording::sidecar_path(path));
+  std::vector<fs::path> all;
+  fs::recursive_directory_iterator at(path, fs::directory_options::follow_directory_symlink, wrong);
+  for (; !wrong && at != fs::recursive_directory_iterator(); at.increment(wrong)) {
+    if (at->path().filename().string().starts_with('.')) {
+      at.disable_recursion_pending();
+    } else if (!at->is_directory()) {
+      all.push_back(at->path());
+    }
+  }
+  if (wrong) return std::nullopt;
+  std::sort(all.begin(), all.end());
+  std::string out;
+  for (const fs::path& file : all) out += stamp(file);
+  return out;
+}
+
+// A folder of this user, and no link to one.
+bool is_own(const fs::path& folder) {
+  struct stat at {};
+  return lstat(folder.c_str(), &at) == 0 && S_ISDIR(at.st_mode) && at.st_uid == geteuid();
+}
+
+// Deletes what was unused longest until there is room, and what a process left half written. False
+// where the disk has none.
+bool make_room(const fs::path& folder, std::uintmax_t bytes, std::uintmax_t most) {
+  struct Kept {
+    fs::file_time_type used;
+    std::uintmax_t size;
+    fs::path path;
+  };
+  constexpr std::chrono::hours kWritten{1};  // nobody writes for so long
+  const auto now = fs::file_time_type::clock::now();
+  std::vector<Kept> all;
+  std::uintmax_t total = bytes;
+  std::error_code wrong;
+  for (fs::directory_iterator at(folder, wrong), end; !wrong && at != end; at.increment(wrong)) {
+    std::error_code gone;
+    const Kept one{at->last_write_time(gone), at->file_size(gone), at->path()};
+    if (gone) continue;
+    if (one.path.extension() == kPartSuffix && one.used + kWritten < now) {
+      fs::remove(one.path, gone);
+    } else if (one.path.extension() == kSuffix) {
+      all.push_back(one);
+      total += one.size;
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
+  for (const Kept& one : all) {
+    if (total <= most) break;
+    std::error_code gone;
+    fs::remove(one.path, gone);
+    total -= one.size;
+  }
+  const fs::space_info space = fs::space(folder, wrong);
+  return !wrong && space.available / 4 > bytes;
+}
+
+fs::path file_in(const fs::path& folder, const std::string& name) {
+  return folder / (recording::crc32c_text(name) + std::string(kSuffix));
+}
+
+// The file of this name that was made of files with these stamps, if it is there and whole.
+std::optional<SeenFile> find_file(const std::vector<fs::path>& folders, const std::string& name,
+                                  const std::string& stamps) {
+  for (const fs::path& folder : folders) {
+    const fs::path path = file_in(folder, name);
+    std::error_code ignored;
+    if (!is_own(folder) || !fs::is_regular_file(fs::symlink_status(path, ignored))) continue;
+    auto file = read_seen_file(path);
+    if (!file || file->header.key() != name + stamps) continue;
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // it was used
+    return std::move(*file);
+  }
+  return std::nullopt;
+}
+
+std::uintmax_t bytes_of(const SeenFile& file) {
+  std::uintmax_t out = 0;
+  for (const SharedVector& one : file.arrays)
+    out += static_cast<std::uintmax_t>(one.size()) * sizeof(double);
+  return out;
+}
+
+void keep_file(const std::vector<fs::path>& folders, const std::string& name,
+               const std::string& stamps, std::uintmax_t most, SeenFile file) {
+  if (find_file(folders, name, stamps)) return;
+  file.header.set_key(name + stamps);
+  for (const fs::path& folder : folders) {
+    std::error_code wrong;
+    fs::create_directories(folder, wrong);
+    if (wrong || !is_own(folder) || !make_room(folder, bytes_of(file), most)) continue;
+    if (write_seen_file(file_in(folder, name), file)) return;
+  }
+}
+
+}  // namespace
+
+SeenFolder::SeenFolder(const v1::StudyInput& input, const SeenPlaces& places)
+    : input_(fmt::format("{} {}\n{}", IMUNOISE_VERSION, kVersion, input.SerializeAsString())),
+      most_bytes_(places.most_bytes) {
+  for (const std::string& file : input.files()) {
+    const auto of = stamps(file);
+    if (!of) return;
+    stamps_ += *of;
+  }
+  if (places.beside && input.files_size() > 0) {
+    const fs::path first = input.files(0);
+    std::error_code ignored;
+    folders_.push_back((fs::is_directory(first, ignored) ? first : first.parent_path()) /
+                       ".imunoise");
+  }
+  if (!places.other.empty()) folders_.push_back(places.other);
+}
+
+std::string SeenFolder::name_of(const std::string& channel, const std::string& witness) const {
+  return fmt::format("{}\n{}\n{}\n", input_, channel, witness);
+}
+
+std::optional<SeenChannel> SeenFolder::find(const std::string& channel) const {
+  const auto file = find_file(folders_, name_of(channel, ""), stamps_);
+  return file ? channel_of(*file) : std::nullopt;
+}
+
+std::optional<Witness> SeenFolder::find_witness(const std::string& channel,
+                                                const std::string& witness) const {
+  const auto file = find_file(folders_, name_of(channel, witness), stamps_);
+  return file ? witness_of(*file) : std::nullopt;
+}
+
+void SeenFolder::keep(const SeenChannel& seen) const {
+  SeenFile own = record_of(seen);
+  std::uintmax_t bytes = bytes_of(own);
+  if (bytes > most_bytes_ / 4) return;
+  keep_file(folders_, name_of(seen.name, ""), stamps_, most_bytes_, std::move(own));
+  for (const Witness& witness : seen.subject->witnesses) {
+    SeenFile other = record_of(witness, seen.subject->rate);
+    bytes += bytes_of(other);
+    if (bytes > most_bytes_ / 4) return;
+    keep_file(folders_, name_of(seen.name, witness.name), stamps_, most_bytes_, std::move(other));
+  }
+}
+
+}  // namespace imunoise::study
