@@ -27,16 +27,6 @@ void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate)
   cosines.tail(cosines.size() - last).setZero();
 }
 
-// The witness as the term takes it: behind its lag, squared, its change.
-Eigen::VectorXd witness_samples(const EffectTerm& term, const Witness& witness, std::size_t k,
-                                double rate) {
-  Eigen::VectorXd x = term.lag > 0.0 ? lagged(witness.samples[k], term.lag * rate)
-                                     : Eigen::VectorXd(witness.samples[k]);
-  if (term.quadratic) x = x.array().square();
-  if (term.derivative) x = rate_of_change(x, rate);
-  return x;
-}
-
 bool as_it_is(const EffectTerm& term) {
   return !term.quadratic && !term.derivative && !(term.lag > 0.0);
 }
@@ -45,14 +35,27 @@ bool in_part_of_the_frequencies(const EffectTerm& term) {
   return term.from > 0.0 || std::isfinite(term.to);
 }
 
-SharedVector witness_cosines(const EffectTerm& term, const Witness& witness, std::size_t k,
+// The witness as the term takes it: behind its lag, squared, its change.
+SharedVector witness_samples(const EffectTerm& term, const Witness& witness, std::size_t k,
                              double rate) {
-  const bool whole = !in_part_of_the_frequencies(term);
-  if (whole && as_it_is(term)) return witness.cosines[k];
-  Eigen::VectorXd out = as_it_is(term) ? Eigen::VectorXd(witness.cosines[k])
-                                       : cosine_transform(witness_samples(term, witness, k, rate));
-  if (!whole) keep_between(out, term.from, term.to, rate);
-  return out;
+  if (as_it_is(term)) return witness.samples[k];
+  Eigen::VectorXd x = term.lag > 0.0 ? lagged(witness.samples[k], term.lag * rate)
+                                     : Eigen::VectorXd(witness.samples[k]);
+  if (term.quadratic) x = x.array().square();
+  if (term.derivative) x = rate_of_change(x, rate);
+  return x;
+}
+
+// A single column; all frequencies are the samples' own.
+Columns witness_columns(const EffectTerm& term, const Witness& witness, std::size_t k,
+                        double rate) {
+  const SharedVector samples = witness_samples(term, witness, k, rate);
+  const SharedVector cosines =
+      as_it_is(term) ? witness.cosines[k] : SharedVector(cosine_transform(samples));
+  if (!in_part_of_the_frequencies(term)) return {{cosines}, {}, {samples}};
+  Eigen::VectorXd part = cosines;
+  keep_between(part, term.from, term.to, rate);
+  return {{std::move(part)}, {}, {}};
 }
 
 // The form that an effect has from a sample of what was recorded on.
@@ -86,14 +89,13 @@ std::vector<SharedVector> columns_of(Eigen::MatrixXd matrix) {
 }
 
 // Regressors that every replicate has: one set of coefficients, or one a replicate.
-template <class CosinesOf>
+template <class ColumnsIn>
 Regressors in_all(const Subject& subject, bool own, const std::vector<std::string>& names,
-                  const CosinesOf& cosines_of) {
+                  const ColumnsIn& columns_in) {
   Regressors out;
   const auto q = static_cast<Index>(names.size());
   out.replicates.resize(subject.replicates());
-  for_each_index(subject.replicates(),
-                 [&](std::size_t k) { out.replicates[k].cosines = cosines_of(k); });
+  for_each_index(subject.replicates(), [&](std::size_t k) { out.replicates[k] = columns_in(k); });
   for (std::size_t k = 0; k < subject.replicates(); ++k) {
     for (Index i = 0; i < q; ++i)
       out.replicates[k].places.push_back(i + (own ? static_cast<Index>(k) * q : 0));
@@ -118,7 +120,9 @@ Regressors shaped(const EffectTerm& term, const Subject& subject, bool own,
     const auto [length, first] = each[i]->first;
     each[i]->second = columns_of(shape_of(term, subject.rate.value, first).cosines(length));
   });
-  return in_all(subject, own, names, [&](std::size_t k) { return made.at(key(k)); });
+  return in_all(subject, own, names, [&](std::size_t k) {
+    return Columns{made.at(key(k)), {}, {}};
+  });
 }
 
 std::vector<std::string> wave_names(int harmonics) {
@@ -161,21 +165,21 @@ Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
       Regressors out{std::vector<Columns>(subject.replicates()), {}};
       const std::size_t k = *stepping(term, subject);
       const Shape shape = shape_of(term, subject.rate.value, subject.parts[k].first);
-      out.replicates[k] = {columns_of(shape.cosines(subject.length(k))), {0}};
+      out.replicates[k] = {columns_of(shape.cosines(subject.length(k))), {0}, {}};
       out.coefficients.push_back({"height", k});
       return out;
     }
     case EffectKind::kWitness: {
       const Witness& witness = *subject.find(term.witness);
-      return in_all(subject, term.own, {term.quadratic ? "quadratic_coefficient" : "coefficient"},
-                    [&](std::size_t k) {
-                      return std::vector{witness_cosines(term, witness, k, subject.rate.value)};
-                    });
+      return in_all(
+          subject, term.own, {term.quadratic ? "quadratic_coefficient" : "coefficient"},
+          [&](std::size_t k) { return witness_columns(term, witness, k, subject.rate.value); });
     }
     case EffectKind::kTelegraph:
       if (subject.courses.empty()) break;  // not sought yet
-      return in_all(subject, false, {"height"},
-                    [&](std::size_t k) { return std::vector{subject.courses[k].cosines}; });
+      return in_all(subject, false, {"height"}, [&](std::size_t k) {
+        return Columns{{subject.courses[k].cosines}, {}, {}};
+      });
     case EffectKind::kModulated:
     case EffectKind::kOutliers:
     case EffectKind::kOwnPowers:
@@ -185,35 +189,29 @@ Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
 }
 
 void add_effect(const EffectTerm& term, const Subject& subject, std::size_t replicate,
-                const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
+                const Columns& columns, const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
   if (coefficients.size() == 0) return;
-  const double rate = subject.rate.value;
   switch (term.kind) {
     case EffectKind::kRamp:
     case EffectKind::kWarmUp:
     case EffectKind::kLine:
     case EffectKind::kStep:
-      shape_of(term, rate, subject.parts[replicate].first).add(coefficients, to);
+      shape_of(term, subject.rate.value, subject.parts[replicate].first).add(coefficients, to);
       return;
-    case EffectKind::kWitness: {
-      const Witness& witness = *subject.find(term.witness);
-      if (in_part_of_the_frequencies(term)) {
-        to += coefficients(0) *
-              inverse_cosine_transform(witness_cosines(term, witness, replicate, rate));
-      } else if (as_it_is(term)) {
-        to += coefficients(0) * witness.samples[replicate];
-      } else {
-        to += coefficients(0) * witness_samples(term, witness, replicate, rate);
-      }
-      return;
-    }
+    case EffectKind::kWitness:
     case EffectKind::kTelegraph:
-      to += coefficients(0) * inverse_cosine_transform(subject.courses[replicate].cosines);
-      return;
     case EffectKind::kModulated:
     case EffectKind::kOutliers:
     case EffectKind::kOwnPowers:
-      return;
+      break;
+  }
+  for (Index i = 0; i < coefficients.size(); ++i) {
+    const auto column = static_cast<std::size_t>(i);
+    if (columns.samples.empty()) {
+      to += coefficients(i) * inverse_cosine_transform(columns.cosines[column]);
+    } else {
+      to += coefficients(i) * columns.samples[column];
+    }
   }
 }
 

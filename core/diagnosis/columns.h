@@ -15,6 +15,7 @@ namespace imunoise {
 struct Columns {
   std::vector<SharedVector> cosines;  ///< the cosine_transform() of each
   std::vector<Eigen::Index> places;   ///< one a column
+  std::vector<SharedVector> samples;  ///< of each, where they are at hand
 };
 
 /// A coefficient of an effect, for people.
@@ -34,10 +35,10 @@ struct Regressors {
 /// Precondition: the effect's witness exists and its replicate too, see check().
 Regressors regressors_of(const EffectTerm& term, const Subject& subject);
 
-/// Adds an effect to one replicate: its columns there as samples, up to a constant each, times
+/// Adds an effect to one replicate: its `columns` there as samples, up to a constant each, times
 /// coefficients, one a column.
 void add_effect(const EffectTerm& term, const Subject& subject, std::size_t replicate,
-                const Eigen::VectorXd& coefficients, Eigen::VectorXd& to);
+                const Columns& columns, const Eigen::VectorXd& coefficients, Eigen::VectorXd& to);
 
 /// Error: a witness or replicate that the subject does not have, or a frequency that it cannot
 /// show.

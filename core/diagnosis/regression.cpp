@@ -171,7 +171,8 @@ Regression Regression::in_blocks(std::size_t blocks) const {
     const auto columns = static_cast<Index>(columns_[e]->replicates[0].places.size());
     for (Index i = 0; i < columns; ++i) {
       Eigen::VectorXd samples = Eigen::VectorXd::Zero(subject_->length(0));
-      add_effect(effects_[e], *subject_, 0, Eigen::VectorXd::Unit(columns, i), samples);
+      add_effect(effects_[e], *subject_, 0, columns_[e]->replicates[0],
+                 Eigen::VectorXd::Unit(columns, i), samples);
       const std::vector<SharedVector> each = cut(samples, blocks, length);
       double all = 0.0;
       for (const SharedVector& one : each) all += one.squaredNorm();
@@ -306,7 +307,7 @@ Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients
     Eigen::VectorXd own(static_cast<Index>(columns.places.size()));
     for (std::size_t i = 0; i < columns.places.size(); ++i)
       own(static_cast<Index>(i)) = -coefficients(first_[e] + columns.places[i]);
-    add_effect(effects_[e], *subject_, replicate, own, out);
+    add_effect(effects_[e], *subject_, replicate, columns, own, out);
   }
   return out;
 }

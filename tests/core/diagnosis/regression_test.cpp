@@ -22,6 +22,39 @@ TEST(Lag, AStepIsFollowedExponentially) {
     EXPECT_NEAR(y(t), 1.0 - std::exp(-static_cast<double>(t) / 7.0), 1e-12);
 }
 
+// Samples and transforms of what is left come on two ways.
+TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
+  const auto subject = subject_of(
+      {.samples = 1000, .replicates = 2, .seed = 3, .temperature = [](std::size_t k, double s) {
+         return std::sin(0.7 * s) + 0.2 * std::cos(11.0 * s + static_cast<double>(k));
+       }});
+  const EffectTerm heat{.kind = EffectKind::kWitness, .witness = "temperature"};
+  std::vector<EffectTerm> terms{{.kind = EffectKind::kRamp},
+                                {.kind = EffectKind::kWarmUp, .tau = 3.0},
+                                {.kind = EffectKind::kLine, .frequency = 3.0, .harmonics = 2.0},
+                                {.kind = EffectKind::kStep, .replicate = 2.0, .time = 7.0},
+                                heat};
+  for (const auto change :
+       {+[](EffectTerm& one) { one.lag = 2.0; }, +[](EffectTerm& one) { one.quadratic = true; },
+        +[](EffectTerm& one) { one.derivative = true; }, +[](EffectTerm& one) { one.to = 1.0; },
+        +[](EffectTerm& one) { one.own = true; }}) {
+    terms.push_back(heat);
+    change(terms.back());
+  }
+  for (const EffectTerm& term : terms) {
+    const Regression regression = Regression(subject).with(term);
+    Eigen::VectorXd coefficients(static_cast<Eigen::Index>(regression.coefficients().size()));
+    for (Eigen::Index i = 0; i < coefficients.size(); ++i)
+      coefficients(i) = 1.5 - static_cast<double>(i);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Eigen::VectorXd samples = regression.residual_samples(coefficients, k);
+      const Eigen::VectorXd cosines = regression.residual_cosines(coefficients, k);
+      EXPECT_LT((cosine_transform(samples) - cosines).norm(), 1e-10 * cosines.norm())
+          << print(term) << " in " << k;
+    }
+  }
+}
+
 // The transform makes white noise plus a walk independent, so that banded least squares differ from
 // dense ones only in that the spectrum is one number a band; the first 256 coefficients have a band
 // each.
