@@ -22,7 +22,7 @@ Eigen::VectorXd cosine_transform(const VectorRef& x);
 
 /// The series of mean zero whose cosine_transform() is c: n samples of n - 1 coefficients.
 Eigen::VectorXd inverse_cosine_transform(const VectorRef& c);
-/// The same to 1e-6 of its root mean square, in half the time: for innovations.
+/// The same to 1e-6 of its root mean square, in less time and memory: for innovations.
 Eigen::VectorXd rough_inverse_cosine_transform(const VectorRef& c);
 
 }  // namespace imunoise

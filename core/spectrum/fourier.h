@@ -10,7 +10,7 @@ namespace imunoise {
 std::vector<std::complex<double>> half_spectrum(std::vector<double> x);
 
 /// Its inverse: n numbers of their n/2 + 1 coefficients. `Number` is double, or float where errors
-/// of 1e-6 of the root mean square do not matter: less than half the time.
+/// of 1e-6 of the root mean square do not matter: four fifths of the time, half the memory.
 template <class Number>
 std::vector<Number> from_half_spectrum(std::vector<std::complex<Number>> spectrum, std::size_t n);
 

@@ -38,9 +38,10 @@ std::optional<std::string> stamps(const fs::path& path) {
   std::vector<fs::path> all;
   fs::recursive_directory_iterator at(path, fs::directory_options::follow_directory_symlink, wrong);
   for (; !wrong && at != fs::recursive_directory_iterator(); at.increment(wrong)) {
+    std::error_code nowhere;  // a link may lead there
     if (at->path().filename().string().starts_with('.')) {
       at.disable_recursion_pending();
-    } else if (!at->is_directory()) {
+    } else if (!at->is_directory(nowhere)) {
       all.push_back(at->path());
     }
   }

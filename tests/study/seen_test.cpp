@@ -199,6 +199,8 @@ TEST_F(Seen, FilesInARecordingsFolderCount) {
   write(root_ / "other disk" / "000001.h5", "chunk");
   added(study, "QN", home_);
   EXPECT_EQ(reads_, before + 1) << "what lies behind a link is read, too";
+  fs::create_symlink("itself", recording / "itself");
+  EXPECT_EQ(added(study, "QN", home_).substr(0, 1), "{") << "a link to nowhere hurts nobody";
 }
 
 TEST_F(Seen, DamageIsNoticedAndMended) {
