@@ -67,14 +67,28 @@ fi
 
 as_root=()
 if ((EUID != 0)); then
-  if ! command -v sudo > /dev/null; then
-    echo "Missing packages, and neither root nor sudo to install them: ${missing[*]}" >&2
+  if ! command -v sudo > /dev/null || { ! sudo -n true 2> /dev/null && [[ ! -t 0 ]]; }; then
+    echo "Missing packages, and neither root nor sudo to install them; as root: apt-get install ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)
 fi
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq ||
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq > "$log" 2>&1 ||
   echo "apt-get update failed; trying with the package lists at hand" >&2
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
+if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" > "$log" 2>&1; then
+  grep -E '^(E|Err):' "$log" | head -n 3 >&2 || true
+  if grep -q 'Unable to locate package' "$log"; then
+    echo "These packages are Debian 12's: is this Debian 12, and has apt-get update worked?" >&2
+  elif grep -qE 'Could not resolve|Failed to fetch|Unable to connect' "$log"; then
+    echo "No network: connect this machine, or install from a mirror at hand: apt-get install ${missing[*]}" >&2
+  elif grep -qE 'No space left|enough free space' "$log"; then
+    echo "The disk is full: make room in / and /var, then run this again" >&2
+  else
+    echo "Install them by hand, then run this again: apt-get install ${missing[*]}" >&2
+  fi
+  exit 1
+fi

@@ -81,8 +81,8 @@ Result<Changes> Catalogue::refresh(const recording::FileSystem& files,
     if (!done) return tl::unexpected(done.error());
     ++out.added;
   }
-  for (const auto& [folder, stamp] : known) {
-    auto done = database_->transaction([&] { return remove_entry(*database_, bench_, folder); });
+  for (const auto& one : known) {
+    auto done = database_->transaction([&] { return remove_entry(*database_, bench_, one.first); });
     if (!done) return tl::unexpected(done.error());
     ++out.removed;
   }

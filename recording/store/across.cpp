@@ -94,8 +94,8 @@ Channel on_grid(Channel channel, const std::shared_ptr<const Samples>& samples,
   return channel;
 }
 
-Replicate replicate_of(const std::filesystem::path& root, const Stretch& stretch,
-                       const WhoJoins& who) {
+Replicate joined_replicate(const std::filesystem::path& root, const Stretch& stretch,
+                           const WhoJoins& who) {
   Replicate out{stretch.name, root / replicate_folder(stretch.replicate), who.rate, {}};
   for (std::size_t i = 0; i < who.joined.size(); ++i) {
     const Joining& one = who.joined[i];
@@ -132,7 +132,7 @@ Across across_of(const std::filesystem::path& root, const WhoJoins& who,
   }
   for (const Stretch& one : stretches) {
     out.seconds += 1e-9 * static_cast<double>(one.piece.count) * one.piece.period_ns;
-    out.replicates.push_back(replicate_of(root, one, who));
+    out.replicates.push_back(joined_replicate(root, one, who));
   }
   return out;
 }

@@ -7,7 +7,7 @@
 namespace imunoise::recording {
 namespace {
 
-constexpr std::string_view kReplicate = "replicate-";
+constexpr std::string_view kFolderPrefix = "replicate-";
 
 template <class Number>
 std::optional<Number> positive(std::string_view digits) {
@@ -21,12 +21,12 @@ std::optional<Number> positive(std::string_view digits) {
 }  // namespace
 
 std::string replicate_folder(std::uint32_t replicate) {
-  return fmt::format("{}{}", kReplicate, replicate);
+  return fmt::format("{}{}", kFolderPrefix, replicate);
 }
 
 std::optional<std::uint32_t> replicate_of(std::string_view folder) {
-  if (!folder.starts_with(kReplicate)) return std::nullopt;
-  return positive<std::uint32_t>(folder.substr(kReplicate.size()));
+  if (!folder.starts_with(kFolderPrefix)) return std::nullopt;
+  return positive<std::uint32_t>(folder.substr(kFolderPrefix.size()));
 }
 
 std::string numbered(std::uint64_t number, std::string_view suffix) {

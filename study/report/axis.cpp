@@ -20,6 +20,8 @@ void LogRange::include(double value) {
   high_ = std::max(high_, value);
 }
 
+bool drawable(double value) { return std::isfinite(value) && value > 0.0; }
+
 LogAxis::LogAxis(double low, double high, double begin, double end)
     : low_(low), high_(high), begin_(begin), end_(end) {
   assert(low > 0.0 && low < high);

@@ -25,6 +25,9 @@ struct Tick {
   bool major = false;  ///< Has a label.
 };
 
+/// True when a logarithmic axis has a place for the value.
+bool drawable(double value);
+
 /// A logarithmic axis: low ↦ begin, high ↦ end (positions may fall, as y does in SVG).
 class LogAxis {
  public:

@@ -24,7 +24,7 @@ double known_upper(const ChartPoint& point) {
   return std::isfinite(point.upper) ? std::max(point.upper, point.value) : point.value;
 }
 
-std::vector<ChartPoint> drawable(std::vector<ChartPoint> points) {
+std::vector<ChartPoint> drawable_points(std::vector<ChartPoint> points) {
   std::erase_if(points, [](const ChartPoint& point) {
     return !std::isfinite(point.covariate) || !std::isfinite(point.value) || point.value < 0.0;
   });
@@ -153,8 +153,8 @@ std::string draw(const CovariateChart& chart, const SvgOptions& options) {
 }
 
 CovariateChart cleaned(CovariateChart chart) {
-  chart.curve = drawable(std::move(chart.curve));
-  chart.points = drawable(std::move(chart.points));
+  chart.curve = drawable_points(std::move(chart.curve));
+  chart.points = drawable_points(std::move(chart.points));
   return chart;
 }
 

@@ -15,8 +15,6 @@ namespace {
 constexpr int kMostShown = 8;
 constexpr int kAlwaysShown = 2;  // the others only if they are not mere chance
 
-std::string chance(double p, Digits digits) { return p < 1e-4 ? "< 0.0001" : number(p, 2, digits); }
-
 // "WN + RW" for the first rung, "+ RES − AR1" for what came after.
 std::string name_of(const v1::Rung& rung) {
   if (rung.added().empty()) return rung.model();
@@ -37,7 +35,7 @@ Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
                             : "-",
                         number(rung.training_error(), 3, digits),
                         fmt::format("{} nats", number(rung.log_likelihood(), 4, digits)),
-                        chance(rung.misfit_p(), digits)});
+                        p_value(rung.misfit_p(), digits)});
   }
   return out;
 }
@@ -58,7 +56,7 @@ Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
     if (i >= kAlwaysShown && one.familywise_p() >= 0.5) break;
     out.rows.push_back({one.effect(), one.term(),
                         fmt::format("{} nats", number(one.gain_nats(), 3, digits)),
-                        chance(one.familywise_p(), digits),
+                        p_value(one.familywise_p(), digits),
                         one.has_heldout_error_after()
                             ? fmt::format("{} → {}", number(one.heldout_error_before(), 3, digits),
                                           number(one.heldout_error_after(), 3, digits))
@@ -74,7 +72,7 @@ std::string value_of(const v1::EffectParameter& one, Digits digits) {
   return one.unit() == "1" ? out : out + " " + one.unit();
 }
 
-Table parameter_table(const v1::EffectCandidate& best, Digits digits) {
+Table effect_table(const v1::EffectCandidate& best, Digits digits) {
   Table out{fmt::format("{}: its numbers", best.title()), {"", "value"}, {}};
   for (const v1::EffectParameter& one : best.parameters())
     out.rows.push_back({one.name(), value_of(one, digits)});
@@ -210,7 +208,7 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   if (report.candidates_size() > 0) {
     out.tables.push_back(candidate_table(report, digits));
     if (report.verdict() == v1::found || report.verdict() == v1::one_of)
-      out.tables.push_back(parameter_table(report.candidates(0), digits));
+      out.tables.push_back(effect_table(report.candidates(0), digits));
   }
   if (report.ladder_size() > 0) {
     out.tables.push_back(ladder_table(report, digits));

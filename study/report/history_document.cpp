@@ -11,8 +11,6 @@ namespace {
 
 constexpr int kMostTables = 4;  // of points; with more parameters the overview must do
 
-std::string chance(double p, Digits digits) { return p < 1e-4 ? "< 0.0001" : number(p, 2, digits); }
-
 std::string change_words(double fraction) {
   if (std::abs(fraction) >= 10.0) return fmt::format("{:.3g} times", 1.0 + fraction);
   return fmt::format("{:+.2g} %", 100.0 * fraction);
@@ -49,7 +47,7 @@ Table overview(const v1::History& history, Digits digits) {
       row.push_back(fmt::format("{} … {}", number(drift.expected_lower() * factor, 3, digits),
                                 number(drift.expected_upper() * factor, 3, digits)));
       row.push_back(change_words(drift.change()));
-      row.push_back(chance(drift.p_value(), digits));
+      row.push_back(p_value(drift.p_value(), digits));
     } else {
       row.insert(row.end(), {"–", "–", "–"});
     }
@@ -64,7 +62,7 @@ Table trends(const v1::History& history, Digits digits) {
   for (const v1::ParameterHistory& one : history.parameters()) {
     if (!one.drift().has_trend()) continue;
     out.rows.push_back({name_of(one), change_words(one.drift().trend()),
-                        chance(one.drift().trend_p_value(), digits)});
+                        p_value(one.drift().trend_p_value(), digits)});
   }
   return out;
 }

@@ -184,6 +184,10 @@ std::string signed_sigma(double value, Digits style) {
   return (value >= 0.0 ? "+" : "") + fixed(value, std::abs(value) < 99.95 ? 1 : 0, style);
 }
 
+std::string p_value(double value, Digits style) {
+  return value < 1e-4 ? "< 0.0001" : number(value, 2, style);
+}
+
 std::string tick_label(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace imunoise::report

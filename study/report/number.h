@@ -35,6 +35,9 @@ std::string duration(double seconds);
 std::string day(std::int64_t ns);
 std::string minute(std::int64_t ns);
 
+/// A p-value: two digits; "< 0.0001" below that.
+std::string p_value(double value, Digits style);
+
 /// "37 %"; "< 1 %" when it is not quite nothing.
 std::string percent(double fraction);
 

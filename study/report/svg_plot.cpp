@@ -20,8 +20,6 @@ namespace {
 constexpr double kPointRadius = 3.4;  // px
 constexpr double kLabelSize = 12.5;   // px, of the names beside the curves
 
-bool drawable(double value) { return std::isfinite(value) && value > 0.0; }
-
 // The drawable points of a curve, in px. A zero interrupts nothing: its neighbours are joined.
 template <class Value>
 std::vector<Point> curve(const std::vector<ScaleView>& scales, const BudgetLayout& layout,

@@ -14,7 +14,7 @@
 namespace imunoise::report {
 namespace {
 
-constexpr Digits kStyle = Digits::kPlain;
+constexpr Digits kPlainDigits = Digits::kPlain;
 
 Ink ink_of(Verdict verdict) {
   switch (verdict) {
@@ -44,8 +44,8 @@ std::string coefficients(const v1::FitReport& report, const TerminalStyle& style
       const bool sheet = !c.datasheet_unit().empty();
       rows.push_back({c.symbol(),
                       sheet ? with_interval(c.datasheet_value(), c.datasheet_lower(),
-                                            c.datasheet_upper(), kStyle)
-                            : with_interval(c.value(), c.lower(), c.upper(), kStyle),
+                                            c.datasheet_upper(), kPlainDigits)
+                            : with_interval(c.value(), c.lower(), c.upper(), kPlainDigits),
                       sheet ? c.datasheet_unit() : c.unit(), c.title()});
     }
   }
@@ -60,8 +60,8 @@ std::string parameters(const v1::FitReport& report, const TerminalStyle& style) 
     for (const v1::Parameter& p : report.terms(static_cast<int>(t)).parameters()) {
       const bool bound = only_bounded(p) && p.upper() > 0.0;
       rows.push_back({names[t], p.name(),
-                      bound ? "below " + number(p.upper(), 2, kStyle)
-                            : with_interval(p.value(), p.lower(), p.upper(), kStyle),
+                      bound ? "below " + number(p.upper(), 2, kPlainDigits)
+                            : with_interval(p.value(), p.lower(), p.upper(), kPlainDigits),
                       p.unit() == "1" ? "" : p.unit(), observability_words(p)});
     }
   }
@@ -110,9 +110,9 @@ std::string wv_text(const v1::WaveletVarianceReport& report, const TerminalStyle
   std::vector<std::vector<std::string>> rows;
   for (const ScaleView& scale : view.scales) {
     rows.push_back({duration(scale.seconds),
-                    with_interval(scale.measured, scale.lower, scale.upper, kStyle),
+                    with_interval(scale.measured, scale.lower, scale.upper, kPlainDigits),
                     duration(0.5 * scale.seconds),
-                    number(allan.deviation(scale.measured), 3, kStyle) + " " + allan.unit});
+                    number(allan.deviation(scale.measured), 3, kPlainDigits) + " " + allan.unit});
   }
   std::string out = title_line(fmt::format("{}: wavelet variance, {} estimator",
                                            channel_name(report.channel()), report.estimator()),

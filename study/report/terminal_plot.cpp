@@ -16,14 +16,12 @@ constexpr int kRows = 14;
 constexpr int kMargin = 9;     // columns of the labels on the left
 constexpr double kLabel = 10;  // columns that a label on the time axis needs
 
-bool drawable(double value) { return std::isfinite(value) && value > 0.0; }
-
-struct Plot {
+struct Axes {
   LogAxis time;      // columns
   LogAxis variance;  // rows, downwards
 };
 
-std::optional<Plot> plot_of(const BudgetView& view, int columns) {
+std::optional<Axes> plot_of(const BudgetView& view, int columns) {
   LogRange times;
   LogRange variances;
   for (const ScaleView& scale : view.scales) {
@@ -32,7 +30,7 @@ std::optional<Plot> plot_of(const BudgetView& view, int columns) {
     variances.include(scale.model);
   }
   if (times.empty() || variances.empty()) return std::nullopt;
-  return Plot{LogAxis(times.low() / 1.1, times.high() * 1.1, 0.0, columns),
+  return Axes{LogAxis(times.low() / 1.1, times.high() * 1.1, 0.0, columns),
               LogAxis(variances.low() / 1.3, variances.high() * 1.3, kRows, 0.0)};
 }
 
@@ -43,7 +41,7 @@ std::string_view mark_of(const ScaleView& scale, const TerminalStyle& style) {
   return style.unicode ? "●" : "o";
 }
 
-TerminalCanvas draw(const BudgetView& view, const Plot& plot, int columns,
+TerminalCanvas draw(const BudgetView& view, const Axes& plot, int columns,
                     const TerminalStyle& style) {
   TerminalCanvas canvas(columns, kRows, style);
   const double across = static_cast<double>(canvas.dots_across()) / columns;
@@ -66,7 +64,7 @@ TerminalCanvas draw(const BudgetView& view, const Plot& plot, int columns,
 }
 
 // Labels of the rows that decades fall into.
-std::vector<std::string> row_labels(const Plot& plot, const TerminalStyle& style) {
+std::vector<std::string> row_labels(const Axes& plot, const TerminalStyle& style) {
   std::vector<std::string> out(kRows);
   for (const Tick& tick : plot.variance.decade_ticks(2.0)) {
     if (!tick.major) continue;
@@ -83,7 +81,7 @@ std::string left(const std::string& label, const char* axis) {
 }
 
 // Times under the decades of the axis.
-std::string time_labels(const Plot& plot, int columns) {
+std::string time_labels(const Axes& plot, int columns) {
   std::string out(kMargin, ' ');
   for (const Tick& tick : plot.time.decade_ticks(kLabel)) {
     if (!tick.major) continue;
@@ -98,7 +96,7 @@ std::string time_labels(const Plot& plot, int columns) {
 }
 
 // One digit a scale, in the column of its point; where scales share a column the largest is kept.
-std::string residual_row(const BudgetView& view, const Plot& plot, int columns, bool above,
+std::string residual_row(const BudgetView& view, const Axes& plot, int columns, bool above,
                          const TerminalStyle& style) {
   std::vector<const ScaleView*> shown(static_cast<std::size_t>(columns), nullptr);
   for (const ScaleView& scale : view.scales) {
@@ -124,7 +122,7 @@ std::string residual_row(const BudgetView& view, const Plot& plot, int columns, 
 
 std::string terminal_plot(const BudgetView& view, bool residuals, const TerminalStyle& style) {
   const int columns = style.width - kMargin - 1;
-  const std::optional<Plot> plot = plot_of(view, columns);
+  const std::optional<Axes> plot = plot_of(view, columns);
   if (!plot) return wrapped("(nothing to draw: no positive variance)", 2, style);
   const char* const axis = style.unicode ? "│" : "|";
   const std::vector<std::string> labels = row_labels(*plot, style);

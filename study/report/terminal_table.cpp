@@ -9,7 +9,7 @@ namespace imunoise::report {
 namespace {
 
 constexpr std::size_t kIndent = 2;       // spaces before the first column
-constexpr std::size_t kGap = 2;          // spaces between columns
+constexpr std::size_t kColumnGap = 2;    // spaces between columns
 constexpr std::size_t kLeastLast = 16;   // columns that the last column keeps beside the others
 constexpr std::size_t kLeastColumn = 4;  // columns below which no cell is broken
 
@@ -64,7 +64,7 @@ std::string row_lines(const std::vector<std::string>& row, const std::vector<std
   for (std::size_t h = 0; h < height; ++h) {
     std::string line;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      line += std::string(c == 0 ? kIndent : kGap, ' ') +
+      line += std::string(c == 0 ? kIndent : kColumnGap, ' ') +
               padded(h < cells[c].size() ? cells[c][h] : "", widths[c]);
     }
     out += inked(line.erase(line.find_last_not_of(' ') + 1), ink, style) + "\n";
@@ -102,7 +102,7 @@ std::string terminal_table(const std::vector<std::string>& head,
     }
   }
   const std::size_t last = head.size() - 1;
-  const std::size_t room = static_cast<std::size_t>(style.width) - kIndent - kGap * last;
+  const std::size_t room = static_cast<std::size_t>(style.width) - kIndent - kColumnGap * last;
   std::vector<std::size_t> others(widths.begin(), widths.end() - 1);
   shrink(others, room - std::min(widths[last], kLeastLast));
   std::copy(others.begin(), others.end(), widths.begin());

@@ -8,7 +8,7 @@ namespace imunoise::config {
 namespace {
 
 const drivers::Drivers& known() {
-  static const drivers::Drivers kKnown = drivers::load_drivers({IMUNOISE_PLUGINS});
+  static const drivers::Drivers kKnown = drivers::load_drivers({IMUNOISE_DRIVER_FOLDER});
   return kKnown;
 }
 

@@ -75,7 +75,7 @@ v1::DiagnosisReport sample() {
   return out;
 }
 
-std::size_t count_of(const std::string& svg, const std::string& css_class) {
+std::size_t count_of_class(const std::string& svg, const std::string& css_class) {
   std::size_t out = 0;
   const std::string wanted = "class=\"" + css_class + "\"";
   for (auto at = svg.find(wanted); at != std::string::npos; at = svg.find(wanted, at + 1)) ++out;
@@ -100,17 +100,17 @@ TEST(ComparisonFigures, TheSpectrumMarksWhatDeviatesAndWhatWasTested) {
   const v1::DiagnosisReport report = sample();
   const std::string svg = curve_svg(spectrum_chart(report, report.compared_before(), "Spectrum"));
   expect_sound(svg, "spectrum");
-  EXPECT_EQ(count_of(svg, "measured outside"), 1U);
-  EXPECT_EQ(count_of(svg, "measured"), 59U);
+  EXPECT_EQ(count_of_class(svg, "measured outside"), 1U);
+  EXPECT_EQ(count_of_class(svg, "measured"), 59U);
   EXPECT_NE(svg.find("13.7 Hz"), std::string::npos);
 }
 
 TEST(ComparisonFigures, TheStretchThatDeviatesIsColoured) {
   const v1::DiagnosisReport report = sample();
   const auto figures = comparison_figures(report, report.compared_before());
-  EXPECT_EQ(count_of(figures[1].wide, "cell plus4"), 1U);
+  EXPECT_EQ(count_of_class(figures[1].wide, "cell plus4"), 1U);
   EXPECT_NE(figures[1].wide.find("+8.0"), std::string::npos);
-  EXPECT_EQ(count_of(figures[3].wide, "cell minus4"), 3U);
+  EXPECT_EQ(count_of_class(figures[3].wide, "cell minus4"), 3U);
   EXPECT_NE(figures[3].wide.find("-0.92"), std::string::npos);
   EXPECT_NE(figures[3].wide.find("0.0020 Hz"), std::string::npos);  // the middle, however slow
 }

@@ -182,7 +182,7 @@ TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
 TEST(Study, ModulationIsToldPerUnitOfItsWitness) {
   constexpr Hertz kRate{50.0};
   constexpr double kSlope = 0.3;  // of the logarithm of the variance, 1/K
-  const ReadInput warmed = [](const v1::StudyInput& input, const std::string& channel) {
+  const ReadInput warmed = [&](const v1::StudyInput& input, const std::string& channel) {
     auto recordings = *read(input, channel);
     for (recording::Replicate& one : recordings) {
       auto values = std::get<std::vector<double>>(*one.channels[0].samples);

@@ -175,9 +175,9 @@ TEST(FreeNumbers, JacobianMatchesCentralDifferences) {
   }
 }
 
-class Exactness : public ::testing::TestWithParam<const char*> {};
+class TrendExactness : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(Exactness, MomentsOfTheTheoryGiveTheTrendsBack) {
+TEST_P(TrendExactness, MomentsOfTheTheoryGiveTheTrendsBack) {
   Model truth = parse_dynamic_model(GetParam(), kRate).value();
   Model open = truth;
   double slope = 0.7;
@@ -206,7 +206,7 @@ TEST_P(Exactness, MomentsOfTheTheoryGiveTheTrendsBack) {
   EXPECT_GT(fit.links.p_value, 0.99);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Exactness,
+INSTANTIATE_TEST_SUITE_P(Trends, TrendExactness,
                          ::testing::Values("WN(sigma2~exp)", "WN(sigma2~linear) + RW(gamma2~exp)",
                                            "QN(q2~exp) + WN(sigma2~exp)",
                                            "AR1(sigma2~exp, phi~logistic) + WN",

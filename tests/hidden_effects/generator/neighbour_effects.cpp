@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kGravity = 9.80665;  // m/s²
 
-void add(Series& to, const Series& part, double factor) {
+void add_scaled(Series& to, const Series& part, double factor) {
   for (std::size_t t = 0; t < to.size(); ++t) to[t] += factor * part[t];
 }
 
@@ -35,7 +35,7 @@ Injection hide_tilt(Scene& scene, double delta) {
   }
   const double factor = add_shapes(scene, rates, delta);
   for (std::size_t r = 0; r < scene.replicates(); ++r) {
-    add(scene.recordings[r]["acc_x"], angles[r], factor * kGravity);
+    add_scaled(scene.recordings[r]["acc_x"], angles[r], factor * kGravity);
   }
   return of_mean(delta, {});
 }
@@ -53,8 +53,8 @@ Injection hide_vibration(Scene& scene, double delta) {
   const double deviation = solve_strength(delta, 1e-6 * scene.floor(), 1e3 * scene.floor(), seen);
   for (Recording& recording : scene.recordings) {
     const Series shaking = simulate(Markov{deviation, tau}, scene.random, scene.samples());
-    add(recording[kSubject], shaking, 1.0);
-    add(recording["gyro_y"], shaking, 1.0);
+    add_scaled(recording[kSubject], shaking, 1.0);
+    add_scaled(recording["gyro_y"], shaking, 1.0);
   }
   return of_mean(delta, {});
 }
