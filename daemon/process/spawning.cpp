@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "daemon/process/ignored_signals.h"
+
 namespace imunoise::process {
 
 Spawning::Spawning() {
@@ -16,7 +18,11 @@ Spawning::Spawning() {
   sigset_t none{};
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes_, &none);
-  posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK);
+  sigset_t usual{};  // or ignored some, which a child would inherit
+  sigemptyset(&usual);
+  for (const int one : IgnoredSignals::kSignals) sigaddset(&usual, one);
+  posix_spawnattr_setsigdefault(&attributes_, &usual);
+  posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
 }
 

@@ -68,6 +68,9 @@ void add_campaigns(std::string& out, const Figures& figures) {
   for (const auto& one : figures.campaigns) {
     if (one.has_left_s()) left.add({{"campaign", one.campaign().name()}}, one.left_s());
   }
+  Family(out, "imunoise_campaign_files_rejected", "gauge",
+         "Campaign files that were not taken up when they were last read.")
+      .add({}, figures.rejected_files);
   Family free(out, "imunoise_disk_free_bytes", "gauge", "Of the disk that a campaign records to.");
   for (const auto& [campaign, bytes] : figures.free_bytes)
     free.add({{"campaign", campaign}}, bytes);
