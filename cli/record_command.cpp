@@ -6,6 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
+#include "core/support/utf8.h"
 #include "daemon/acquire/record_replicate.h"
 #include "daemon/process/ignored_signals.h"
 #include "drivers/host/load.h"
@@ -94,6 +95,11 @@ std::string describe(const v1::RecordReport& report) {
 int run(const RecordArguments& arguments) {
   const Interrupt interrupt;
   const process::IgnoredSignals ignored;
+  if (const std::string folder = arguments.folder.string(); !is_utf8(folder)) {
+    return print_error({repaired_utf8(folder) +
+                        ": the name is not UTF-8, which a manifest cannot hold; name another "
+                        "folder"});
+  }
   auto devices = plans_of(arguments);
   if (!devices) return print_error(devices.error());
   const std::uint32_t first =
