@@ -46,7 +46,8 @@ void Spawning::print_to(int output, int errors) {
   posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
 }
 
-Result<pid_t> Spawning::start(const std::vector<std::string>& words) const {
+Result<pid_t> Spawning::start(const std::vector<std::string>& words) {
+  posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
   std::vector<std::string> copies = words;
   std::vector<char*> pointers;
   for (std::string& word : copies) pointers.push_back(word.data());

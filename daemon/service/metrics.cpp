@@ -86,6 +86,9 @@ void add_service(std::string& out, const Figures& figures) {
   Family(out, "imunoise_http_accepted_total", "counter", "Connections.").add({}, http.accepted);
   Family(out, "imunoise_http_turned_away_total", "counter", "Connections beyond the limit.")
       .add({}, http.turned_away);
+  Family(out, "imunoise_http_evicted_total", "counter",
+         "Connections that made room for others: strangers, and those that idled.")
+      .add({}, http.evicted);
   Family(out, "imunoise_http_timed_out_total", "counter", "Connections that were too slow.")
       .add({}, http.timed_out);
   Family(out, "imunoise_http_malformed_total", "counter", "Requests that were none, or too large.")
