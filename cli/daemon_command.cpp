@@ -61,6 +61,10 @@ std::string state_text(const v1::CampaignState& state) {
 std::string status_lines(const v1::CampaignList& list) {
   std::string out;
   for (const v1::CampaignState& one : list.campaigns()) out += state_text(one);
+  for (const v1::RejectedFile& one : list.rejected()) {
+    for (const std::string& problem : one.problems())
+      out += report::clean_text("rejected: " + problem) + "\n";
+  }
   return out.empty() ? "no campaigns\n" : out;
 }
 

@@ -3,12 +3,23 @@
 #include <ctime>
 
 namespace imunoise::cli {
+namespace {
+
+// Whoever started the program with nohup wants it to outlive the terminal. A signal that is blocked
+// comes even where it is ignored.
+bool ignored(int signal) {
+  struct sigaction found {};
+  return ::sigaction(signal, nullptr, &found) == 0 && found.sa_handler == SIG_IGN;
+}
+
+}  // namespace
 
 Interrupt::Interrupt() {
   sigset_t signals{};
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  if (!ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, &before_);
   watcher_ = std::jthread([this, signals](const std::stop_token& done) {
     constexpr timespec kPatience{0, 50'000'000};

@@ -6,8 +6,9 @@
 
 namespace imunoise::cli {
 
-/// While it lives, SIGINT and SIGTERM ask for an orderly end instead of killing the program. Made
-/// before other threads are: they inherit that these signals are not theirs.
+/// While it lives, SIGINT, SIGTERM and SIGHUP (a terminal that was lost, unless nohup says that it
+/// does not matter) ask for an orderly end instead of killing the program. Made before other
+/// threads are: they inherit that these signals are not theirs.
 class Interrupt {
  public:
   Interrupt();

@@ -40,8 +40,18 @@ report::TerminalStyle terminal_style() {
 
 void print(std::string_view text) { fmt::print("{}", text); }
 
+bool try_print(std::string_view text) {
+  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+         std::fflush(stdout) == 0;
+}
+
+void tell(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 int print_error(const Error& error) {
-  fmt::print(stderr, "imunoise: {}\n", error.message);
+  tell(fmt::format("imunoise: {}\n", error.message));
   return 1;
 }
 

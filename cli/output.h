@@ -13,6 +13,10 @@ namespace imunoise::cli {
 report::TerminalStyle terminal_style();
 
 void print(std::string_view text);
+/// The same of what tells of work that is done: false where standard output takes no more.
+bool try_print(std::string_view text);
+/// On standard error. A terminal or a reader that has gone ends no work: the text is lost.
+void tell(std::string_view text);
 /// "imunoise: message" on standard error; returns the exit status of a failed command.
 int print_error(const Error& error);
 

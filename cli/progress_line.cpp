@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "cli/output.h"
 #include "study/report/number.h"
 
 namespace imunoise::cli {
@@ -16,7 +16,7 @@ ProgressLine::ProgressLine(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0), told_(begin_) {}
 
 ProgressLine::~ProgressLine() {
-  if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
+  if (shown_ && terminal_) tell("\r\033[K");
 }
 
 void ProgressLine::report(double fraction) {
@@ -32,9 +32,8 @@ void ProgressLine::report(double fraction) {
   const double left = furthest_ > 0.01 ? elapsed * (1.0 - furthest_) / furthest_ : 0.0;
   const std::string rest =
       furthest_ > 0.01 ? ", " + report::duration(std::max(left, 1.0)) + " left" : "";
-  fmt::print(stderr, "{}{} {:.0f} %{}{}", terminal_ ? "\r\033[K" : "", what_, 100.0 * furthest_,
-             rest, terminal_ ? "" : "\n");
-  std::fflush(stderr);
+  tell(fmt::format("{}{} {:.0f} %{}{}", terminal_ ? "\r\033[K" : "", what_, 100.0 * furthest_, rest,
+                   terminal_ ? "" : "\n"));
 }
 
 }  // namespace imunoise::cli

@@ -6,7 +6,9 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
+#include "core/support/utf8.h"
 #include "daemon/acquire/record_replicate.h"
+#include "daemon/process/ignored_signals.h"
 #include "drivers/host/load.h"
 #include "recording/store/layout.h"
 #include "study/report/json.h"
@@ -92,6 +94,12 @@ std::string describe(const v1::RecordReport& report) {
 
 int run(const RecordArguments& arguments) {
   const Interrupt interrupt;
+  const process::IgnoredSignals ignored;
+  if (const std::string folder = arguments.folder.string(); !is_utf8(folder)) {
+    return print_error({repaired_utf8(folder) +
+                        ": the name is not UTF-8, which a manifest cannot hold; name another "
+                        "folder"});
+  }
   auto devices = plans_of(arguments);
   if (!devices) return print_error(devices.error());
   const std::uint32_t first =
@@ -101,7 +109,7 @@ int run(const RecordArguments& arguments) {
   std::mutex notes;
   const auto note = [&](const std::string& device, std::string_view text) {
     const std::lock_guard lock(notes);
-    fmt::print(stderr, "{}: {}\n", device, report::clean_text(text));
+    tell(fmt::format("{}: {}\n", device, report::clean_text(text)));
   };
   bool failed = false;
   for (std::uint32_t k = 0; k < arguments.replicates && !interrupt.token().stop_requested(); ++k) {
@@ -120,7 +128,12 @@ int run(const RecordArguments& arguments) {
       failed = failed || one.failure.has_value();
     }
   }
-  print(arguments.json ? report::to_json(report) : describe(report));
+  if (!try_print(arguments.json ? report::to_json(report) : describe(report))) {
+    return print_error(
+        {"standard output takes no report; the recording is closed: see imunoise "
+         "verify " +
+         arguments.folder.string()});
+  }
   return failed ? 1 : 0;
 }
 

@@ -19,10 +19,15 @@ class Run {
  public:
   Run(const v1::Campaign& campaign, RunMode mode, const CampaignSurroundings& with,
       const std::stop_token& stop)
-      : campaign_(campaign), with_(with), stop_(stop), mode_(mode) {}
+      : campaign_(campaign),
+        with_(with),
+        stop_(stop),
+        mode_(mode),
+        stopped_(stop, End{ending_}),
+        left_(with.leave, End{ending_}) {}
 
   void run() {
-    while (!stop_.stop_requested()) {
+    while (!ending_.stop_requested()) {
       auto found = newest_recording(with_.files, campaign_);
       if (!found) {
         hold_up(found.error().message);
@@ -41,6 +46,11 @@ class Run {
   }
 
  private:
+  struct End {
+    std::stop_source& of;
+    void operator()() const { of.request_stop(); }
+  };
+
   std::filesystem::path folder_at(Time started) const {
     return std::filesystem::path(campaign_.folder()) / recording_name(started);
   }
@@ -66,7 +76,7 @@ class Run {
       case v1::pausing:
       case v1::waiting:
       case v1::held_up:
-        with_.clock.wait_until(*step.until, stop_);
+        with_.clock.wait_until(*step.until, ending_.get_token());
         break;
       case v1::recording:
         record(step);
@@ -128,7 +138,7 @@ class Run {
 
   void call(const RecordingHook& hook, std::string_view what) {
     if (!hook) return;
-    const auto done = hook(campaign_, newest_->folder, Progress({}, stop_));
+    const auto done = hook(campaign_, newest_->folder, Progress({}, ending_.get_token()));
     add_news(done ? *done : fmt::format("{}: {}", what, done.error().message));
   }
 
@@ -149,7 +159,7 @@ class Run {
     memory_.held_up_until = with_.clock.now() + pause_;
     pause_ = std::min(2 * pause_, kLongestPause);
     tell({.phase = v1::held_up, .until = memory_.held_up_until}, reason);
-    with_.clock.wait_until(*memory_.held_up_until, stop_);
+    with_.clock.wait_until(*memory_.held_up_until, ending_.get_token());
   }
 
   void tell(const Step& step, const std::string& reason) const {
@@ -173,8 +183,11 @@ class Run {
 
   const v1::Campaign& campaign_;
   const CampaignSurroundings& with_;
-  const std::stop_token& stop_;
+  const std::stop_token& stop_;  // also of a replicate that is being recorded
   RunMode mode_;
+  std::stop_source ending_;  // of everything else
+  std::stop_callback<End> stopped_;
+  std::stop_callback<End> left_;
   Memory memory_;
   std::optional<FoundRecording> newest_;
   std::filesystem::path folder_of_next_;

@@ -47,6 +47,9 @@ struct CampaignSurroundings {
   RecordingHook publish = {};
   /// Told at every step.
   std::function<void(const v1::CampaignStatus&)> tell = {};
+  /// Asks for an end that costs no recorded sample: a replicate that is being recorded goes on to
+  /// its own end, everything else ends at once.
+  std::stop_token leave = {};
 };
 
 enum class RunMode {

@@ -15,7 +15,8 @@ Examples:
   imunoised --socket api.sock config           and answer imunoise status --socket api.sock
 
 A campaign is a TOML file; a folder stands for every *.toml in it. What happens is told on standard error.
-SIGTERM and Ctrl-C end recordings in good order within seconds; started again, it goes on where it was.)help";
+SIGTERM and Ctrl-C end recordings in good order within seconds; started again, it goes on where it was. SIGHUP
+reads the campaigns again. A file with an error is skipped, and the log says why.)help";
 
 // What the options of the API come to once they are parsed.
 struct RawApi {

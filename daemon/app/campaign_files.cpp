@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "daemon/acquire/disk_space.h"
 #include "daemon/acquire/recorded_device.h"
@@ -17,50 +17,117 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_at(const fs::path& place) {
+// The file itself, or what the folder holds. Error: the folder cannot be listed.
+Result<std::vector<fs::path>> files_at(const fs::path& place) {
   std::error_code trouble;
-  if (!fs::is_directory(place, trouble)) return {place};
+  if (!fs::is_directory(place, trouble)) return std::vector{place};
   std::vector<fs::path> out;
-  for (const fs::directory_entry& entry : fs::directory_iterator(place, trouble)) {
-    if (entry.path().extension() == ".toml") out.push_back(entry.path());
+  fs::directory_iterator entry(place, trouble);
+  for (; !trouble && entry != fs::directory_iterator(); entry.increment(trouble)) {
+    if (entry->path().extension() == ".toml") out.push_back(entry->path());
   }
+  if (trouble)
+    return fail(fmt::format("{}: cannot be listed: {}", place.string(), trouble.message()));
   std::sort(out.begin(), out.end());
   return out;
 }
 
-void read_file(const fs::path& file, const drivers::Drivers& drivers, CampaignFiles& out) {
-  auto read = config::read_campaign(file, drivers);
-  if (!read) {
-    out.problems.push_back(read.error().message);
-    return;
-  }
-  for (const config::Problem& one : read->problems) {
-    out.problems.push_back(config::describe(file.string(), one));
-  }
-  if (read->problems.empty()) out.found.push_back({file, std::move(read->campaign)});
-}
+// Gives each name and each folder to one campaign.
+class Selection {
+ public:
+  explicit Selection(std::span<const CampaignFile> in_force) : in_force_(in_force) {}
 
-void refuse_twins(CampaignFiles& files) {
-  std::map<std::string, fs::path> names;
-  std::map<fs::path, fs::path> folders;
-  for (const CampaignFile& one : files.found) {
-    std::error_code trouble;
-    const fs::path folder =
-        fs::weakly_canonical(fs::absolute(one.campaign.folder(), trouble), trouble);
-    const auto name = names.emplace(one.campaign.name(), one.file);
-    if (!name.second) {
-      files.problems.push_back(fmt::format("{}: the name '{}' is that of {} too; rename one",
-                                           one.file.string(), one.campaign.name(),
-                                           name.first->second.string()));
+  void read(const fs::path& place, const drivers::Drivers& drivers) {
+    const auto files = files_at(place);
+    if (!files) return reject(place, {files.error().message});
+    if (files->empty()) {  // what was there is gone
+      complain(place, {fmt::format("{}: holds no campaign (*.toml)", place.string())});
     }
-    const auto at = folders.emplace(folder, one.file);
-    if (!at.second) {
-      files.problems.push_back(
-          fmt::format("{}: the folder {} is that of {} too; give each a folder of its own",
-                      one.file.string(), one.campaign.folder(), at.first->second.string()));
+    for (const fs::path& file : *files) read_file(file, drivers);
+  }
+
+  CampaignFiles finish() {
+    for (CampaignFile& one : std::exchange(kept_, {})) accept(std::move(one));
+    std::stable_partition(read_.begin(), read_.end(), [this](const CampaignFile& one) {
+      const CampaignFile* const before = version_in_force(one.file);
+      return before != nullptr && before->campaign.name() == one.campaign.name();
+    });
+    for (CampaignFile& one : read_) accept(std::move(one));
+    for (CampaignFile& one : std::exchange(kept_, {})) accept(std::move(one));
+    const auto by_file = [](const auto& a, const auto& b) { return a.file() < b.file(); };
+    std::stable_sort(out_.rejected.begin(), out_.rejected.end(), by_file);
+    return std::move(out_);
+  }
+
+ private:
+  void read_file(const fs::path& file, const drivers::Drivers& drivers) {
+    auto read = config::read_campaign(file, drivers);
+    if (read && read->problems.empty()) {
+      read_.push_back({file, std::move(read->campaign)});
+      return;
+    }
+    std::vector<std::string> problems;
+    if (!read) problems.push_back(read.error().message);
+    if (read) {
+      for (const config::Problem& one : read->problems)
+        problems.push_back(config::describe(file.string(), one));
+    }
+    reject(file, problems);
+  }
+
+  void accept(CampaignFile one) {
+    const std::vector<std::string> problems = twins_of(one);
+    if (!problems.empty()) return reject(one.file, problems);
+    out_.found.push_back(std::move(one));
+  }
+
+  std::vector<std::string> twins_of(const CampaignFile& one) const {
+    std::vector<std::string> out;
+    for (const CampaignFile& other : out_.found) {
+      if (other.campaign.name() == one.campaign.name()) {
+        out.push_back(fmt::format("{}: the name '{}' is that of {} too; rename one",
+                                  one.file.string(), one.campaign.name(), other.file.string()));
+      }
+      if (folder_of(other.campaign) == folder_of(one.campaign)) {
+        out.push_back(
+            fmt::format("{}: the folder {} is that of {} too; give each a folder of its own",
+                        one.file.string(), one.campaign.folder(), other.file.string()));
+      }
+    }
+    return out;
+  }
+
+  // What the file, or the folder, held before stays.
+  void reject(const fs::path& place, const std::vector<std::string>& problems) {
+    if (!complain(place, problems)) return;
+    const fs::path as_parent = (place / "x").parent_path();
+    for (const CampaignFile& one : in_force_) {
+      if (one.file == place || one.file.parent_path() == as_parent) kept_.push_back(one);
     }
   }
-}
+
+  // True for the first complaint about it.
+  bool complain(const fs::path& place, const std::vector<std::string>& problems) {
+    const auto known = std::find_if(out_.rejected.begin(), out_.rejected.end(),
+                                    [&](const auto& one) { return one.file() == place.string(); });
+    const bool first = known == out_.rejected.end();
+    v1::RejectedFile& to = first ? out_.rejected.emplace_back() : *known;
+    to.set_file(place.string());
+    for (const std::string& problem : problems) to.add_problems(problem);
+    return first;
+  }
+
+  const CampaignFile* version_in_force(const fs::path& file) const {
+    const auto found = std::find_if(in_force_.begin(), in_force_.end(),
+                                    [&](const CampaignFile& one) { return one.file == file; });
+    return found == in_force_.end() ? nullptr : &*found;
+  }
+
+  std::span<const CampaignFile> in_force_;
+  std::vector<CampaignFile> read_;
+  std::vector<CampaignFile> kept_;  // as they were in force
+  CampaignFiles out_;
+};
 
 // Bytes of one recording, where the drivers know their streams without a device.
 std::optional<double> size_of(const v1::Campaign& campaign, const drivers::Drivers& drivers) {
@@ -83,17 +150,24 @@ std::string rhythm(const v1::CampaignSchedule& schedule) {
 
 }  // namespace
 
-CampaignFiles read_campaigns(std::span<const fs::path> places, const drivers::Drivers& drivers) {
-  CampaignFiles out;
-  for (const fs::path& place : places) {
-    const std::vector<fs::path> files = files_at(place);
-    if (files.empty()) {
-      out.problems.push_back(fmt::format("{}: holds no campaign (*.toml)", place.string()));
-    }
-    for (const fs::path& file : files) read_file(file, drivers, out);
-  }
-  refuse_twins(out);
+CampaignFiles read_campaigns(std::span<const fs::path> places, const drivers::Drivers& drivers,
+                             std::span<const CampaignFile> in_force) {
+  Selection out(in_force);
+  for (const fs::path& place : places) out.read(place, drivers);
+  return out.finish();
+}
+
+std::vector<std::string> problems(const CampaignFiles& files) {
+  std::vector<std::string> out;
+  for (const v1::RejectedFile& one : files.rejected)
+    out.insert(out.end(), one.problems().begin(), one.problems().end());
   return out;
+}
+
+fs::path folder_of(const v1::Campaign& campaign) {
+  std::error_code trouble;
+  const fs::path out = fs::weakly_canonical(fs::absolute(campaign.folder(), trouble), trouble);
+  return out.has_filename() ? out : out.parent_path();  // "x/" is "x"
 }
 
 std::string summary(const v1::Campaign& campaign, const drivers::Drivers& drivers) {

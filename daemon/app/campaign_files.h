@@ -9,6 +9,7 @@
 
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
+#include "imunoise/v1/service.pb.h"
 
 namespace imunoise::app {
 
@@ -19,13 +20,22 @@ struct CampaignFile {
 
 struct CampaignFiles {
   std::vector<CampaignFile> found;
-  std::vector<std::string> problems;  ///< All, each with its file and place; empty: all is sound.
+  std::vector<v1::RejectedFile> rejected;  ///< In order of their names; empty: all is sound.
 };
 
-/// Reads files, and every *.toml of folders, in order of their names. Problems are also: no
-/// campaign at all, two of one name, two that record into one folder.
+/// Reads files, and every *.toml of folders, in order of their names. Rejected is a file that is no
+/// sound campaign, whose name or folder is that of a file before it, and a folder without a file.
+/// `in_force` are campaigns as they were read before: one whose file is rejected stays as it was,
+/// and where two claim one name or folder, the one in force has it.
 CampaignFiles read_campaigns(std::span<const std::filesystem::path> places,
-                             const drivers::Drivers& drivers);
+                             const drivers::Drivers& drivers,
+                             std::span<const CampaignFile> in_force = {});
+
+/// Every problem of every rejected file, with its place.
+std::vector<std::string> problems(const CampaignFiles& files);
+
+/// Where a campaign records, in one form for all ways to write it.
+std::filesystem::path folder_of(const v1::Campaign& campaign);
 
 /// What a sound campaign amounts to: "array: 4 devices, 6 replicates of 2 h, every 1 d, at most 3.2
 /// GB each time". The size is left out where only an open device knows its streams.

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "daemon/app/arguments.h"
 #include "daemon/app/campaign_files.h"
@@ -16,18 +17,20 @@
 #include "daemon/app/service_manager.h"
 #include "daemon/app/study_process.h"
 #include "daemon/app/supervisor.h"
+#include "daemon/process/ignored_signals.h"
 #include "daemon/service/service.h"
 #include "drivers/host/load.h"
 
 namespace imunoise::app {
 namespace {
 
-// SIGINT and SIGTERM wait to be fetched. To be made before any thread, which inherits that.
+// SIGINT, SIGTERM and SIGHUP wait to be fetched. To be made before any thread, which inherits that.
 sigset_t block_signals() {
   sigset_t out{};
   sigemptyset(&out);
   sigaddset(&out, SIGINT);
   sigaddset(&out, SIGTERM);
+  sigaddset(&out, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &out, nullptr);
   return out;
 }
@@ -36,14 +39,14 @@ int check_config(const CampaignFiles& files, const drivers::Drivers& drivers) {
   for (const CampaignFile& one : files.found) {
     fmt::print("{}: sound: {}\n", one.file.string(), summary(one.campaign, drivers));
   }
-  for (const std::string& problem : files.problems) fmt::print("{}\n", problem);
-  return files.problems.empty() ? 0 : 1;
+  for (const std::string& problem : problems(files)) fmt::print("{}\n", problem);
+  return files.rejected.empty() ? 0 : 1;
 }
 
 // What makes imunoise-campaign@NAME.timer follow the calendars of these campaigns.
 int print_timer(const CampaignFiles& files) {
-  for (const std::string& problem : files.problems) fmt::print(stderr, "{}\n", problem);
-  bool good = files.problems.empty();
+  for (const std::string& problem : problems(files)) fmt::print(stderr, "{}\n", problem);
+  bool good = files.rejected.empty();
   for (const CampaignFile& one : files.found) {
     const std::string& calendar = one.campaign.schedule().calendar();
     if (calendar.empty()) {
@@ -59,9 +62,8 @@ int print_timer(const CampaignFiles& files) {
 
 // Clients are answered where that was asked for. What keeps the daemon from it is told; recording
 // goes on.
-std::unique_ptr<service::Service> serve(const Arguments& arguments, const CampaignFiles& files,
-                                        const drivers::Drivers& drivers, Supervisor& bench,
-                                        Log& log) {
+std::unique_ptr<service::Service> serve(const Arguments& arguments, const drivers::Drivers& drivers,
+                                        Supervisor& bench, Log& log) {
   if (!arguments.socket && !arguments.listen) return nullptr;
   service::ServiceOptions options;
   options.listen = {arguments.socket, arguments.listen};
@@ -70,9 +72,7 @@ std::unique_ptr<service::Service> serve(const Arguments& arguments, const Campai
   options.studies = arguments.studies;
   options.compute = compute_in_child();
   options.version = IMUNOISE_VERSION;
-  service::ServiceSubjects subjects{bench, drivers, {}};
-  for (const CampaignFile& one : files.found) subjects.campaigns.push_back(one.campaign);
-  auto out = service::Service::start(options, subjects);
+  auto out = service::Service::start(options, {bench, drivers});
   if (!out) {
     log.error(fmt::format("nobody is answered: {}", out.error().message));
     return nullptr;
@@ -103,32 +103,46 @@ class Memory {
   int calls_ = 0;
 };
 
-int record(const Arguments& arguments, const CampaignFiles& files, const drivers::Drivers& drivers,
+void reload(const Arguments& arguments, const drivers::Drivers& drivers, Supervisor& supervisor,
+            Log& log) {
+  if (arguments.once) return log.fact("SIGHUP: with --once campaigns are read once");
+  CampaignFiles files = read_campaigns(arguments.campaigns, drivers, supervisor.in_force());
+  for (const std::string& problem : problems(files)) log.error(problem);
+  log.fact(fmt::format("SIGHUP: {} campaigns are in force, {} files were rejected",
+                       files.found.size(), files.rejected.size()));
+  supervisor.reload(std::move(files));
+}
+
+int record(const Arguments& arguments, CampaignFiles files, const drivers::Drivers& drivers,
            const sigset_t& signals) {
   Log log;
-  if (!files.problems.empty()) {
-    for (const std::string& problem : files.problems) log.error(problem);
-    return 1;
-  }
+  for (const std::string& problem : problems(files)) log.error(problem);
+  if (files.found.empty()) return 1;
   Memory memory;
   ServiceManager manager;
-  Supervisor supervisor(files.found, drivers,
+  Supervisor supervisor(std::move(files), drivers,
                         arguments.once ? acquire::RunMode::kOnce : acquire::RunMode::kScheduled,
                         log);
-  const auto service = serve(arguments, files, drivers, supervisor, log);
+  const auto service = serve(arguments, drivers, supervisor, log);
   manager.ready();
   bool stays = service != nullptr && !arguments.once;  // clients may start campaigns again
+  bool stopped = false;
   std::string told;
   constexpr timespec kPatience{0, 200'000'000};
   while (stays || !supervisor.ended()) {
-    if (const int signal = sigtimedwait(&signals, nullptr, &kPatience); signal > 0) {
+    const int signal = sigtimedwait(&signals, nullptr, &kPatience);
+    if (signal == SIGHUP) {
+      if (!stopped) reload(arguments, drivers, supervisor, log);
+    } else if (signal > 0) {
       log.fact(
           fmt::format("{}: recordings are being closed", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
       manager.stopping();
       supervisor.stop();
       stays = false;
+      stopped = true;
     }
     manager.alive();
+    supervisor.settle();
     supervisor.tell_warnings();
     memory.keep_flat();
     if (const std::string status = supervisor.status(); status != told) {
@@ -136,7 +150,7 @@ int record(const Arguments& arguments, const CampaignFiles& files, const drivers
       told = status;
     }
   }
-  return 0;
+  return stopped || supervisor.rejected().empty() ? 0 : 1;
 }
 
 int run(int argc, const char* const* argv) {
@@ -146,12 +160,13 @@ int run(int argc, const char* const* argv) {
   if (const int* const status = std::get_if<int>(&parsed)) return *status;
   const auto& arguments = std::get<Arguments>(parsed);
   const sigset_t signals = block_signals();
+  const process::IgnoredSignals ignored;
   const drivers::Drivers drivers =
       drivers::load_drivers(drivers::driver_folders(arguments.driver_folders));
-  const CampaignFiles files = read_campaigns(arguments.campaigns, drivers);
+  CampaignFiles files = read_campaigns(arguments.campaigns, drivers);
   if (arguments.check_config) return check_config(files, drivers);
   if (arguments.print_timer) return print_timer(files);
-  return record(arguments, files, drivers, signals);
+  return record(arguments, std::move(files), drivers, signals);
 }
 
 }  // namespace

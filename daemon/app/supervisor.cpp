@@ -1,7 +1,9 @@
 #include "daemon/app/supervisor.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/util/message_differencer.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "daemon/app/status_text.h"
@@ -14,10 +16,23 @@ std::filesystem::path beside_us(const char* program) {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
 }
 
+std::map<std::string, CampaignFile> by_name(std::vector<CampaignFile> files) {
+  std::map<std::string, CampaignFile> out;
+  for (CampaignFile& one : files) {
+    std::string name = one.campaign.name();
+    out.emplace(std::move(name), std::move(one));
+  }
+  return out;
+}
+
+bool same(const v1::Campaign& a, const v1::Campaign& b) {
+  return google::protobuf::util::MessageDifferencer::Equals(a, b);
+}
+
 }  // namespace
 
-Supervisor::Supervisor(const std::vector<CampaignFile>& campaigns, const drivers::Drivers& drivers,
-                       acquire::RunMode mode, Log& log)
+Supervisor::Supervisor(CampaignFiles files, const drivers::Drivers& drivers, acquire::RunMode mode,
+                       Log& log)
     : mode_(mode),
       log_(log),
       recorder_(
@@ -27,20 +42,102 @@ Supervisor::Supervisor(const std::vector<CampaignFile>& campaigns, const drivers
           },
           [this](const std::string& campaign) { return &live_.of(campaign); }),
       aftercare_(recording::posix_file_system(), beside_us("imunoise")) {
-  const std::lock_guard lock(mutex_);
-  for (const CampaignFile& one : campaigns)
-    runs_[one.campaign.name()].state.campaign = one.campaign;
-  for (auto& [name, run] : runs_) {
-    if (!left_to_timer(run.state.campaign)) {
-      begin(run, mode_);
-      continue;
-    }
-    log_.fact(fmt::format("{}: is left to its timer ({}), which starts imunoised --once", name,
-                          run.state.campaign.schedule().calendar()));
-  }
+  rejected_ = std::move(files.rejected);
+  wanted_ = by_name(std::move(files.found));
+  settle();
 }
 
 Supervisor::~Supervisor() { stop(); }
+
+void Supervisor::reload(CampaignFiles files) {
+  {
+    const std::lock_guard lock(mutex_);
+    auto wanted = by_name(std::move(files.found));
+    tell_changes(wanted);
+    wanted_ = std::move(wanted);
+    rejected_ = std::move(files.rejected);
+  }
+  settle();
+}
+
+void Supervisor::tell_changes(const std::map<std::string, CampaignFile>& wanted) const {
+  const auto when = [this](const std::string& name) {
+    const auto run = runs_.find(name);
+    const bool records = run != runs_.end() && run->second.state.running &&
+                         run->second.state.status.phase() == v1::recording;
+    return records ? "once the replicate under way is recorded" : "now";
+  };
+  for (const auto& [name, file] : wanted_) {
+    const auto after = wanted.find(name);
+    if (after == wanted.end()) {
+      log_.fact(fmt::format("{}: its file is gone; it ends {}", name, when(name)));
+    } else if (!same(after->second.campaign, file.campaign)) {
+      log_.fact(fmt::format("{}: its file has changed, which takes effect {}", name, when(name)));
+    }
+  }
+  for (const auto& [name, file] : wanted) {
+    if (!wanted_.contains(name))
+      log_.fact(fmt::format("{}: is new, from {}", name, file.file.string()));
+  }
+}
+
+std::vector<CampaignFile> Supervisor::in_force() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<CampaignFile> out;
+  for (const auto& [name, file] : wanted_) out.push_back(file);
+  return out;
+}
+
+// A campaign that was asked to leave does so, also if its file is again as it was.
+bool Supervisor::as_wanted(const Runs::value_type& run) const {
+  const auto wanted = wanted_.find(run.first);
+  return wanted != wanted_.end() && !run.second.leave.stop_requested() &&
+         same(wanted->second.campaign, run.second.state.campaign);
+}
+
+bool Supervisor::folder_is_free(const v1::Campaign& campaign) const {
+  const std::filesystem::path folder = folder_of(campaign);
+  return std::none_of(runs_.begin(), runs_.end(), [&](const Runs::value_type& one) {
+    return one.second.state.running && folder_of(one.second.state.campaign) == folder;
+  });
+}
+
+void Supervisor::settle() {
+  std::vector<std::jthread> over;  // joined without the mutex, which they may still want
+  const std::lock_guard lock(mutex_);
+  if (ending_) return;
+  for (auto one = runs_.begin(); one != runs_.end();) {
+    Run& run = one->second;
+    const auto wanted = wanted_.find(one->first);
+    if (as_wanted(*one)) {
+      ++one;
+    } else if (run.state.running) {
+      run.leave.request_stop();
+      ++one;
+    } else if (wanted != wanted_.end() && run.by_client) {  // who stopped it starts it again
+      run.state.campaign = wanted->second.campaign;
+      run.leave = std::stop_source();
+      ++one;
+    } else {
+      over.push_back(std::move(run.thread));
+      one = runs_.erase(one);
+    }
+  }
+  for (const auto& [name, file] : wanted_) {
+    if (runs_.contains(name) || !folder_is_free(file.campaign)) continue;
+    Run& run = runs_[name];
+    run.state.campaign = file.campaign;
+    begin_unless_left(run);
+  }
+}
+
+bool Supervisor::ended() const {
+  const std::lock_guard lock(mutex_);
+  const bool settled =
+      runs_.size() == wanted_.size() &&
+      std::all_of(runs_.begin(), runs_.end(), [this](const auto& one) { return as_wanted(one); });
+  return running_ == 0 && (ending_ || settled);
+}
 
 bool Supervisor::left_to_timer(const v1::Campaign& campaign) const {
   return mode_ == acquire::RunMode::kScheduled && !campaign.schedule().calendar().empty();
@@ -57,13 +154,23 @@ void Supervisor::begin(Run& run, acquire::RunMode mode) {
   run.state.status.Clear();
   run.state.status.set_campaign(run.state.campaign.name());
   run.stop = std::stop_source();
+  run.leave = std::stop_source();
+  run.by_client = false;
   ++running_;
-  run.thread = std::jthread([this, &campaign = run.state.campaign, mode,
-                             stop = run.stop.get_token()] { this->run(campaign, mode, stop); });
+  run.thread =
+      std::jthread([this, &campaign = run.state.campaign, mode, stop = run.stop.get_token(),
+                    leave = run.leave.get_token()] { this->run(campaign, mode, stop, leave); });
+}
+
+void Supervisor::begin_unless_left(Run& run) {
+  const v1::Campaign& campaign = run.state.campaign;
+  if (!left_to_timer(campaign)) return begin(run, mode_);
+  log_.fact(fmt::format("{}: is left to its timer ({}), which starts imunoised --once",
+                        campaign.name(), campaign.schedule().calendar()));
 }
 
 void Supervisor::run(const v1::Campaign& campaign, acquire::RunMode mode,
-                     const std::stop_token& stop) {
+                     const std::stop_token& stop, const std::stop_token& leave) {
   acquire::CampaignSurroundings with{clock_, recording::posix_file_system(), recorder_};
   if (campaign.calibration().enabled()) {
     with.calibrate = [this](const auto& of, const auto& recording, const Progress& progress) {
@@ -74,9 +181,11 @@ void Supervisor::run(const v1::Campaign& campaign, acquire::RunMode mode,
     return aftercare_.publish(of, recording, progress);
   };
   with.tell = [this](const v1::CampaignStatus& status) { take(status); };
+  with.leave = leave;
+  const std::string name = campaign.name();  // the campaign may go with its end
   acquire::run_campaign(campaign, mode, with, stop);
-  log_.fact(fmt::format("{}: ended", campaign.name()));
-  end(campaign.name());
+  log_.fact(fmt::format("{}: ended", name));
+  end(name);
 }
 
 void Supervisor::take(const v1::CampaignStatus& status) {
@@ -128,7 +237,15 @@ std::string Supervisor::status() const {
     if (run.state.status.phase() == v1::campaign_phase_unspecified) continue;
     out += (out.empty() ? "" : " | ") + status_text(run.state.status);
   }
+  std::string files;
+  for (const v1::RejectedFile& one : rejected_) files += (files.empty() ? "" : ", ") + one.file();
+  if (!files.empty()) out += (out.empty() ? "" : " | ") + ("rejected campaign files: " + files);
   return out;
+}
+
+std::vector<v1::RejectedFile> Supervisor::rejected() const {
+  const std::lock_guard lock(mutex_);
+  return rejected_;
 }
 
 std::vector<service::BenchCampaign> Supervisor::campaigns() const {
@@ -141,7 +258,9 @@ std::vector<service::BenchCampaign> Supervisor::campaigns() const {
 Result<void> Supervisor::start(const std::string& campaign, bool once) {
   std::jthread before;  // joined without the mutex, which it may still want
   const std::lock_guard lock(mutex_);
-  Run& run = runs_.at(campaign);
+  const auto found = runs_.find(campaign);
+  if (found == runs_.end()) return fail(campaign + ": its file is gone");
+  Run& run = found->second;
   if (ending_) return fail("the daemon is ending");
   if (run.state.running) return fail(campaign + ": runs already");
   if (left_to_timer(run.state.campaign)) {
@@ -150,6 +269,8 @@ Result<void> Supervisor::start(const std::string& campaign, bool once) {
                     "records it now",
                     campaign));
   }
+  if (!folder_is_free(run.state.campaign))
+    return fail(campaign + ": another campaign still records into its folder; try again later");
   before = std::move(run.thread);
   begin(run, once ? acquire::RunMode::kOnce : mode_);
   log_.fact(campaign + ": was started by a client");
@@ -158,7 +279,9 @@ Result<void> Supervisor::start(const std::string& campaign, bool once) {
 
 Result<void> Supervisor::stop(const std::string& campaign, const std::string& recording) {
   const std::lock_guard lock(mutex_);
-  Run& run = runs_.at(campaign);
+  const auto found = runs_.find(campaign);
+  if (found == runs_.end()) return fail(campaign + ": its file is gone");
+  Run& run = found->second;
   if (!run.state.running) return fail(campaign + ": does not run");
   const std::string under_way = service::recording_under_way(run.state.status);
   if (!under_way.empty() && recording != under_way) {
@@ -174,6 +297,7 @@ Result<void> Supervisor::stop(const std::string& campaign, const std::string& re
                     "recording",
                     campaign, recording));
   }
+  run.by_client = true;
   run.stop.request_stop();
   log_.warning(campaign + ": was stopped by a client");
   return {};

@@ -23,10 +23,9 @@ namespace imunoise::app {
 /// One thread a campaign. Functions are thread-safe.
 class Supervisor : public service::Bench {
  public:
-  /// Starts them, but for those with a calendar where the mode is not kOnce: their timers do.
-  /// `campaigns` and the others outlive it.
-  Supervisor(const std::vector<CampaignFile>& campaigns, const drivers::Drivers& drivers,
-             acquire::RunMode mode, Log& log);
+  /// Starts them, but for those with a calendar where the mode is not kOnce: their timers do. The
+  /// drivers and the log outlive it.
+  Supervisor(CampaignFiles files, const drivers::Drivers& drivers, acquire::RunMode mode, Log& log);
   /// Stops them.
   ~Supervisor() override;
   Supervisor(const Supervisor&) = delete;
@@ -34,14 +33,22 @@ class Supervisor : public service::Bench {
 
   /// Asks all campaigns for an orderly end; does not wait. None starts any more.
   void stop();
-  /// No campaign runs any more.
-  bool ended() const { return running_ == 0; }
+  /// These are the campaigns from now on. New ones start; those that are unchanged go on. One that
+  /// changed, or is gone, ends first: at once, or once the replicate that it records is complete.
+  void reload(CampaignFiles files);
+  /// The campaigns as they are to be, for read_campaigns().
+  std::vector<CampaignFile> in_force() const;
+  /// Goes on with a reload where that had to wait. To be called often.
+  void settle();
+  /// No campaign runs any more, and none is about to.
+  bool ended() const;
   /// What each does, in one line.
   std::string status() const;
   /// Logs what is of concern in the replicates that are being recorded, once. To be called often.
   void tell_warnings();
 
   std::vector<service::BenchCampaign> campaigns() const override;
+  std::vector<v1::RejectedFile> rejected() const override;
   std::vector<v1::LiveReplicate> live() const override { return live_.state(); }
   Result<void> start(const std::string& campaign, bool once) override;
   Result<void> stop(const std::string& campaign, const std::string& recording) override;
@@ -50,16 +57,25 @@ class Supervisor : public service::Bench {
  private:
   struct Run {
     service::BenchCampaign state;
-    std::stop_source stop;
+    std::stop_source stop;   // at once
+    std::stop_source leave;  // once no replicate is recorded
+    bool by_client = false;  // a client stopped it, and may start it again
     std::jthread thread;
   };
+  using Runs = std::map<std::string, Run>;
 
   bool left_to_timer(const v1::Campaign& campaign) const;
-  void begin(Run& run, acquire::RunMode mode);  // with the mutex held
-  void run(const v1::Campaign& campaign, acquire::RunMode mode, const std::stop_token& stop);
+  void run(const v1::Campaign& campaign, acquire::RunMode mode, const std::stop_token& stop,
+           const std::stop_token& leave);
   void take(const v1::CampaignStatus& status);
   void end(const std::string& campaign);
   void tell(const std::string& campaign);
+  // With the mutex held:
+  bool as_wanted(const Runs::value_type& run) const;
+  bool folder_is_free(const v1::Campaign& campaign) const;
+  void begin(Run& run, acquire::RunMode mode);
+  void begin_unless_left(Run& run);
+  void tell_changes(const std::map<std::string, CampaignFile>& wanted) const;
 
   const acquire::RunMode mode_;
   Log& log_;
@@ -72,7 +88,9 @@ class Supervisor : public service::Bench {
   Watcher watcher_;
   mutable std::mutex mutex_;  // guards what follows
   bool ending_ = false;
-  std::map<std::string, Run> runs_;  // by campaign; last: their threads use all of the above
+  std::vector<v1::RejectedFile> rejected_;
+  std::map<std::string, CampaignFile> wanted_;  // by campaign
+  Runs runs_;  // by campaign, as they are; last: their threads use all of the above
 };
 
 }  // namespace imunoise::app

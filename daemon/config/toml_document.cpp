@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "daemon/config/toml_depth.h"
+
 namespace imunoise::config {
 namespace {
 
@@ -69,6 +71,7 @@ std::string_view type_of(const TomlValue& value) {
 }
 
 std::variant<TomlTable, Problem> parse_toml(std::string_view text) {
+  if (auto problem = too_deep(text)) return std::move(*problem);
   try {
     return plain_table(toml::parse(text));
   } catch (const toml::parse_error& error) {

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "daemon/process/ignored_signals.h"
+
 namespace imunoise::process {
 
 Spawning::Spawning() {
@@ -16,7 +18,11 @@ Spawning::Spawning() {
   sigset_t none{};
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes_, &none);
-  posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK);
+  sigset_t usual{};  // or ignored some, which a child would inherit
+  sigemptyset(&usual);
+  for (const int one : IgnoredSignals::kSignals) sigaddset(&usual, one);
+  posix_spawnattr_setsigdefault(&attributes_, &usual);
+  posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
 }
 
@@ -40,7 +46,8 @@ void Spawning::print_to(int output, int errors) {
   posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
 }
 
-Result<pid_t> Spawning::start(const std::vector<std::string>& words) const {
+Result<pid_t> Spawning::start(const std::vector<std::string>& words) {
+  posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
   std::vector<std::string> copies = words;
   std::vector<char*> pointers;
   for (std::string& word : copies) pointers.push_back(word.data());

@@ -10,7 +10,9 @@
 
 namespace imunoise::process {
 
-/// How a child begins: nothing to read, no signal blocked, and somewhere to print.
+/// How a child begins: nothing to read, no signal blocked or ignored, somewhere to print, and no
+/// file of ours open: libraries do not always open theirs with O_CLOEXEC, and a child that
+/// outlives us would hold ports and locks.
 class Spawning {
  public:
   Spawning();
@@ -26,7 +28,7 @@ class Spawning {
   void print_to(int descriptor) { print_to(descriptor, descriptor); }
   void print_to(int output, int errors);
   /// Starts `words[0]`, found along PATH, with the others as arguments. Error: it cannot be run.
-  Result<pid_t> start(const std::vector<std::string>& words) const;
+  Result<pid_t> start(const std::vector<std::string>& words);
 
  private:
   posix_spawn_file_actions_t actions_{};

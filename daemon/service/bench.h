@@ -9,6 +9,7 @@
 #include "core/support/result.h"
 #include "imunoise/v1/campaign.pb.h"
 #include "imunoise/v1/live.pb.h"
+#include "imunoise/v1/service.pb.h"
 
 namespace imunoise::service {
 
@@ -30,6 +31,8 @@ class Bench {
   virtual ~Bench() = default;
   /// All, in order of their names.
   virtual std::vector<BenchCampaign> campaigns() const = 0;
+  /// Files of campaigns that were not taken up.
+  virtual std::vector<v1::RejectedFile> rejected() const = 0;
   /// What is known of the replicates that are being recorded.
   virtual std::vector<v1::LiveReplicate> live() const = 0;
   /// Error: it runs already, or is not for us to start; says the way out.

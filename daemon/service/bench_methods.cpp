@@ -70,6 +70,7 @@ void add_bench_methods(Methods& methods, Bench& bench, const drivers::Drivers& d
         for (const BenchCampaign& one : bench.campaigns()) {
           *out.add_campaigns() = campaign_state(one, acquire::now_ns());
         }
+        for (v1::RejectedFile& one : bench.rejected()) *out.add_rejected() = std::move(one);
         return out;
       });
   methods.on<v1::GetCampaignRequest>([&bench](const v1::GetCampaignRequest& request) {

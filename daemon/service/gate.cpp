@@ -49,8 +49,17 @@ Gate::Gate(Routes routes, const Methods& methods, GateOptions options)
   }
 }
 
+std::optional<v1::Role> Gate::role_of(const RequestHead& head) const {
+  if (head.peer.local) return v1::operator_;
+  const auto token = bearer_token(head.authorization);
+  return token && options_.tokens ? options_.tokens->role_of(*token) : std::nullopt;
+}
+
+bool Gate::knows(const RequestHead& head) { return role_of(head).has_value(); }
+
 Answer<void> Gate::check_sender(const RequestHead& head) {
-  if (!rate_.pass(head.peer.name, std::chrono::steady_clock::now()))
+  const std::string peer = head.peer.name + (knows(head) ? "" : ", a stranger");
+  if (!rate_.pass(peer, std::chrono::steady_clock::now()))
     return service::refuse(429, "too many requests; try again in a second");
   if (!known_host(head.host, options_.hosts))
     return service::refuse(403, "the header Host names another machine; ask for localhost");
@@ -71,9 +80,8 @@ Answer<Gate::Asked> Gate::understand(const RequestHead& head) const {
 }
 
 Answer<void> Gate::check_role(const RequestHead& head, v1::Role needed) const {
-  if (needed == v1::anyone || head.peer.local) return {};
-  const auto token = bearer_token(head.authorization);
-  const auto role = token && options_.tokens ? options_.tokens->role_of(*token) : std::nullopt;
+  if (needed == v1::anyone) return {};
+  const auto role = role_of(head);
   if (!role)
     return service::refuse(401, "no token, or none of ours: send Authorization: Bearer TOKEN");
   if (*role < needed) return service::refuse(403, "this needs the token of an operator");

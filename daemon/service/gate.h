@@ -25,14 +25,16 @@ struct GateOptions {
   double burst = 200.0;                 ///< and at once.
 };
 
-/// In this order: a peer that asks too often (429), a Host that is none of ours or an Origin of
-/// another page (403), a target that is none (400), a path (404) or verb (405) that is not there,
-/// no token or a wrong one (401), a role that may not (403), a body that is no JSON (415).
+/// In this order: a peer that asks too often (429; strangers among its requests count apart), a
+/// Host that is none of ours or an Origin of another page (403), a target that is none (400), a
+/// path (404) or verb (405) that is not there, no token or a wrong one (401), a role that may not
+/// (403), a body that is no JSON (415).
 class Gate : public Handler {
  public:
   /// `methods` outlives it. Precondition: it has all methods of `routes`.
   Gate(Routes routes, const Methods& methods, GateOptions options);
 
+  bool knows(const RequestHead& head) override;
   std::optional<Response> refuse(const RequestHead& head) override;
   Response answer(const Request& request) override;
   Response trouble(unsigned status, const std::string& sentence) override;
@@ -47,6 +49,8 @@ class Gate : public Handler {
   };
   Answer<Asked> understand(const RequestHead& head) const;
   Answer<void> check_sender(const RequestHead& head);
+  // Nothing: a stranger, who shows no token of ours.
+  std::optional<v1::Role> role_of(const RequestHead& head) const;
   Answer<void> check_role(const RequestHead& head, v1::Role needed) const;
   Answer<Response> call(const Request& request) const;
   Response counted(Response response);

@@ -15,7 +15,8 @@ namespace imunoise::service {
 /// Who is at the other end.
 struct Peer {
   bool local = false;  ///< On the Unix socket: the file's permissions let it in.
-  std::string name;    ///< "uid 1000" or "127.0.0.1": what limits are counted by.
+  std::string
+      name;  ///< "uid 1000", or "loopback" where that is not known: limits are counted by it.
 };
 
 /// What is known before the body is read. Absent headers are empty.
@@ -45,6 +46,8 @@ struct Response {
 class Handler {
  public:
   virtual ~Handler() = default;
+  /// Whether the sender has shown who it is. On the network's thread: must not wait.
+  virtual bool knows(const RequestHead& head) = 0;
   /// On the network's thread, before the body is read: must not wait. A response refuses the
   /// request, whose body is then not read.
   virtual std::optional<Response> refuse(const RequestHead& head) = 0;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <boost/asio/generic/stream_protocol.hpp>
@@ -36,7 +37,7 @@ inline constexpr std::size_t kLingerBytes = std::size_t{1}
 
 struct Counts {
   std::atomic<std::uint64_t> connections = 0, streams = 0, accepted = 0, turned_away = 0,
-                             timed_out = 0, malformed = 0, streams_dropped = 0;
+                             evicted = 0, timed_out = 0, malformed = 0, streams_dropped = 0;
 };
 
 // What connections share. `connections` belongs to the network's thread.
@@ -50,6 +51,7 @@ struct Shared {
   asio::thread_pool pool;  // makes answers
   Counts counts;
   std::map<std::string, std::size_t> of_peer;
+  std::uint64_t turns = 0;  // connections that began, and responses that ended
 };
 
 class Connection : public std::enable_shared_from_this<Connection> {
@@ -64,8 +66,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void begin(Peer peer) {
     peer_ = std::move(peer);
+    known_ = peer_.local;  // the file's permissions have let it in
     read_head();
   }
+
+  // It has not shown who it is.
+  bool stranger() const { return !known_; }
+  // It waits for another request, or its last response has been sent.
+  bool idle() const { return !busy_ && !first_; }
+  // Greater for those that began, or were answered, later.
+  std::uint64_t turn() const { return turn_; }
 
   // Says why nothing more will come, without waiting, and closes.
   void turn_away() {
@@ -103,10 +113,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void read_head() {
+    busy_ = false;
+    turn_ = ++shared_.turns;
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(shared_.limits.header_bytes));
     parser_->body_limit(shared_.limits.body_bytes);
-    stream_.expires_after(shared_.limits.request);  // for the head and the body together
+    const auto& limits = shared_.limits;  // of the head and the body together
+    stream_.expires_after(first_ ? std::min(limits.first_head, limits.request) : limits.request);
     http::async_read_header(stream_, buffer_, *parser_,
                             then([](Connection& self, const error_code& error, std::size_t) {
                               if (error) return self.refuse_unread(error);
@@ -152,7 +165,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     request_.authorization = text(http::field::authorization);
     request_.content_type = text(http::field::content_type);
     request_.peer = peer_;
+    known_ = known_ || shared_.handler.knows(request_);
+    if (std::exchange(first_, false)) stream_.expires_after(shared_.limits.request);
     if (auto refusal = shared_.handler.refuse(request_)) return send(std::move(*refusal), false);
+    busy_ = true;
     http::async_read(stream_, buffer_, *parser_,
                      then([](Connection& self, const error_code& error, std::size_t) {
                        if (error) return self.refuse_unread(error);
@@ -208,6 +224,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     error_code error;
     socket().shutdown(asio::socket_base::shutdown_send, error);
     if (error) return finish();
+    busy_ = false;
     stream_.expires_after(kLinger);
     discard();
   }
@@ -286,6 +303,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::string outgoing_;
   std::array<char, 4096> scratch_{};
   std::size_t discarded_ = 0;
+  bool known_ = false;
+  bool first_ = true;  // no head of a request has come yet
+  bool busy_ = false;  // from a request's head to the end of its response
+  std::uint64_t turn_ = 0;
   bool writing_ = false;
   bool finished_ = false;
 };

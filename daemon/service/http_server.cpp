@@ -1,7 +1,9 @@
 #include "daemon/service/http_server.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <set>
@@ -10,6 +12,7 @@
 
 #include "daemon/service/http_connection.h"
 #include "daemon/service/listen_address.h"
+#include "daemon/service/peer_owner.h"
 #include "daemon/service/unix_socket.h"
 
 namespace imunoise::service {
@@ -17,10 +20,15 @@ namespace {
 
 constexpr std::chrono::milliseconds kAcceptPause{100};  // without a file descriptor to spare
 
+// TCP on loopback comes from this machine too: its kernel knows from whom.
 Peer peer_on(Stream::socket_type& socket, bool local) {
   if (local) return {true, peer_of(socket.native_handle())};
-  return {false, "loopback"};
+  const auto owner = owner_of_peer(socket.native_handle());
+  return {false, owner ? fmt::format("uid {} by TCP", *owner) : "loopback"};
 }
+
+// Asio does not. Until then a child may be begun: Spawning closes what it inherits.
+void keep_from_children(int socket) { ::fcntl(socket, F_SETFD, FD_CLOEXEC); }
 
 }  // namespace
 
@@ -87,6 +95,7 @@ class HttpServer::Implementation {
     auto& door = tcp_->acceptor;
     error_code error;
     door.open(endpoint.protocol(), error);
+    if (!error) keep_from_children(door.native_handle());
     if (!error) door.set_option(asio::socket_base::reuse_address(true), error);
     if (!error) door.bind(endpoint, error);
     if (!error) door.listen(asio::socket_base::max_listen_connections, error);
@@ -114,7 +123,9 @@ class HttpServer::Implementation {
 
   void take(const std::shared_ptr<Connection>& next, bool local) {
     ++shared_.counts.accepted;
+    keep_from_children(next->socket().native_handle());
     Peer peer = peer_on(next->socket(), local);
+    make_room(peer);
     std::size_t& same = shared_.of_peer[peer.name];
     if (connections_.size() >= shared_.limits.connections ||
         same >= shared_.limits.connections_of_peer) {
@@ -125,6 +136,37 @@ class HttpServer::Implementation {
     connections_.insert(next);
     shared_.counts.connections = connections_.size();
     next->begin(std::move(peer));
+  }
+
+  // Those that were there first and do nothing go first. Strangers make room for each other only
+  // among themselves, and for everybody else.
+  void make_room(const Peer& peer) {
+    const auto of_peer = [&](const Connection& one) { return one.peer().name == peer.name; };
+    const auto stranger = [](const Connection& one) { return one.stranger(); };
+    const auto strangers = std::count_if(connections_.begin(), connections_.end(),
+                                         [](const auto& one) { return one->stranger(); });
+    const auto same = shared_.of_peer.find(peer.name);
+    if (!peer.local && strangers >= static_cast<std::ptrdiff_t>(shared_.limits.strangers)) {
+      if (!evict([&](const auto& one) { return stranger(one) && of_peer(one); })) evict(stranger);
+    } else if (same != shared_.of_peer.end() &&
+               same->second >= shared_.limits.connections_of_peer) {
+      evict([&](const auto& one) { return (stranger(one) || one.idle()) && of_peer(one); });
+    } else if (connections_.size() >= shared_.limits.connections) {
+      if (!evict(stranger)) evict([](const auto& one) { return one.idle(); });
+    }
+  }
+
+  // The one of these whose turn was the longest ago; false where there is none.
+  template <class Which>
+  bool evict(const Which& which) {
+    std::shared_ptr<Connection> oldest;
+    for (const auto& one : connections_) {
+      if (which(*one) && (!oldest || one->turn() < oldest->turn())) oldest = one;
+    }
+    if (!oldest) return false;
+    ++shared_.counts.evicted;
+    oldest->finish();
+    return true;
   }
 
   void forget(const std::shared_ptr<Connection>& gone) {
@@ -164,8 +206,8 @@ Result<std::unique_ptr<HttpServer>> HttpServer::start(const Listen& listen,
 
 HttpCounters HttpServer::counters() const {
   const Counts& now = implementation_->counts();
-  return {now.connections, now.streams,   now.accepted,       now.turned_away,
-          now.timed_out,   now.malformed, now.streams_dropped};
+  return {now.connections, now.streams,   now.accepted,  now.turned_away,
+          now.evicted,     now.timed_out, now.malformed, now.streams_dropped};
 }
 
 std::uint16_t HttpServer::port() const { return implementation_->port(); }

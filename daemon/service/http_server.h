@@ -19,14 +19,17 @@ namespace imunoise::service {
 struct HttpLimits {
   std::size_t header_bytes = 16U << 10U;
   std::size_t body_bytes = 1U << 20U;
-  /// From the connection's beginning, or the end of the response before, until a whole request is
-  /// there, however its bytes are dripped in.
+  /// From the connection's beginning until the head of its first request is there,
+  std::chrono::milliseconds first_head{2'000};
+  /// and from then on, or the end of the response before, until a whole request is there, however
+  /// its bytes are dripped in.
   std::chrono::milliseconds request{10'000};
   /// Until the other side has taken a response, or all events that waited.
   std::chrono::milliseconds response{10'000};
   std::chrono::milliseconds heartbeat{15'000};  ///< Of a stream of events that has none.
   std::size_t connections = 64;                 ///< At once; others are told to come back.
   std::size_t connections_of_peer = 48;         ///< The others are left for other peers.
+  std::size_t strangers = 16;                   ///< Among these, until they show who they are.
   std::size_t streams = 16;                     ///< Of events, among these.
   std::size_t threads = 4;                      ///< That answer requests.
 };
@@ -42,6 +45,7 @@ struct HttpCounters {
   std::uint64_t streams = 0;      ///< Open now.
   std::uint64_t accepted = 0;
   std::uint64_t turned_away = 0;      ///< Too many were there.
+  std::uint64_t evicted = 0;          ///< Made room for others: strangers, and those that idled.
   std::uint64_t timed_out = 0;        ///< Took too long to send a request or to take a response.
   std::uint64_t malformed = 0;        ///< No HTTP, or beyond a limit of size.
   std::uint64_t streams_dropped = 0;  ///< Their readers were too slow.

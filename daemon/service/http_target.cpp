@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/support/utf8.h"
+
 namespace imunoise::service {
 namespace {
 
@@ -22,25 +24,9 @@ unsigned byte_at(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);
 }
 
-// Bytes of the well-formed UTF-8 sequence that begins there (Unicode, table 3-7); 0: none does.
-std::size_t sequence_at(std::string_view text, std::size_t at) {
-  const unsigned lead = byte_at(text, at);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || at + length > text.size()) return 0;
-  const unsigned second = byte_at(text, at + 1);
-  const unsigned lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
-  const unsigned highest = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
-  if (second < lowest || second > highest) return 0;
-  for (std::size_t i = 2; i < length; ++i) {
-    if ((byte_at(text, at + i) & 0xC0U) != 0x80U) return 0;
-  }
-  return length;
-}
-
 bool printable(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequence_at(text, at);
+    const std::size_t length = utf8_sequence(text.substr(at));
     const unsigned lead = byte_at(text, at);
     const bool control = lead < 0x20 || lead == 0x7F ||
                          (lead == 0xC2 && length == 2 && byte_at(text, at + 1) < 0xA0);

@@ -68,6 +68,9 @@ void add_campaigns(std::string& out, const Figures& figures) {
   for (const auto& one : figures.campaigns) {
     if (one.has_left_s()) left.add({{"campaign", one.campaign().name()}}, one.left_s());
   }
+  Family(out, "imunoise_campaign_files_rejected", "gauge",
+         "Campaign files that were not taken up when they were last read.")
+      .add({}, figures.rejected_files);
   Family free(out, "imunoise_disk_free_bytes", "gauge", "Of the disk that a campaign records to.");
   for (const auto& [campaign, bytes] : figures.free_bytes)
     free.add({{"campaign", campaign}}, bytes);
@@ -83,6 +86,9 @@ void add_service(std::string& out, const Figures& figures) {
   Family(out, "imunoise_http_accepted_total", "counter", "Connections.").add({}, http.accepted);
   Family(out, "imunoise_http_turned_away_total", "counter", "Connections beyond the limit.")
       .add({}, http.turned_away);
+  Family(out, "imunoise_http_evicted_total", "counter",
+         "Connections that made room for others: strangers, and those that idled.")
+      .add({}, http.evicted);
   Family(out, "imunoise_http_timed_out_total", "counter", "Connections that were too slow.")
       .add({}, http.timed_out);
   Family(out, "imunoise_http_malformed_total", "counter", "Requests that were none, or too large.")

@@ -15,6 +15,7 @@ struct Figures {
   std::string version;
   double uptime_s = 0.0;
   std::vector<v1::CampaignState> campaigns;
+  std::size_t rejected_files = 0;                   ///< Of campaigns.
   std::map<std::string, std::uint64_t> free_bytes;  ///< Of each campaign's disk, where known.
   std::vector<v1::Job> jobs;
   std::map<unsigned, std::uint64_t> responses;  ///< By status.

@@ -34,45 +34,57 @@ void keep(Entries& entries, const std::string& campaign) {
                 entries.end());
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Records>> Records::open(const std::vector<v1::Campaign>& campaigns,
-                                               std::chrono::milliseconds freshness) {
-  auto catalogue = catalogue::Catalogue::open(":memory:");
-  if (!catalogue) return tl::unexpected(catalogue.error());
-  std::map<std::string, fs::path> roots;
-  for (const v1::Campaign& one : campaigns) {
-    roots[one.name()] = fs::absolute(one.folder()).lexically_normal();
-  }
-  return std::unique_ptr<Records>(new Records(std::move(roots), std::move(*catalogue), freshness));
-}
-
-std::vector<fs::path> Records::folders() const {
+std::vector<fs::path> folders_in(const std::map<std::string, fs::path>& roots) {
   std::vector<fs::path> out;
-  for (const auto& [campaign, root] : roots_) out.push_back(root);
+  for (const auto& [campaign, root] : roots) out.push_back(root);
   return out;
 }
 
-Records::Records(std::map<std::string, fs::path> roots, catalogue::Catalogue catalogue,
-                 std::chrono::milliseconds freshness)
-    : roots_(std::move(roots)),
-      files_(confined_files(folders())),
-      freshness_(freshness),
-      catalogue_(std::move(catalogue)) {}
+}  // namespace
+
+Result<std::unique_ptr<Records>> Records::open(Campaigns campaigns,
+                                               std::chrono::milliseconds freshness) {
+  auto catalogue = catalogue::Catalogue::open(":memory:");
+  if (!catalogue) return tl::unexpected(catalogue.error());
+  return std::unique_ptr<Records>(
+      new Records(std::move(campaigns), std::move(*catalogue), freshness));
+}
+
+Records::View::View(Roots of) : roots(std::move(of)), files(confined_files(folders_in(roots))) {}
+
+std::shared_ptr<const Records::View> Records::view() const {
+  Roots roots;
+  for (const v1::Campaign& one : campaigns_()) {
+    roots[one.name()] = fs::absolute(one.folder()).lexically_normal();
+  }
+  const std::lock_guard lock(viewing_);
+  if (!view_ || view_->roots != roots) view_ = std::make_shared<const View>(std::move(roots));
+  return view_;
+}
+
+std::vector<fs::path> Records::folders() const { return folders_in(view()->roots); }
 
 Answer<void> Records::check_campaign(const std::string& campaign) const {
-  if (campaign.empty() || roots_.contains(campaign)) return {};
+  if (campaign.empty() || view()->roots.contains(campaign)) return {};
   return refuse(404, fmt::format("there is no campaign '{}'", campaign));
 }
 
 Answer<void> Records::refresh() {
   const auto now = std::chrono::steady_clock::now();
+  const auto current = view();
+  if (catalogued_ != current) {  // begun anew: it would keep what campaigns had that are gone
+    auto empty = catalogue::Catalogue::open(":memory:");
+    if (!empty) return refuse(500, empty.error().message);
+    catalogue_ = std::move(*empty);
+    catalogued_ = current;
+    refreshed_.reset();
+  }
   if (refreshed_ && now - *refreshed_ < freshness_) return {};
-  for (const auto& [campaign, root] : roots_) {
+  for (const auto& [campaign, root] : current->roots) {
     std::error_code unknown;
     if (!fs::exists(root, unknown)) continue;  // nothing was recorded yet
     catalogue_.use_bench(campaign);
-    if (const auto done = catalogue_.refresh(*files_, root); !done)
+    if (const auto done = catalogue_.refresh(*current->files, root); !done)
       return refuse(500, done.error().message);
   }
   refreshed_ = std::chrono::steady_clock::now();
@@ -140,12 +152,14 @@ Answer<v1::History> Records::history(const v1::GetHistoryRequest& request) {
 }
 
 Answer<fs::path> Records::path_of(const std::string& campaign, const std::string& folder) const {
-  const auto root = roots_.find(campaign);
-  if (root == roots_.end()) return refuse(404, fmt::format("there is no campaign '{}'", campaign));
+  const auto current = view();
+  const auto root = current->roots.find(campaign);
+  if (root == current->roots.end())
+    return refuse(404, fmt::format("there is no campaign '{}'", campaign));
   if (!leads_down(folder))
     return refuse(400, "folder: name a recording as /v1/recordings lists it");
   const fs::path path = root->second / folder;
-  if (const auto names = files_->list(path); !names)
+  if (const auto names = current->files->list(path); !names)
     return refuse(404, fmt::format("campaign '{}' has no recording '{}'", campaign, folder));
   return path;
 }
@@ -154,7 +168,7 @@ Answer<v1::Manifest> Records::manifest(const std::string& campaign,
                                        const std::string& folder) const {
   const auto path = path_of(campaign, folder);
   if (!path) return tl::unexpected(path.error());
-  auto out = recording::read_manifest(*files_, *path);
+  auto out = recording::read_manifest(*view()->files, *path);
   if (!out) return refuse(500, out.error().message);
   if (!*out)
     return refuse(404, fmt::format("campaign '{}' has no recording '{}'", campaign, folder));
@@ -165,7 +179,7 @@ Answer<v1::Calibration> Records::calibration(const std::string& campaign,
                                              const std::string& folder) const {
   const auto path = path_of(campaign, folder);
   if (!path) return tl::unexpected(path.error());
-  auto out = study::read_calibration(*files_, *path);
+  auto out = study::read_calibration(*view()->files, *path);
   if (!out) return refuse(500, out.error().message);
   if (!*out)
     return refuse(

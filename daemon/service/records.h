@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,8 +24,10 @@ namespace imunoise::service {
 /// more often than `freshness`. Benches of the catalogue are the campaigns.
 class Records {
  public:
-  /// Error: the database's.
-  static Result<std::unique_ptr<Records>> open(const std::vector<v1::Campaign>& campaigns,
+  using Campaigns = std::function<std::vector<v1::Campaign>()>;
+
+  /// `campaigns` is asked each time: they may change. Error: the database's.
+  static Result<std::unique_ptr<Records>> open(Campaigns campaigns,
                                                std::chrono::milliseconds freshness);
 
   /// Of one campaign, or of all (empty). Error: 404, there is no such campaign.
@@ -36,24 +39,33 @@ class Records {
   // Error: 404 where there is none, 400 for a name that leads elsewhere, 500 for a damaged file.
   Answer<v1::Manifest> manifest(const std::string& campaign, const std::string& folder) const;
   Answer<v1::Calibration> calibration(const std::string& campaign, const std::string& folder) const;
-  /// Its folder: for files(), through which nothing leads out of the campaigns' folders.
+  /// Its folder, beneath one of folders().
   Answer<std::filesystem::path> path_of(const std::string& campaign,
                                         const std::string& folder) const;
-  const recording::FileSystem& files() const { return *files_; }
-  /// What files() sees: of each campaign one.
+  /// Of each campaign one: all that can be read through this.
   std::vector<std::filesystem::path> folders() const;
 
  private:
-  Records(std::map<std::string, std::filesystem::path> roots, catalogue::Catalogue catalogue,
-          std::chrono::milliseconds freshness);
+  using Roots = std::map<std::string, std::filesystem::path>;  // by campaign
+  struct View {
+    explicit View(Roots roots);
+    const Roots roots;
+    const std::unique_ptr<recording::FileSystem> files;  // nothing leads out of the roots
+  };
+
+  Records(Campaigns campaigns, catalogue::Catalogue catalogue, std::chrono::milliseconds freshness)
+      : campaigns_(std::move(campaigns)), freshness_(freshness), catalogue_(std::move(catalogue)) {}
+  std::shared_ptr<const View> view() const;  // of the campaigns as they are now
   Answer<void> check_campaign(const std::string& campaign) const;
   Answer<void> refresh();  // with the mutex held
 
-  const std::map<std::string, std::filesystem::path> roots_;  // by campaign
-  const std::unique_ptr<recording::FileSystem> files_;
+  const Campaigns campaigns_;
   const std::chrono::milliseconds freshness_;
-  std::mutex mutex_;
+  mutable std::mutex viewing_;
+  mutable std::shared_ptr<const View> view_;
+  std::mutex mutex_;  // guards what follows
   catalogue::Catalogue catalogue_;
+  std::shared_ptr<const View> catalogued_;  // what the catalogue is of
   std::optional<std::chrono::steady_clock::time_point> refreshed_;
 };
 

@@ -38,6 +38,12 @@ Result<GateOptions> gate_options(const ServiceOptions& options) {
   return out;
 }
 
+std::vector<v1::Campaign> campaigns_of(const Bench& bench) {
+  std::vector<v1::Campaign> out;
+  for (BenchCampaign& one : bench.campaigns()) out.push_back(std::move(one.campaign));
+  return out;
+}
+
 }  // namespace
 
 class Service::Implementation {
@@ -113,6 +119,7 @@ class Service::Implementation {
       const auto free = acquire::free_space(one.campaign.folder());
       if (free) out.free_bytes[one.campaign.name()] = *free;
     }
+    out.rejected_files = bench_.rejected().size();
     out.jobs = jobs_.list();
     out.responses = gate_->responses();
     const std::lock_guard lock(server_mutex_);
@@ -195,7 +202,8 @@ Result<std::unique_ptr<Service>> Service::start(const ServiceOptions& options,
                                                 const ServiceSubjects& subjects) {
   auto gate = gate_options(options);
   if (!gate) return tl::unexpected(gate.error());
-  auto records = Records::open(subjects.campaigns, options.freshness);
+  auto records =
+      Records::open([&bench = subjects.bench] { return campaigns_of(bench); }, options.freshness);
   if (!records) return tl::unexpected(records.error());
   auto out =
       std::make_unique<Implementation>(options, subjects, std::move(*records), std::move(*gate));

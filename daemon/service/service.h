@@ -40,9 +40,8 @@ struct ServiceOptions {
 
 /// What it is about.
 struct ServiceSubjects {
-  Bench& bench;
+  Bench& bench;  ///< The recordings of its campaigns are shown.
   const drivers::Drivers& drivers;
-  std::vector<v1::Campaign> campaigns;  ///< Whose recordings are shown.
 };
 
 /// Serves while it lives.

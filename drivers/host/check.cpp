@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/support/utf8.h"
 #include "drivers/host/option_values.h"
 
 namespace imunoise::drivers {
@@ -32,8 +33,8 @@ class Complaint {
   std::string text_;
 };
 
-/// Text of a plugin, "" for none.
-std::string text(const char* from, std::string_view place, Complaint& complaint) {
+/// Text of a plugin that only describes, "" for none; bytes that are no UTF-8 become U+FFFD.
+std::string description(const char* from, std::string_view place, Complaint& complaint) {
   if (from == nullptr) return {};
   const std::size_t length = ::strnlen(from, kLongestText + 1);
   if (!complaint.require(length <= kLongestText, place, "a text has no end")) return {};
@@ -43,6 +44,15 @@ std::string text(const char* from, std::string_view place, Complaint& complaint)
     return byte < 0x20 || byte == 0x7f;
   });
   complaint.require(printable, place, "a text has control characters");
+  return is_utf8(out) ? out : repaired_utf8(out);
+}
+
+/// Text of a plugin that says what is recorded, "" for none. It must be what the driver means: two
+/// devices whose serial numbers were repaired could become one.
+std::string text(const char* from, std::string_view place, Complaint& complaint) {
+  std::string out = description(from, place, complaint);
+  complaint.require(from == nullptr || is_utf8({from, ::strnlen(from, kLongestText)}), place,
+                    fmt::format("'{}' is not UTF-8; the driver must convert it", out));
   return out;
 }
 
@@ -96,8 +106,8 @@ auto list(const Part* const* parts, std::uint32_t count, std::string_view kind,
 Channel channel(const imunoise_channel& from, const std::string& place, Complaint& complaint) {
   Channel out;
   out.name = name(from.name, place, complaint);
-  out.long_name = text(from.long_name, place, complaint);
-  out.units = text(from.units, place, complaint);
+  out.long_name = description(from.long_name, place, complaint);
+  out.units = text(from.units, place + ": units", complaint);
   complaint.require(!out.units.empty(), place, "has no units; \"1\" says that none is known");
   const bool known = from.number_type >= IMUNOISE_INT16 && from.number_type <= IMUNOISE_FLOAT64;
   complaint.require(known, place, fmt::format("unknown number type {}", from.number_type));
@@ -140,8 +150,8 @@ std::vector<Stream> streams(const imunoise_stream* const* from, std::uint32_t co
 Option option(const imunoise_option& from, const std::string& place, Complaint& complaint) {
   Option out;
   out.name = plain_name(from.name, "", place, complaint);
-  out.description = text(from.description, place, complaint);
-  out.unit = text(from.unit, place, complaint);
+  out.description = description(from.description, place, complaint);
+  out.unit = description(from.unit, place, complaint);
   const bool known = from.type >= IMUNOISE_OPTION_FLAG && from.type <= IMUNOISE_OPTION_TEXT;
   complaint.require(known, place, fmt::format("unknown option type {}", from.type));
   if (known) out.type = static_cast<OptionType>(from.type);
@@ -189,8 +199,8 @@ Result<DriverInfo> check_driver(const imunoise_driver* table) {
   Complaint complaint;
   DriverInfo out;
   out.name = plain_name(table->name, "-", "the driver", complaint);
-  out.description = text(table->description, "description", complaint);
-  out.version = text(table->version, "version", complaint);
+  out.description = description(table->description, "description", complaint);
+  out.version = description(table->version, "version", complaint);
   out.options = list(table->options, table->option_count, "option", "", complaint,
                      [&](const imunoise_option& part, const std::string& here) {
                        return option(part, here, complaint);
@@ -208,9 +218,9 @@ Result<DeviceInfo> check_device(const imunoise_device_info* table) {
   DeviceInfo out;
   complaint.require(table->stream_count > 0, "the device", "has no streams");
   out.streams = streams(table->streams, table->stream_count, complaint);
-  out.product = text(table->product, "product", complaint);
+  out.product = description(table->product, "product", complaint);
   out.serial = text(table->serial, "serial", complaint);
-  out.firmware = text(table->firmware, "firmware", complaint);
+  out.firmware = description(table->firmware, "firmware", complaint);
   if (!complaint.none()) return fail(complaint.text());
   return out;
 }

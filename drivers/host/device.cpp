@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/support/utf8.h"
 #include "drivers/host/check.h"
 
 namespace imunoise::drivers {
@@ -17,9 +18,10 @@ namespace {
 class ErrorText {
  public:
   imunoise_error* table() { return &table_; }
-  std::string_view text() {
+  // What was cut to fit may end within a character.
+  std::string text() {
     text_.back() = '\0';  // whatever the driver did to it
-    return text_.data();
+    return repaired_utf8(text_.data());
   }
 
  private:

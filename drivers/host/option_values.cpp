@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/support/utf8.h"
+
 namespace imunoise::drivers {
 namespace {
 
@@ -60,6 +62,13 @@ Result<imunoise_option_value> parse_value(const Option& option, std::string_view
       break;
     }
     case OptionType::kText:
+      if (!is_utf8(text)) {
+        return fail(fmt::format("'{}' is not UTF-8; write it in UTF-8, or rename the file",
+                                repaired_utf8(text)));
+      }
+      if (text.find('\0') != std::string_view::npos) {
+        return fail("holds a character 0, where a driver sees its end; leave it out");
+      }
       if (!option.choices.empty() &&
           std::find(option.choices.begin(), option.choices.end(), text) == option.choices.end()) {
         return fail(fmt::format("'{}' is none of: {}", text, fmt::join(option.choices, ", ")));

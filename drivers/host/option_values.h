@@ -23,7 +23,8 @@ struct OptionText {
 Result<OptionText> parse_option(std::string_view text);
 
 /// Error unless `value` is one that the option allows: of its type, within its bounds, among its
-/// choices. Numbers are written as in "100", "0.5", "1e-3"; flags as true or false.
+/// choices, and a text in UTF-8. Numbers are written as in "100", "0.5", "1e-3"; flags as true or
+/// false.
 Result<void> check_value(const Option& option, std::string_view value);
 
 /// The values of all options as driver.h has them, in the order of the options. Movable.

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "core/support/utf8.h"
+
 namespace imunoise::drivers {
 namespace {
 
@@ -13,7 +15,7 @@ std::int64_t now_ns() {
 
 void note(void* context, const char* text) {
   const auto& handlers = *static_cast<const DeviceHandlers*>(context);
-  if (handlers.note && text != nullptr) handlers.note(text);
+  if (handlers.note && text != nullptr) handlers.note(repaired_utf8(text));
 }
 
 std::int32_t wire(void* context, const std::uint8_t* bytes, std::uint64_t count) {

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <utility>
 
+#include "core/support/utf8.h"
+
 namespace imunoise::report {
 namespace {
 
@@ -43,20 +45,17 @@ std::string_view ascii_spelling(char32_t c) {
 }  // namespace
 
 char32_t next_code_point(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(at++);
-  if (lead < 0x80) return lead;
-  const std::size_t more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-  if (lead < 0xC2 || lead > 0xF4 || at + more > text.size()) return kReplacement;
-  char32_t code = lead & (0x3FU >> more);
-  for (std::size_t i = 0; i < more; ++i) {
-    if ((byte(at + i) & 0xC0U) != 0x80U) return kReplacement;
-    code = (code << 6U) | (byte(at + i) & 0x3FU);
+  const std::size_t length = utf8_sequence(text.substr(at));
+  if (length == 0) {
+    ++at;
+    return kReplacement;
   }
-  constexpr std::array<char32_t, 4> smallest = {0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (code < smallest[more] || surrogate || code > 0x10FFFF) return kReplacement;
-  at += more;
+  const char32_t lead = static_cast<unsigned char>(text[at]);
+  char32_t code = length == 1 ? lead : lead & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    code = (code << 6U) | (static_cast<unsigned char>(text[at + i]) & 0x3FU);
+  }
+  at += length;
   return code;
 }
 

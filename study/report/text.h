@@ -1,7 +1,6 @@
 #pragma once
 
-// Text that comes from files and people, made safe to show: one home for UTF-8, escaping and
-// widths.
+// Text that comes from files and people, made safe to show: one home for escaping and widths.
 
 #include <cstddef>
 #include <string>

@@ -81,6 +81,38 @@ TEST_F(Record, ASignalEndsItInGoodOrder) {
   EXPECT_TRUE(json_of("verify monday")["sound"].get<bool>());
 }
 
+TEST_F(Record, ALostTerminalEndsItInGoodOrder) {
+  const std::string recorded =
+      "record monday --device 'replay file=run.h5 speed=1' --json & child=$!; sleep 0.5; kill "
+      "-USR1 $child; kill -USR2 $child; sleep 0.2; kill -HUP $child; wait $child";
+  const Outcome done = run(recorded);
+  EXPECT_EQ(done.status, 0) << done.errors;
+  const json report = json::parse(done.out);
+  EXPECT_EQ(report["streams"][0]["stored"], report["streams"][0]["received"]);
+  EXPECT_TRUE(json_of("verify monday")["sound"].get<bool>());
+}
+
+TEST_F(Record, NohupIsHeeded) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);  // NOLINT: as nohup does
+  const Outcome done = run(
+      "record monday --device 'replay file=run.h5 speed=1' --duration 0.8 --json & child=$!; sleep "
+      "0.3; kill -HUP $child; wait $child");
+  std::signal(SIGHUP, before);
+  EXPECT_EQ(done.status, 0) << done.errors;
+  const json report = json::parse(done.out);
+  EXPECT_GT(std::stoi(report["streams"][0]["stored"].get<std::string>()), 50) << done.out;
+}
+
+// The driver tells what it found at opening, to a pipe whose reader has gone.
+TEST_F(Record, AClosedPipeEndsNothing) {
+  run("record monday --device 'emulated device=xsens seed=7' --duration 0.5 --json 2>&1 >report | "
+      ":");
+  const json report = json::parse(read("report"), nullptr, false);
+  ASSERT_FALSE(report.is_discarded());
+  EXPECT_EQ(report["streams"][0]["stored"], report["streams"][0]["received"]);
+  EXPECT_TRUE(json_of("verify monday")["sound"].get<bool>());
+}
+
 TEST_F(Record, SaysWhatItCannotDo) {
   const auto expect = [&](const std::string& arguments, const std::string& words) {
     const Outcome done = run("record monday " + arguments);
@@ -94,6 +126,9 @@ TEST_F(Record, SaysWhatItCannotDo) {
   expect("--device 'replay file'", "file");
   expect("--device 'replay file=absent.h5'", "absent.h5");
   expect("--device ' '", "name a driver");
+  expect("--device 'replay file=run.h5 unit=\xb0/s'", "is not UTF-8");
+  EXPECT_NE(run("record mond\xe4y --device 'replay file=run.h5'").errors.find("is not UTF-8"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,9 +1,14 @@
 // Parts of imunoised by themselves.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "daemon/app/campaign_files.h"
 #include "daemon/app/rate_limit.h"
 #include "daemon/app/status_text.h"
+#include "tests/daemon/whims.h"
 
 namespace imunoise::app {
 namespace {
@@ -40,6 +45,79 @@ TEST(StatusText, IsOneLineForPeople) {
   status.set_until_ns(1772323200'000'000'000);
   EXPECT_EQ(status_text(status),
             "array: waits for the next recording, until 2026-03-01 00:00:00 UTC");
+}
+
+class CampaignFolder : public testing::Whims {
+ protected:
+  void write(const std::string& file, const std::string& name, const std::string& folder,
+             const std::string& more = "") const {
+    std::ofstream(folder_ / file) << "name = \"" << name << "\"\nfolder = \""
+                                  << (folder_ / folder).string() << "\"\nlength = \"1 s\"\n"
+                                  << more
+                                  << "[[device]]\nname = \"a\"\ndriver = \"whims\"\n"
+                                     "options.file = \"a\"\n";
+  }
+  CampaignFiles read(const std::vector<CampaignFile>& in_force = {}) const {
+    const std::vector<std::filesystem::path> places = {folder_};
+    return read_campaigns(places, drivers(), in_force);
+  }
+  // "a=x b=y": files and the names of their campaigns.
+  static std::string found(const CampaignFiles& files) {
+    std::set<std::string> all;
+    for (const CampaignFile& one : files.found)
+      all.insert(one.file.stem().string() + "=" + one.campaign.name());
+    return fmt::format("{}", fmt::join(all, " "));
+  }
+};
+
+TEST_F(CampaignFolder, OfTwinsTheFirstIsTaken) {
+  write("a.toml", "x", "x");
+  write("b.toml", "x", "y");
+  write("c.toml", "z", "x");
+  const CampaignFiles files = read();
+  EXPECT_EQ(found(files), "a=x");
+  ASSERT_EQ(files.rejected.size(), 2U);
+  EXPECT_NE(files.rejected[0].problems(0).find("the name 'x' is that of"), std::string::npos);
+  EXPECT_NE(files.rejected[1].problems(0).find("the folder"), std::string::npos);
+}
+
+TEST_F(CampaignFolder, WhatIsInForceIsNotDisplaced) {
+  write("b.toml", "x", "x");
+  const auto in_force = read().found;
+  write("a.toml", "x", "other");  // before it by name
+  write("c.toml", "y", "./x/.");
+  CampaignFiles files = read(in_force);
+  EXPECT_EQ(found(files), "b=x");
+  EXPECT_EQ(files.rejected.size(), 2U);
+  write("b.toml", "x", "x", "nonsense = 1\n");
+  files = read(in_force);
+  EXPECT_EQ(found(files), "b=x") << "it stays as it was, and has its name";
+  EXPECT_EQ(files.rejected.size(), 3U);
+  write("b.toml", "z", "z");
+  std::filesystem::remove(folder_ / "c.toml");
+  EXPECT_EQ(found(read(in_force)), "a=x b=z") << "what it gave up may be taken";
+}
+
+TEST_F(CampaignFolder, ATwinOfAnotherFileStaysAsItWas) {
+  write("a.toml", "x", "x");
+  write("b.toml", "y", "y");
+  const auto in_force = read().found;
+  write("b.toml", "x", "y");
+  const CampaignFiles files = read(in_force);
+  EXPECT_EQ(found(files), "a=x b=y");
+  EXPECT_EQ(files.rejected.size(), 1U);
+}
+
+TEST_F(CampaignFolder, WhatCannotBeReadIsNotGone) {
+  write("a.toml", "x", "x");
+  write("b.toml", "y", "y");
+  const auto in_force = read().found;
+  std::filesystem::remove(folder_ / "a.toml");
+  EXPECT_EQ(found(read(in_force)), "b=y");
+  std::filesystem::remove(folder_ / "b.toml");
+  EXPECT_EQ(found(read(in_force)), "");
+  std::filesystem::remove_all(folder_);
+  EXPECT_EQ(found(read(in_force)), "a=x b=y") << "the folder is not there: is it mounted?";
 }
 
 }  // namespace

@@ -219,6 +219,40 @@ TEST(CampaignConfig, WhatIsNoTomlHasAPlaceToo) {
   EXPECT_EQ(found.front().substr(0, 9), "a.toml:2:") << found.front();
 }
 
+// A parser calls itself for each level: 20,000 of them were a stack overflow.
+TEST(CampaignConfig, DepthHasALimit) {
+  const auto many = [](const std::string& part, int count) {
+    std::string out;
+    for (int i = 0; i < count; ++i) out += part;
+    return out;
+  };
+  // What ends these texts for us ends them for the parser, too.
+  const std::string texts =
+      R"toml(t = ['''it''', "a\"", """a \""" """"", '''b''''', '', ""] # ")toml"
+      "\n";
+  EXPECT_NE(problem_with(texts).find("t: unknown"), std::string::npos);
+  for (const std::string& deep :
+       {"a" + many(".a", 20000) + " = 1", "[a" + many(" . a", 20000) + "]",
+        "[[" + many("\"a\".", 20000) + "b]]", "a" + many(".'b'", 20000) + " = 1",
+        texts + "a" + many(".a", 20000) + " = 1", "x = {y = {a" + many(".a", 20000) + " = 1}}"}) {
+    const auto found = problems_of(deep);
+    ASSERT_EQ(found.size(), 1U) << deep.substr(0, 100);
+    EXPECT_NE(found.front().find("a key has more than 16 parts"), std::string::npos)
+        << deep.substr(0, 100) << found.front();
+  }
+  EXPECT_EQ(problems_of("\n  b.a" + many(".a", 20000)).front().substr(0, 13), "a.toml:2:34: ");
+  for (const std::string& deep : {"x = " + many("[", 20000), "x = " + many("{a = ", 20000)}) {
+    const auto found = problems_of(deep);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NE(found.front().find("nested more than 16 deep"), std::string::npos) << found.front();
+  }
+  const std::string dots = many(".", 100);
+  EXPECT_TRUE(problems_of("# " + dots + "\n" + kSound).empty());
+  const std::string flat = "t = ['" + dots + "', \"" + dots + "\", '''\n" + dots + "'''" +
+                           many(", 1.5", 40) + many(", [{a.b = 1}]", 40) + "]";
+  EXPECT_NE(problem_with(flat).find("t: unknown"), std::string::npos);
+}
+
 TEST(CampaignConfig, FilesThatCannotBeRead) {
   const auto absent = read_campaign("absent.toml", known());
   ASSERT_FALSE(absent.has_value());

@@ -48,6 +48,7 @@ class FakeRecorder : public ReplicateRecorder {
       clock_.source().request_stop();
       return note;  // as a process does that is killed: the manifest stays open
     }
+    if (tasks.size() == leave_at) leave.request_stop();
     clock_.pass(std::chrono::nanoseconds(static_cast<std::int64_t>(campaign.length_s() * 1e9)));
     note.set_state(progress.stopped() ? v1::interrupted : v1::complete);
     if (knocks.contains(tasks.size())) note.add_disturbances()->set_begin_ns(note.started_ns());
@@ -59,6 +60,8 @@ class FakeRecorder : public ReplicateRecorder {
   std::deque<std::string> errors;
   std::set<std::size_t> knocks;  // which of the tasks, from 1
   std::size_t crash_at = 0;
+  std::size_t leave_at = 0;
+  std::stop_source leave;
 
  private:
   static void write(const v1::Campaign& campaign, const ReplicateTask& task,
@@ -99,7 +102,9 @@ class CampaignRun : public ::testing::Test {
     recorder.errors = errors_;
     recorder.knocks = knocks_;
     recorder.crash_at = crash_at_;
+    recorder.leave_at = leave_at_;
     CampaignSurroundings with{clock, files(), recorder};
+    with.leave = recorder.leave.get_token();
     with.calibrate = [&](const auto&, const fs::path& recording,
                          const Progress&) -> Result<std::string> {
       calibrated_.push_back(recording.filename().string());
@@ -109,6 +114,7 @@ class CampaignRun : public ::testing::Test {
     with.publish = [&](const auto&, const fs::path& recording,
                        const Progress&) -> Result<std::string> {
       published_.push_back(recording.filename().string());
+      if (leave_when_published_) recorder.leave.request_stop();
       return "imu0 drifts";
     };
     with.tell = [&](const v1::CampaignStatus& status) { told_.push_back(status); };
@@ -134,6 +140,8 @@ class CampaignRun : public ::testing::Test {
   std::deque<std::string> errors_;
   std::set<std::size_t> knocks_;
   std::size_t crash_at_ = 0;
+  std::size_t leave_at_ = 0;
+  bool leave_when_published_ = false;
   std::string calibration_error_;
   std::vector<std::string> tasks_, calibrated_, published_;
   std::vector<v1::CampaignStatus> told_;
@@ -156,6 +164,23 @@ TEST_F(CampaignRun, GoesThroughItsPhasesOnce) {
   EXPECT_EQ(told_[8].reason(), "imu0 drifts");
   EXPECT_EQ(told_[3].replicate(), 2U);
   EXPECT_EQ(told_[3].replicates(), 3U);
+}
+
+TEST_F(CampaignRun, LeavesOnceTheReplicateIsRecorded) {
+  leave_at_ = 2;
+  const Time end = run(kBegin);
+  EXPECT_EQ(end, kBegin + 10min + 2h + 1min) << "no pause after it";
+  const auto newest = newest_recording(files(), campaign_).value();
+  ASSERT_EQ(newest->state.notes.size(), 2U);
+  EXPECT_EQ(newest->state.notes[1].state(), v1::complete);
+  EXPECT_TRUE(calibrated_.empty());
+}
+
+TEST_F(CampaignRun, LeavesAtOnceWhenNothingIsRecorded) {
+  campaign_.mutable_schedule()->set_every_s(6 * 3600.0);
+  leave_when_published_ = true;
+  EXPECT_EQ(run(kBegin), kBegin + 10min + 3h + 2min) << "it does not wait for the next recording";
+  EXPECT_EQ(tasks_.size(), 3U);
 }
 
 TEST_F(CampaignRun, AFinishedOneDoesNotRecordAgain) {

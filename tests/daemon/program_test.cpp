@@ -2,10 +2,14 @@
 
 #include "daemon/process/program.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
+
+#include "core/support/descriptor.h"
+#include "daemon/process/ignored_signals.h"
 
 namespace imunoise::process {
 namespace {
@@ -25,6 +29,17 @@ TEST(Program, TellsHowItEnded) {
   const auto absent = run_program({"/no/such/program"}, {});
   ASSERT_FALSE(absent);
   EXPECT_EQ(absent.error().message, "/no/such/program: cannot be run: No such file or directory");
+}
+
+TEST(Program, InheritsNeitherFilesNorIgnoredSignals) {
+  const Descriptor leaked(::open("/dev/null", O_RDONLY));  // as libraries do, without O_CLOEXEC
+  EXPECT_EQ(error_of("test ! -e /proc/$$/fd/" + std::to_string(leaked.get())), "");
+  const IgnoredSignals ignored;
+  for (const char* const name : {"PIPE", "USR1", "USR2"}) {
+    EXPECT_NE(error_of(std::string("kill -") + name + " $$").find("ended by signal"),
+              std::string::npos)
+        << name;
+  }
 }
 
 TEST(Program, KeepsTheLastOfMuchThatIsSaid) {

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace imunoise {
 namespace {
@@ -120,22 +121,38 @@ TEST_F(Units, CalendarsOfTimerAndExamplesAreCalendars) {
   }
 }
 
-// Every device that a rule speaks of is left alone by ModemManager, and every bridge and sensor is
-// spoken of.
-TEST_F(Units, RulesKnowEveryBridgeAndSensor) {
-  const std::string rules = read(root_ / "usr/lib/udev/rules.d/60-imunoise.rules");
-  std::size_t count = 0;
-  std::istringstream lines(rules);
+// The lines of rules that match devices.
+std::vector<std::string> matches_in(const fs::path& rules) {
+  std::vector<std::string> out;
+  std::istringstream lines(read(rules));
   for (std::string line; std::getline(lines, line);) {
-    if (line.find("SUBSYSTEM==") == std::string::npos) continue;
-    ++count;
-    EXPECT_NE(line.find("ENV{ID_MM_DEVICE_IGNORE}=\"1\""), std::string::npos) << line;
-    EXPECT_NE(line.find("ATTR"), std::string::npos) << line << ": fits every device";
+    if (line.starts_with("SUBSYSTEM==")) out.push_back(line);
   }
-  EXPECT_EQ(count, 6U);
-  for (const char* const id : {"6010|6014", "\"10c4\"", "\"87a0\"", "\"2639\"", "d38[8-9a-f]"}) {
-    EXPECT_NE(rules.find(id), std::string::npos) << id;
+  return out;
+}
+
+// Every device that a rule speaks of is left alone by ModemManager. What is installed takes no chip
+// that other things are built of: their rules are an example, with a serial number.
+TEST_F(Units, RulesKnowSensorsAndNoOtherThings) {
+  const auto rules = matches_in(root_ / "usr/lib/udev/rules.d/60-imunoise.rules");
+  const auto example =
+      matches_in(root_ / "usr/share/doc/imunoise/examples/61-imunoise-bridge.rules");
+  EXPECT_EQ(rules.size(), 4U);
+  EXPECT_EQ(example.size(), 2U);
+  for (const auto& list : {rules, example}) {
+    for (const std::string& line : list)
+      EXPECT_NE(line.find("ENV{ID_MM_DEVICE_IGNORE}=\"1\""), std::string::npos) << line;
   }
+  for (const std::string& line : rules) {
+    const bool maker = line.find("{idVendor}==\"2639\"") != std::string::npos;
+    const bool its_range = line.find("{idProduct}==\"d38[8-9a-f]\"") != std::string::npos;
+    EXPECT_TRUE(maker || its_range) << line << ": takes devices of others";
+  }
+  for (const std::string& line : example)
+    EXPECT_NE(line.find("ATTR{serial}=="), std::string::npos) << line;
+  const std::string all = example[0] + example[1];
+  for (const char* const id : {"6010|6014", "\"10c4\"", "\"87a0\""})
+    EXPECT_NE(all.find(id), std::string::npos) << id;
 }
 
 }  // namespace

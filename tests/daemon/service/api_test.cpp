@@ -66,6 +66,29 @@ TEST_F(Api, CampaignsAreShownStartedAndStopped) {
             "start array once\nstart other\nstop other 2026-03-01T060000Z\nstop array refuse\n");
 }
 
+TEST_F(Api, CampaignsMayChangeWhileItServes) {
+  serve();
+  record("monday");
+  EXPECT_EQ(get_json("/v1/recordings")["recordings"].size(), 1U);
+  auto campaigns = bench_.campaigns();
+  campaigns.front().campaign.set_name("new");
+  v1::RejectedFile rejected;
+  rejected.set_file("bad.toml");
+  rejected.add_problems("bad.toml:1:1: what is this?");
+  bench_.reload(campaigns, {rejected});
+  const json all = get_json("/v1/campaigns");
+  EXPECT_EQ(all["campaigns"][0]["campaign"]["name"], "new");
+  EXPECT_EQ(all["rejected"][0]["file"], "bad.toml");
+  EXPECT_EQ(all["rejected"][0]["problems"][0], "bad.toml:1:1: what is this?");
+  const json recordings = get_json("/v1/recordings")["recordings"];
+  ASSERT_EQ(recordings.size(), 1U) << "nothing is left of the campaign that has gone";
+  EXPECT_EQ(recordings[0]["bench"], "new");
+  get_json("/v1/recordings/new/monday");
+  refusal("/v1/recordings/array/monday", 404);
+  EXPECT_NE(testing::get(local_, "/metrics").body.find("imunoise_campaign_files_rejected 1\n"),
+            std::string::npos);
+}
+
 TEST_F(Api, RecordingsAppearWhenTheyAreThere) {
   serve();
   EXPECT_TRUE(get_json("/v1/recordings")["recordings"].empty());

@@ -14,6 +14,10 @@ class FakeBench : public service::Bench {
     const std::lock_guard lock(mutex_);
     return campaigns_;
   }
+  std::vector<v1::RejectedFile> rejected() const override {
+    const std::lock_guard lock(mutex_);
+    return rejected_;
+  }
   std::vector<v1::LiveReplicate> live() const override {
     const std::lock_guard lock(mutex_);
     return live_;
@@ -35,6 +39,13 @@ class FakeBench : public service::Bench {
   }
 
   void add(const v1::Campaign& campaign) { campaigns_.push_back({campaign, {}, true}); }
+  /// These are the campaigns from now on.
+  void reload(std::vector<service::BenchCampaign> campaigns,
+              std::vector<v1::RejectedFile> rejected) {
+    const std::lock_guard lock(mutex_);
+    campaigns_ = std::move(campaigns);
+    rejected_ = std::move(rejected);
+  }
   /// The first campaign does this from now on.
   void tell(const v1::CampaignStatus& status) {
     std::string name;
@@ -60,6 +71,7 @@ class FakeBench : public service::Bench {
   mutable std::mutex mutex_;
   std::mutex watching_;
   std::vector<service::BenchCampaign> campaigns_;
+  std::vector<v1::RejectedFile> rejected_;
   std::vector<v1::LiveReplicate> live_;
   std::string asked_;
   Watcher watcher_;

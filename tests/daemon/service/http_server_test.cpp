@@ -2,13 +2,17 @@
 
 #include "daemon/service/http_server.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <atomic>
 #include <fstream>
 #include <thread>
 
+#include "daemon/service/peer_owner.h"
 #include "daemon/service/unix_socket.h"
 #include "tests/daemon/service/raw_client.h"
 #include "tests/study/simulated_recording.h"
@@ -25,6 +29,9 @@ using Clock = std::chrono::steady_clock;
 // Answers with what it was asked, or with a stream of events.
 class Echo : public Handler {
  public:
+  bool knows(const RequestHead& head) override {
+    return head.peer.local || !head.authorization.empty();
+  }
   std::optional<Response> refuse(const RequestHead& head) override {
     if (head.target == "/refused") return Response{403, "text/plain", "refused"};
     return std::nullopt;
@@ -104,6 +111,27 @@ TEST_F(Server, TheSocketIsForOwnerAndGroup) {
   EXPECT_EQ(found.st_mode & 07777U, 0660U);
   server_.reset();
   EXPECT_FALSE(std::filesystem::exists(where_.socket));
+}
+
+// A child that kept one would keep the port, or the connection, when we have gone.
+TEST_F(Server, ChildrenInheritNoSocket) {
+  auto server = HttpServer::start({where_.socket, "127.0.0.1:0"}, limits_, echo_);
+  ASSERT_TRUE(server.has_value());
+  server_ = std::move(*server);
+  std::vector<RawClient> clients;
+  for (const Where& where : {where_, Where{"", server_->port()}}) {
+    clients.emplace_back(where).send(testing::request_text("GET", "/a"));
+    EXPECT_EQ(clients.back().receive().status, 200);
+  }
+  int sockets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int one = std::stoi(entry.path().filename());
+    struct stat found {};
+    if (::fstat(one, &found) != 0 || !S_ISSOCK(found.st_mode)) continue;
+    ++sockets;
+    EXPECT_NE(::fcntl(one, F_GETFD) & FD_CLOEXEC, 0) << one;
+  }
+  EXPECT_GE(sockets, 6) << "two that listen, and both ends of two connections";
 }
 
 TEST_F(Server, TakesOverASocketThatADeadProcessLeft) {
@@ -257,6 +285,86 @@ TEST_F(Server, OnePeerLeavesConnectionsForOthers) {
   RawClient third(where_);  // is told so at once, and need not ask
   EXPECT_EQ(third.receive().status, 503);
   EXPECT_EQ(testing::get({"", server_->port()}, "/a").status, 200);
+}
+
+TEST_F(Server, IdleConnectionsMakeRoomOldestFirst) {
+  limits_.connections_of_peer = 3;
+  start();
+  const auto ask = [](RawClient& client) {
+    client.send(testing::request_text("GET", "/a"));
+    return client.receive().status;
+  };
+  std::vector<RawClient> clients;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(clients.emplace_back(where_)), 200);
+  EXPECT_EQ(ask(clients[0]), 200) << "it is the last one now";
+  RawClient more(where_);
+  EXPECT_EQ(ask(more), 200);
+  EXPECT_TRUE(clients[1].closed());
+  EXPECT_EQ(ask(clients[0]), 200);
+  EXPECT_EQ(ask(clients[2]), 200);
+  EXPECT_EQ(server_->counters().evicted, 1U);
+  EXPECT_EQ(server_->counters().turned_away, 0U);
+}
+
+TEST_F(Server, WhoIsAnsweredIsNotEvicted) {
+  limits_.connections_of_peer = 1;
+  start();
+  RawClient first(where_);
+  first.send(testing::request_text("GET", "/slow"));
+  while (echo_.answered < 1) std::this_thread::sleep_for(1ms);
+  RawClient second(where_);
+  EXPECT_EQ(second.receive().status, 503);
+  EXPECT_EQ(first.receive().status, 200);
+}
+
+TEST_F(Server, StrangersAreFewAndMakeRoom) {
+  limits_.strangers = 2;
+  auto server = HttpServer::start({std::nullopt, "127.0.0.1:0"}, limits_, echo_);
+  ASSERT_TRUE(server.has_value());
+  server_ = std::move(*server);
+  const Where tcp{"", server_->port()};
+  RawClient known(tcp);
+  const auto request = testing::request_text("GET", "/a", {"Authorization: me"});
+  known.send(request);
+  EXPECT_EQ(known.receive().status, 200);
+  std::vector<RawClient> strangers;
+  for (int i = 0; i < 3; ++i) strangers.emplace_back(tcp);
+  EXPECT_TRUE(strangers[0].closed(1s)) << "at once, for the third";
+  strangers[2].send(testing::request_text("GET", "/b"));
+  EXPECT_EQ(strangers[2].receive().status, 200);
+  known.send(request);
+  EXPECT_EQ(known.receive().status, 200);
+  EXPECT_EQ(server_->counters().evicted, 1U);
+}
+
+TEST_F(Server, TheFirstRequestHasLittleTime) {
+  limits_.first_head = 200ms;
+  start();
+  RawClient silent(where_);
+  RawClient client(where_);
+  client.send(testing::request_text("GET", "/a"));
+  EXPECT_EQ(client.receive().status, 200);
+  EXPECT_TRUE(silent.closed(2s));
+  EXPECT_FALSE(client.closed(100ms)) << "the next one has more";
+}
+
+TEST_F(Server, PeersOnLoopbackAreKnownByTheirUser) {
+  const int server = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  auto* const generic = static_cast<sockaddr*>(static_cast<void*>(&address));
+  ASSERT_EQ(::bind(server, generic, size), 0);
+  ASSERT_EQ(::listen(server, 1), 0);
+  ASSERT_EQ(::getsockname(server, generic, &size), 0);
+  const RawClient client(Where{"", ntohs(address.sin_port)});
+  const int accepted = ::accept4(server, nullptr, nullptr, SOCK_CLOEXEC);
+  const auto owner = owner_of_peer(accepted);
+  ::close(accepted);
+  ::close(server);
+  if (!owner) GTEST_SKIP() << "SKIPPED: this kernel does not tell";
+  EXPECT_EQ(*owner, ::geteuid());
 }
 
 TEST_F(Server, StreamsEventsUntilItsReaderGoes) {

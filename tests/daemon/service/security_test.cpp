@@ -66,7 +66,7 @@ TEST_F(Security, NoTokenChangesNothing) {
 
 TEST_F(Security, TcpWithoutTokensIsNotServed) {
   options_.tokens.reset();
-  auto started = service::Service::start(options_, {bench_, drivers_, {}});
+  auto started = service::Service::start(options_, {bench_, drivers_});
   ASSERT_FALSE(started.has_value());
   EXPECT_NE(started.error().message.find("--tokens"), std::string::npos);
   EXPECT_FALSE(fs::exists(*options_.listen.socket));
@@ -202,6 +202,31 @@ TEST_F(Security, DeepJsonIsRefused) {
   for (int i = 0; i < 100'000; ++i) deep += R"({"study":)";
   EXPECT_EQ(testing::post(local_, "/v1/studies", deep).status, 400);
   EXPECT_EQ(testing::post(local_, "/v1/studies", std::string(100'000, '[')).status, 400);
+}
+
+TEST_F(Security, StrangersLeaveConnectionsToOthers) {
+  serve();
+  std::vector<RawClient> silent;
+  for (std::size_t i = 0; i < options_.http.connections; ++i) silent.emplace_back(tcp_);
+  EXPECT_EQ(testing::get(tcp_, "/v1/campaigns", {bearer(kViewer)}).status, 200);
+  RawClient known(tcp_);
+  const std::string request =
+      testing::request_text("GET", "/v1/campaigns", {bearer(kViewer), "Connection: keep-alive"});
+  known.send(request);
+  EXPECT_EQ(known.receive().status, 200);
+  for (std::size_t i = 0; i < options_.http.connections; ++i) silent.emplace_back(tcp_);
+  known.send(request);
+  EXPECT_EQ(known.receive().status, 200) << "who showed a token stays";
+}
+
+TEST_F(Security, StrangersLeaveRequestsToOthers) {
+  options_.requests_per_second = 1.0;
+  options_.burst = 5.0;
+  serve();
+  for (int i = 0; i < 10; ++i) testing::get(tcp_, "/healthz");
+  EXPECT_EQ(testing::get(tcp_, "/healthz").status, 429);
+  EXPECT_EQ(testing::get(tcp_, "/v1/campaigns", {bearer("guess" + kViewer)}).status, 429);
+  EXPECT_EQ(testing::get(tcp_, "/v1/campaigns", {bearer(kViewer)}).status, 200);
 }
 
 TEST_F(Security, WhoAsksTooOftenWaits) {

@@ -46,9 +46,7 @@ class Served : public ::testing::Test {
   }
 
   void serve() {
-    service::ServiceSubjects subjects{bench_, drivers_, {}};
-    for (const auto& one : bench_.campaigns()) subjects.campaigns.push_back(one.campaign);
-    auto started = service::Service::start(options_, subjects);
+    auto started = service::Service::start(options_, {bench_, drivers_});
     ASSERT_TRUE(started.has_value()) << started.error().message;
     service_ = std::move(*started);
     local_ = {*options_.listen.socket, 0};

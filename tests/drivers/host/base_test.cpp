@@ -43,6 +43,45 @@ testing::Pretend steps(std::vector<std::function<void(Samples&)>> all) {
           }};
 }
 
+// Names, units and serial numbers say what was recorded: those that are no text cannot be kept.
+TEST(DriverBase, WhatIdentifiesADeviceIsUtf8) {
+  const auto complaint = [](const std::function<void(drivers::DeviceInfo&)>& spoil) {
+    testing::Pretend pretend = steps({});
+    spoil(pretend.info);
+    const auto device = testing::open(pretend);
+    return device ? std::string("opened") : device.error().message;
+  };
+  const std::string latin1 = "\xb0/s";
+  const std::string what = "'\xEF\xBF\xBD/s' is not UTF-8; the driver must convert it";
+  EXPECT_NE(complaint([&](auto& info) { info.serial = latin1; }).find("serial: " + what),
+            std::string::npos);
+  EXPECT_NE(complaint([&](auto& info) { info.streams[0].name = latin1; }).find(what),
+            std::string::npos);
+  EXPECT_NE(complaint([&](auto& info) { info.streams[0].channels[1].name = latin1; }).find(what),
+            std::string::npos);
+  EXPECT_NE(complaint([&](auto& info) {
+              info.streams[0].channels[1].units = latin1;
+            }).find("stream 0: channel 1: units: " + what),
+            std::string::npos);
+  EXPECT_EQ(complaint([](auto& info) { info.streams[0].channels[1].units = "°/s"; }), "opened");
+}
+
+TEST(DriverBase, WhatDescribesADeviceIsRepaired) {
+  testing::Pretend pretend = steps({});
+  pretend.info.product = "Caf\xe9";
+  pretend.info.firmware = "v\xff";
+  pretend.info.streams[0].channels[0].long_name = "\xb0 a second";
+  pretend.opening = [](const plugin::Host& host) { host.note("20 \xb0 C"); };
+  std::string noted;
+  const auto device =
+      testing::open(pretend, [&](std::string_view text) { noted = std::string(text); });
+  ASSERT_TRUE(device) << device.error().message;
+  EXPECT_EQ((*device)->info().product, "Caf\xEF\xBF\xBD");
+  EXPECT_EQ((*device)->info().firmware, "v\xEF\xBF\xBD");
+  EXPECT_EQ((*device)->info().streams[0].channels[0].long_name, "\xEF\xBF\xBD a second");
+  EXPECT_EQ(noted, "20 \xEF\xBF\xBD C");
+}
+
 TEST(DriverBase, DeliversSamplesAsTheyWereAdded) {
   const auto device = testing::open(steps({[](Samples& samples) {
     for (int i = 0; i < 3; ++i) {

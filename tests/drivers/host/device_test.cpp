@@ -39,6 +39,7 @@ INSTANTIATE_TEST_SUITE_P(All, FaultyOpen,
                          ::testing::Values(Fault{"throw_in_open",
                                                  "the driver let an exception out"},
                                            Fault{"endless_error", "eeee"},
+                                           Fault{"latin1_error", "no sensor at 20 \xEF\xBF\xBD C"},
                                            Fault{"no_handle", "open succeeded without a device"},
                                            Fault{"no_info", "describes the device by NULL"},
                                            Fault{"no_streams", "the device: has no streams"}));

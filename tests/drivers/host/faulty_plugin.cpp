@@ -41,6 +41,10 @@ std::int32_t open_device(const imunoise_option_value* const* values, std::uint32
     std::memset(error->text, 'e', error->capacity);  // no final 0
     return IMUNOISE_NOT_FOUND;
   }
+  if (fault == "latin1_error") {
+    std::strncpy(error->text, "no sensor at 20 \xb0 C", error->capacity - 1);
+    return IMUNOISE_NOT_FOUND;
+  }
   if (fault == "no_handle") return IMUNOISE_OK;
   *device = static_cast<imunoise_device*>(static_cast<void*>(&fault));
   return IMUNOISE_OK;

@@ -80,6 +80,14 @@ TEST(OptionValues, RefuseWithTheWayOut) {
   EXPECT_EQ(complaint({{"mode", "medium"}}), "option mode: 'medium' is none of: slow, fast");
 }
 
+TEST(OptionValues, AreTextsThatADriverCanRead) {
+  EXPECT_EQ(complaint({{"file", "caf\xe9"}}),
+            "option file: 'caf\xEF\xBF\xBD' is not UTF-8; write it in UTF-8, or rename the file");
+  EXPECT_EQ(complaint({{"file", std::string("a\0b", 3)}}),
+            "option file: holds a character 0, where a driver sees its end; leave it out");
+  EXPECT_EQ(complaint({{"file", "café"}}), "");
+}
+
 TEST(OptionText, IsTakenApartAtTheFirstEqualsSign) {
   const auto option = parse_option("file=a=b.csv");
   ASSERT_TRUE(option);
