@@ -16,6 +16,7 @@ Result<catalogue::Catalogue> current(const CatalogueArguments& arguments) {
   auto out = catalogue::Catalogue::open(
       arguments.catalogue.value_or(catalogue::place_in(arguments.folder)), arguments.bench);
   if (!out) return out;
+  if (!out->repair().empty()) fmt::print(stderr, "{}\n", out->repair());
   const auto changes = out->refresh(recording::posix_file_system(), arguments.folder,
                                     line.progress(interrupt.token()));
   if (!changes) return tl::unexpected(changes.error());

@@ -91,8 +91,11 @@ Result<std::string> Aftercare::publish(const v1::Campaign& campaign,
   if (!catalogue) return tl::make_unexpected(catalogue.error());
   const auto changes = catalogue->refresh(files_, campaign.folder(), progress);
   if (!changes) return tl::make_unexpected(changes.error());
-  if (*changes == catalogue::Changes{0, changes->unchanged, 0}) return "";
-  return drifts(*catalogue, *manifest);
+  const std::string& repair = catalogue->repair();
+  if (*changes == catalogue::Changes{0, changes->unchanged, 0}) return repair;
+  const auto drift = drifts(*catalogue, *manifest);
+  if (!drift || repair.empty()) return drift;
+  return drift->empty() ? repair : repair + "; " + *drift;
 }
 
 }  // namespace imunoise::app

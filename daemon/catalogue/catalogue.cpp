@@ -9,7 +9,6 @@
 
 #include "daemon/catalogue/entry.h"
 #include "daemon/catalogue/scan.h"
-#include "daemon/catalogue/schema.h"
 #include "recording/store/layout.h"
 
 namespace imunoise::catalogue {
@@ -43,18 +42,31 @@ v1::HistoryPoint point_of(const Row& row) {
 std::string place_in(const std::filesystem::path& root) {
   std::error_code unknown;
   const bool recording = std::filesystem::exists(root / recording::kManifestName, unknown);
-  return !recording && ::access(root.c_str(), W_OK) == 0 ? (root / "catalogue.sqlite").string()
+  return !recording && ::access(root.c_str(), W_OK) == 0 ? (root / kCatalogueName).string()
                                                          : ":memory:";
 }
 
 Result<Catalogue> Catalogue::open(const std::string& where, std::string bench) {
-  auto database = Database::open(where);
-  if (!database) return tl::unexpected(database.error());
-  if (auto ready = prepare_schema(**database); !ready) {
-    return fail(ready.error().message +
-                "; a catalogue may be deleted: it is made again from the recordings");
-  }
-  return Catalogue(std::move(*database), std::move(bench));
+  auto sound = open_sound(where);
+  if (!sound) return tl::unexpected(sound.error());
+  return Catalogue(std::move(*sound), std::move(bench));
+}
+
+// Another program may have read it meanwhile; false: it has.
+Result<bool> Catalogue::put(const Found& found) {
+  bool put = false;
+  auto done = database_->transaction(
+      [&]() -> Result<void> {
+        const auto rows = database_->query(
+            "select stamp from recordings where bench = :bench and folder = :folder",
+            {bench_, found.folder});
+        if (!rows) return tl::unexpected(rows.error());
+        put = rows->empty() || text(rows->front().front()) != found.stamp;
+        return put ? put_entry(*database_, bench_, found) : Result<void>();
+      },
+      lock());
+  if (!done) return tl::unexpected(done.error());
+  return put;
 }
 
 Result<Changes> Catalogue::refresh(const recording::FileSystem& files,
@@ -76,13 +88,13 @@ Result<Changes> Catalogue::refresh(const recording::FileSystem& files,
       ++out.unchanged;
       continue;
     }
-    const Found found = read_found(files, root, folder);
-    auto done = database_->transaction([&] { return put_entry(*database_, bench_, found); });
-    if (!done) return tl::unexpected(done.error());
-    ++out.added;
+    const auto put_by_us = put(read_found(files, root, folder));
+    if (!put_by_us) return tl::unexpected(put_by_us.error());
+    ++(*put_by_us ? out.added : out.unchanged);
   }
   for (const auto& one : known) {
-    auto done = database_->transaction([&] { return remove_entry(*database_, bench_, one.first); });
+    auto done =
+        database_->transaction([&] { return remove_entry(*database_, bench_, one.first); }, lock());
     if (!done) return tl::unexpected(done.error());
     ++out.removed;
   }
@@ -92,7 +104,12 @@ Result<Changes> Catalogue::refresh(const recording::FileSystem& files,
 
 Result<Changes> Catalogue::rebuild(const recording::FileSystem& files,
                                    const std::filesystem::path& root, const Progress& progress) {
-  auto done = database_->execute("update recordings set stamp = '' where bench = :bench", {bench_});
+  auto done = database_->transaction(
+      [&] {
+        return database_->execute("update recordings set stamp = '' where bench = :bench",
+                                  {bench_});
+      },
+      lock());
   if (!done) return tl::unexpected(done.error());
   return refresh(files, root, progress);
 }

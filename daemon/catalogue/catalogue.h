@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "core/support/progress.h"
-#include "daemon/catalogue/database.h"
+#include "daemon/catalogue/integrity.h"
+#include "daemon/catalogue/scan.h"
 #include "imunoise/v1/catalogue.pb.h"
 #include "recording/store/file_system.h"
 
@@ -46,6 +47,10 @@ class Catalogue {
   Result<Changes> rebuild(const recording::FileSystem& files, const std::filesystem::path& root,
                           const Progress& progress = {});
 
+  /// What was found damaged when it was opened, and what became of that; empty: nothing was. The
+  /// next refresh() reads again what is missing now.
+  const std::string& repair() const { return repair_; }
+
   /// What is refreshed and rebuilt from now on belongs to this bench.
   void use_bench(std::string bench) { bench_ = std::move(bench); }
 
@@ -60,10 +65,16 @@ class Catalogue {
   Result<Parameters> parameters(const std::string& device_id);
 
  private:
-  Catalogue(std::unique_ptr<Database> database, std::string bench)
-      : database_(std::move(database)), bench_(std::move(bench)) {}
+  Catalogue(SoundDatabase sound, std::string bench)
+      : database_(std::move(sound.database)),
+        repair_(std::move(sound.repair)),
+        bench_(std::move(bench)) {}
+  Result<bool> put(const Found& found);
+  // Programs that write about one bench do so one after the other.
+  std::string lock() const { return "bench " + bench_; }
 
   std::unique_ptr<Database> database_;
+  std::string repair_;
   std::string bench_;
 };
 

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 #include <soci/soci.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <deque>
 #include <exception>
+#include <random>
+#include <thread>
 #include <utility>
 
 // As SOCI's own headers of the two have them, which bring those of SQLite and PostgreSQL along.
@@ -17,7 +21,10 @@ namespace imunoise::catalogue {
 namespace {
 
 constexpr std::string_view kPostgres = "postgresql://";
-constexpr int kPatience = 10;  // s that a SQLite file may be locked by somebody else
+constexpr std::string_view kInMemory = ":memory:";
+constexpr int kPatience = 10;       // s that a SQLite file may be locked by somebody else
+constexpr int kAttempts = 6;        // of a transaction that others disturb
+constexpr int kLocks = 0x696d756e;  // our advisory locks in PostgreSQL, beside those of others
 
 // The values of a statement, kept where SOCI finds them until it was executed.
 class Bound {
@@ -72,18 +79,76 @@ std::string name_of(const std::string& where) {
 
 struct Database::Session {
   std::string name;
+  bool postgres = false;
+  std::optional<std::filesystem::path> file;
   soci::session soci;
+  bool disturbed = false;  // by another program, since a transaction began
 
   // The edge where SOCI's exceptions become errors.
   template <class Work>
   auto guarded(const Work& work) -> decltype(work()) {
     try {
       return work();
+    } catch (const soci::soci_error& error) {
+      disturbed = disturbed || is_disturbance(error);
+      return fail(fmt::format("{}: {}", name, error.what()));
     } catch (const std::exception& error) {
       return fail(fmt::format("{}: {}", name, error.what()));
     }
   }
+
+  // PostgreSQL's deadlocks and failed serialisations have no category of their own; what else has
+  // none fails again, a little later.
+  bool is_disturbance(const soci::soci_error& error) const {
+    if (!postgres)
+      return std::string_view(error.what()).find("is locked") != std::string_view::npos;
+    const auto category = error.get_error_category();
+    return category == soci::soci_error::constraint_violation ||
+           category == soci::soci_error::unknown ||
+           category == soci::soci_error::unknown_transaction_state;
+  }
 };
+
+namespace {
+
+// Rolls back when it is left before the commit.
+class Transaction {
+ public:
+  // SQLite: takes the lock at once. A transaction that reads first and writes later cannot get it
+  // when another one does the same, however long it waits.
+  Transaction(soci::session& session, bool postgres) : session_(session) {
+    session_ << (postgres ? "begin" : "begin immediate");
+  }
+  ~Transaction() {
+    if (committed_) return;
+    try {
+      session_ << "rollback";
+    } catch (const std::exception&) {  // the connection is gone, and the transaction with it
+    }
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit() {
+    session_ << "commit";
+    committed_ = true;
+  }
+
+ private:
+  soci::session& session_;
+  bool committed_ = false;
+};
+
+// Those who disturbed each other shall not meet again.
+void wait_before(int attempt) {
+  static thread_local std::minstd_rand random(
+      static_cast<unsigned>(::getpid()) ^
+      static_cast<unsigned>(std::chrono::steady_clock::now().time_since_epoch().count()));
+  const int longest = 10 << attempt;
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(std::uniform_int_distribution<int>(1, longest)(random)));
+}
+
+}  // namespace
 
 Database::Database(std::unique_ptr<Session> session) : session_(std::move(session)) {}
 Database::~Database() = default;
@@ -91,10 +156,12 @@ Database::~Database() = default;
 Result<std::unique_ptr<Database>> Database::open(const std::string& where) {
   auto session = std::make_unique<Session>();
   session->name = name_of(where);
-  if (where.find('"') != std::string::npos && !where.starts_with(kPostgres))
+  session->postgres = where.starts_with(kPostgres);
+  if (!session->postgres && where != kInMemory) session->file = where;
+  if (where.find('"') != std::string::npos && !session->postgres)
     return fail(where + ": a catalogue's path may not hold a quotation mark");
   return session->guarded([&]() -> Result<std::unique_ptr<Database>> {
-    if (where.starts_with(kPostgres)) {
+    if (session->postgres) {
       session->soci.open(*soci::factory_postgresql(), where.substr(kPostgres.size()));
       session->soci << "set client_min_messages to warning";  // else libpq prints
     } else {
@@ -130,14 +197,28 @@ Result<std::vector<Row>> Database::query(std::string_view statement,
   });
 }
 
-Result<void> Database::transaction(const std::function<Result<void>()>& work) {
-  return session_->guarded([&]() -> Result<void> {
-    soci::transaction all(session_->soci);  // rolls back when it is left before the commit
+Result<void> Database::transaction(const std::function<Result<void>()>& work,
+                                   const std::string& lock) {
+  const auto attempt = [&]() -> Result<void> {
+    Transaction all(session_->soci, session_->postgres);
+    if (session_->postgres && !lock.empty()) {
+      auto locked = execute("select cast(pg_advisory_xact_lock(:ours, hashtext(:lock)) as text)",
+                            {std::int64_t{kLocks}, lock});
+      if (!locked) return locked;
+    }
     if (auto done = work(); !done) return done;
     all.commit();
     return {};
-  });
+  };
+  for (int done = 1;; ++done) {
+    session_->disturbed = false;
+    auto out = session_->guarded(attempt);
+    if (out || !session_->disturbed || done == kAttempts) return out;
+    wait_before(done);
+  }
 }
+
+const std::optional<std::filesystem::path>& Database::file() const { return session_->file; }
 
 std::int64_t integer(const Value& value) {
   const auto* const held = std::get_if<std::int64_t>(&value);

@@ -3,8 +3,10 @@
 // A database behind plain types: SQLite in a file, or PostgreSQL. SOCI stays behind this header.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -31,8 +33,13 @@ class Database {
 
   Result<void> execute(std::string_view statement, const std::vector<Value>& values = {});
   Result<std::vector<Row>> query(std::string_view statement, const std::vector<Value>& values = {});
-  /// All of the work is done, or, when it fails, nothing of it.
-  Result<void> transaction(const std::function<Result<void>()>& work);
+  /// All of the work is done, or, when it fails, nothing of it. Of all programs, one at a time is
+  /// in a transaction of the same `lock`. Work that another program disturbed (a deadlock, a row
+  /// that was inserted meanwhile, a file that stays locked) is done again, a few times.
+  Result<void> transaction(const std::function<Result<void>()>& work, const std::string& lock = "");
+
+  /// The file, where the database is one.
+  const std::optional<std::filesystem::path>& file() const;
 
  private:
   struct Session;

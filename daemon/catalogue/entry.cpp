@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "daemon/catalogue/checksums.h"
 #include "recording/store/manifest.h"
 
 namespace imunoise::catalogue {
@@ -112,22 +113,8 @@ Result<void> put_coefficients(Database& database, const std::string& bench, cons
   return {};
 }
 
-}  // namespace
-
-Result<void> remove_entry(Database& database, const std::string& bench, const std::string& folder) {
-  for (const char* const table : {"parameters", "calibrations", "devices", "recordings"}) {
-    auto done = database.execute(
-        fmt::format("delete from {} where bench = :bench and folder = :folder", table),
-        {bench, folder});
-    if (!done) return done;
-  }
-  return {};
-}
-
-Result<void> put_entry(Database& database, const std::string& bench, const Found& found) {
-  if (auto done = remove_entry(database, bench, found.folder); !done) return done;
-  if (auto done = put_recording(database, bench, found); !done) return done;
-  if (auto done = put_devices(database, bench, found); !done) return done;
+Result<void> put_calibration_entry(Database& database, const std::string& bench,
+                                   const Found& found) {
   if (!found.calibration && found.calibration_trouble.empty()) return {};
   Found readable = found;
   if (!readable.calibration) readable.calibration.emplace();
@@ -145,6 +132,27 @@ Result<void> put_entry(Database& database, const std::string& bench, const Found
     if (!done) return done;
   }
   return {};
+}
+
+}  // namespace
+
+Result<void> remove_entry(Database& database, const std::string& bench, const std::string& folder) {
+  for (const char* const table :
+       {"parameters", "calibrations", "devices", "recordings", "checksums"}) {
+    auto done = database.execute(
+        fmt::format("delete from {} where bench = :bench and folder = :folder", table),
+        {bench, folder});
+    if (!done) return done;
+  }
+  return {};
+}
+
+Result<void> put_entry(Database& database, const std::string& bench, const Found& found) {
+  if (auto done = remove_entry(database, bench, found.folder); !done) return done;
+  if (auto done = put_recording(database, bench, found); !done) return done;
+  if (auto done = put_devices(database, bench, found); !done) return done;
+  if (auto done = put_calibration_entry(database, bench, found); !done) return done;
+  return seal_entry(database, bench, found.folder);
 }
 
 }  // namespace imunoise::catalogue

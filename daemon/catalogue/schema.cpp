@@ -7,7 +7,7 @@
 namespace imunoise::catalogue {
 namespace {
 
-constexpr std::array kTables = {"recordings", "devices", "calibrations", "parameters"};
+constexpr std::array kTables = {"recordings", "devices", "calibrations", "parameters", "checksums"};
 
 // A recording is known by its bench and its folder; what was said of it goes with it. The types are
 // those that SOCI knows in both databases.
@@ -30,6 +30,8 @@ constexpr std::array kStatements = {
     "to_datasheet double precision not null, model text not null, "
     "primary key (bench, folder, device, stream, channel, term, parameter))",
     "create index parameters_of_device on parameters (device)",
+    "create table checksums (bench text not null, folder text not null, checksum text not null, "
+    "primary key (bench, folder))",
 };
 
 Result<void> make_anew(Database& database) {
@@ -47,7 +49,10 @@ Result<void> make_anew(Database& database) {
 }  // namespace
 
 Result<void> prepare_schema(Database& database) {
-  return database.transaction([&]() -> Result<void> {
+  // Nothing is locked where everything is ready; in a new database this fails.
+  const auto ready = database.query("select version from imunoise_schema");
+  if (ready && ready->size() == 1 && integer(ready->front().front()) == kSchemaVersion) return {};
+  const auto work = [&]() -> Result<void> {
     auto made =
         database.execute("create table if not exists imunoise_schema (version bigint not null)");
     if (!made) return made;
@@ -61,7 +66,8 @@ Result<void> prepare_schema(Database& database) {
           version, kSchemaVersion));
     }
     return version == kSchemaVersion ? Result<void>() : make_anew(database);
-  });
+  };
+  return database.transaction(work, "schema");
 }
 
 }  // namespace imunoise::catalogue

@@ -5,7 +5,7 @@
 namespace imunoise::catalogue {
 
 /// Counts up when a table changes: the catalogue is then made anew from the recordings.
-inline constexpr std::int64_t kSchemaVersion = 1;
+inline constexpr std::int64_t kSchemaVersion = 2;
 
 /// Makes the tables of a new database, and empties one of an older version. Error: the database's,
 /// or one of a later version.

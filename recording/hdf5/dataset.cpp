@@ -16,10 +16,6 @@
 namespace imunoise::recording {
 namespace {
 
-// Deflate cannot do better than 1032 to 1, so a dataset that claims more is damaged or was never
-// written; without the check a few bytes could ask for all memory.
-constexpr std::uint64_t kBestCompression = 1100;
-
 constexpr hsize_t kChunk =
     65536;  // numbers: half a megabyte of doubles, HDF5's chunk cache holds two
 
@@ -28,6 +24,13 @@ bool stored_elsewhere(hid_t dataset) {
   const Hdf5Handle properties(H5Dget_create_plist(dataset), H5Pclose);
   return !properties || H5Pget_layout(properties.get()) == H5D_VIRTUAL ||
          H5Pget_external_count(properties.get()) != 0;
+}
+
+// Bytes of the file, which no dataset inside it can exceed: what lies in one piece claims any size.
+std::uint64_t file_bytes(hid_t dataset) {
+  const Hdf5Handle file(H5Iget_file_id(dataset), H5Fclose);
+  hsize_t bytes = 0;
+  return file && H5Fget_filesize(file.get(), &bytes) >= 0 ? bytes : 0;
 }
 
 // Chunks are filtered on all threads, group by group, so that memory stays bounded; HDF5 itself has
@@ -150,7 +153,8 @@ Result<OpenDataset> open_dataset(hid_t group, const std::string& name) {
   if (stored_elsewhere(out.id.get())) {
     return trouble("keeps its numbers in another file; copy them into this one (h5repack)");
   }
-  const std::uint64_t stored = H5Dget_storage_size(out.id.get());
+  const std::uint64_t stored =
+      std::min<std::uint64_t>(H5Dget_storage_size(out.id.get()), file_bytes(out.id.get()));
   if (out.size / kBestCompression > stored / out.width || stored == 0) {
     return trouble(
         fmt::format("claims {} samples, but only {} bytes are stored; it was not written "

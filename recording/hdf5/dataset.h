@@ -10,6 +10,10 @@
 
 namespace imunoise::recording {
 
+/// Deflate cannot do better than 1032 to 1, so a dataset that claims more is damaged or was never
+/// written; without the check a few bytes could ask for all memory.
+inline constexpr std::uint64_t kBestCompression = 1100;
+
 /// An open dataset of one dimension that can be read without surprise: its numbers lie in the file
 /// itself, and it claims no more of them than the stored bytes can hold.
 struct OpenDataset {

@@ -4,7 +4,9 @@
 // export).
 
 #include <filesystem>
+#include <string>
 
+#include "recording/import/hdf5_reader.h"
 #include "recording/import/import.h"
 #include "recording/import/table.h"
 
@@ -15,5 +17,8 @@ namespace imunoise::recording {
 /// Errors: see import_files.
 Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOptions& options,
                               FileProgress& progress);
+/// The same of a file that is open; `name` is for messages.
+Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
+                              const ImportOptions& options, FileProgress& progress);
 
 }  // namespace imunoise::recording
