@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/support/utf8.h"
 #include "daemon/acquire/disk_space.h"
 #include "daemon/acquire/recorded_device.h"
 #include "daemon/config/campaign_config.h"
@@ -43,7 +44,14 @@ class Selection {
     if (files->empty()) {  // what was there is gone
       complain(place, {fmt::format("{}: holds no campaign (*.toml)", place.string())});
     }
-    for (const fs::path& file : *files) read_file(file, drivers);
+    for (const fs::path& file : *files) {
+      std::error_code trouble;
+      if (file == place || fs::is_regular_file(file, trouble)) {
+        read_file(file, drivers);
+      } else {  // a pipe would be waited for
+        reject(file, {file.string() + ": is no regular file"});
+      }
+    }
   }
 
   CampaignFiles finish() {
@@ -108,12 +116,13 @@ class Selection {
 
   // True for the first complaint about it.
   bool complain(const fs::path& place, const std::vector<std::string>& problems) {
+    const std::string file = repaired_utf8(place.string());
     const auto known = std::find_if(out_.rejected.begin(), out_.rejected.end(),
-                                    [&](const auto& one) { return one.file() == place.string(); });
+                                    [&](const auto& one) { return one.file() == file; });
     const bool first = known == out_.rejected.end();
     v1::RejectedFile& to = first ? out_.rejected.emplace_back() : *known;
-    to.set_file(place.string());
-    for (const std::string& problem : problems) to.add_problems(problem);
+    to.set_file(file);
+    for (const std::string& problem : problems) to.add_problems(repaired_utf8(problem));
     return first;
   }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <set>
 
@@ -118,6 +119,18 @@ TEST_F(CampaignFolder, WhatCannotBeReadIsNotGone) {
   EXPECT_EQ(found(read(in_force)), "");
   std::filesystem::remove_all(folder_);
   EXPECT_EQ(found(read(in_force)), "a=x b=y") << "the folder is not there: is it mounted?";
+}
+
+TEST_F(CampaignFolder, WhatIsNoFileOrHasNoNameInUtf8IsTold) {
+  write("a.toml", "x", "x");
+  write("b\xe9.toml", "y", "y", "nonsense = 1\n");
+  ASSERT_EQ(::mkfifo((folder_ / "c.toml").c_str(), 0600), 0);
+  const CampaignFiles files = read();
+  EXPECT_EQ(found(files), "a=x");
+  ASSERT_EQ(files.rejected.size(), 2U);
+  EXPECT_TRUE(files.rejected[0].file().ends_with("b\xEF\xBF\xBD.toml"));
+  EXPECT_NE(files.rejected[0].problems(0).find("nonsense: unknown"), std::string::npos);
+  EXPECT_NE(files.rejected[1].problems(0).find("is no regular file"), std::string::npos);
 }
 
 }  // namespace

@@ -80,10 +80,14 @@ TEST_F(Units, AreUnderstoodByTheServiceManager) {
            fs::copy_options::recursive | fs::copy_options::skip_existing |
                fs::copy_options::copy_symlinks);
   const std::string service = read(unit("imunoised.service"));
-  const std::size_t begin = service.find("ExecStart=/") + 11;
-  const fs::path program = root_ / service.substr(begin, service.find(' ', begin) - begin);
-  fs::create_directories(program.parent_path());
-  fs::copy("/bin/true", program);
+  for (const std::string command : {"ExecStart=/", "ExecReload=/"}) {
+    const std::size_t found = service.find(command);
+    ASSERT_NE(found, std::string::npos) << command;
+    const std::size_t begin = found + command.size();
+    const fs::path program = root_ / service.substr(begin, service.find(' ', begin) - begin);
+    fs::create_directories(program.parent_path());
+    fs::copy("/bin/true", program);
+  }
   const Outcome done =
       in_root("systemd-analyze verify",
               "imunoised.service imunoise-campaign@x.service imunoise-campaign@x.timer");
