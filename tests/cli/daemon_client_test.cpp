@@ -18,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 // A stream with one event.
 class Quiet : public service::Handler {
  public:
+  bool knows(const service::RequestHead& /*head*/) override { return true; }
   std::optional<service::Response> refuse(const service::RequestHead& /*head*/) override {
     return std::nullopt;
   }
