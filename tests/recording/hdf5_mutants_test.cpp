@@ -52,25 +52,6 @@ TEST_F(Hdf5Mutants, AFileThatCrashesHdf5IsRefused) {
   EXPECT_GE(crashes, 4U);
 }
 
-// By hand, two minutes: 2 % of these files make HDF5 compute without an end.
-TEST_F(Hdf5Mutants, DISABLED_TwoThousandMutants) {
-  std::map<std::string, std::size_t> said;
-  for (const Hdf5Bounds bounds : {Hdf5Bounds::kEarliest, Hdf5Bounds::kV110}) {
-    const std::string good = hdf5_like_h5py(path("good.h5"), bounds);
-    for (std::uint32_t seed = 0; seed < 1000; ++seed) {
-      const std::string message = said_of(good, seed);
-      const std::size_t cause = message.find("HDF5 cannot read it (");
-      ++said[cause == std::string::npos ? message == "no error" ? "read" : "refused"
-                                        : message.substr(cause, message.find(')') - cause + 1)];
-    }
-  }
-  rusage children = {};
-  ::getrusage(RUSAGE_CHILDREN, &children);
-  for (const auto& [what, count] : said) std::cout << what << ": " << count << "\n";
-  std::cout << "largest child: " << children.ru_maxrss / 1024 << " MiB\n";
-  EXPECT_LT(children.ru_maxrss, 600 * 1024) << "KiB";
-}
-
 // What the limits do, whoever breaks them.
 struct Misdeed {
   const char* what;
