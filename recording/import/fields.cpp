@@ -52,14 +52,17 @@ std::vector<std::string> split_header(std::string_view line, char delimiter) {
   bool open = false;
   for (std::string& field : fields) {
     const bool bracket = !field.empty() && (field.front() == '[' || field.front() == '(');
+    // Only the field is searched: a line may hold half a million of them in one bracket.
+    const std::size_t opening = field.find_last_of("[(");
+    const std::size_t closing =
+        field.find_first_of("])", opening == std::string::npos ? 0 : opening);
+    const bool opens = closing == std::string::npos && (opening != std::string::npos || open);
     if (!out.empty() && (open || bracket)) {
       out.back() += ' ' + field;
     } else {
       out.push_back(std::move(field));
     }
-    const std::string& last = out.back();
-    const std::size_t opening = last.find_last_of("[(");
-    open = opening != std::string::npos && last.find_first_of("])", opening) == std::string::npos;
+    open = opens;
   }
   return out;
 }

@@ -211,9 +211,12 @@ class Hdf5Process : public Hdf5Reader {
     if (!trouble.empty()) return fail(std::move(trouble));
     in.take(type);
     in.take(count);
-    if (!in.good() || type > 2 || count != facts_.datasets.at(dataset).size ||
-        count / kBestCompression > bytes_) {
-      return nonsense();
+    if (!in.good() || type > 2 || count != facts_.datasets.at(dataset).size) return nonsense();
+    read_ += count * (type == 1 ? sizeof(std::int16_t) : sizeof(float));
+    if (read_ / kBestCompression > bytes_) {
+      return fail(
+          "its datasets claim more numbers than the file can hold; it is damaged, or several names "
+          "stand for one dataset: choose with --channel");
     }
     if (type == 0) return receive_numbers<double>(count);
     if (type == 1) return receive_numbers<std::int16_t>(count);
@@ -248,6 +251,7 @@ class Hdf5Process : public Hdf5Reader {
 
   LimitedChild child_;
   std::uint64_t bytes_;
+  std::uint64_t read_ = 0;  // bytes of numbers, as the file may hold them at least
   std::function<bool()> stopped_;
 };
 

@@ -18,6 +18,10 @@ struct Preamble {
   std::uint64_t end = 0;
 };
 
+// The dictionary of an array of numbers has 200 bytes; only named fields, which are refused, need
+// more.
+constexpr std::uint64_t kLongestDictionary = std::uint64_t{64} << 10U;
+
 Result<Preamble> read_preamble(const File& file) {
   const auto truncated = [&] {
     return fail(fmt::format("{}: ends within its .npy header; copy or save it again", file.name()));
@@ -38,6 +42,12 @@ Result<Preamble> read_preamble(const File& file) {
   const std::uint64_t begin = major == 1 ? 10 : 12;
   if (major > 1) length |= byte(10) << 16U | byte(11) << 24U;
   if (length > file.size() - begin) return truncated();
+  if (length > kLongestDictionary) {
+    return fail(
+        fmt::format("{}: a .npy header of {} bytes, at most {} are read; save it again with "
+                    "numpy.save",
+                    file.name(), length, kLongestDictionary));
+  }
   Preamble out{std::string(length, '\0'), begin + length};
   const Result<std::size_t> text = file.read_at(begin, out.dictionary);
   if (!text) return tl::make_unexpected(text.error());

@@ -137,6 +137,8 @@ TEST_F(Binary, DamagedNpyIsRefused) {
   expect_parts(message(npy(dictionary("<f8", "18446744073709551615, 8"), "12345678")),
                {"truncated"});
   expect_parts(message(npy(dictionary("<f8", "4611686018427387904, 4"), "")), {"truncated"});
+  expect_parts(message(npy(std::string(100'000, ' ') + dictionary("<f8", "0,"), "", 2)),
+               {"a .npy header of 1000", "at most 65536", "numpy.save"});
   expect_parts(message(npy(dictionary("<f8", "0,"), "")), {"no samples"});
   expect_parts(message(npy(dictionary(">f8", "20,"), bytes_of(counted<double>(20)))),
                {"'>f8'", "astype('<f8')"});

@@ -194,6 +194,33 @@ TEST_F(Hdf5, AClaimThatTheFileCannotHoldAllocatesNothing) {
                {"a.h5: dataset x: claims 1099511627776 samples"});
 }
 
+// Zeros deflate 1000 to 1, and each name for them costs a few bytes.
+TEST_F(Hdf5, ManyNamesForOneDatasetFillNoMemory) {
+  {
+    Hdf5File file(path("a.h5"));
+    const hsize_t size = hsize_t{1} << 20U;
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    ASSERT_GE(H5Pset_chunk(properties.get(), 1, &size), 0);
+    ASSERT_GE(H5Pset_deflate(properties.get(), 9), 0);
+    const std::vector<double> zeros(size);
+    const Hdf5Handle x(H5Dcreate2(file.id(), "x", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT,
+                                  properties.get(), H5P_DEFAULT),
+                       H5Dclose);
+    ASSERT_GE(H5Dwrite(x.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros.data()), 0);
+    for (int i = 0; i < 100; ++i) {
+      const std::string name = "y" + std::to_string(i);
+      ASSERT_GE(H5Lcreate_hard(file.id(), "x", file.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                0);
+    }
+  }
+  expect_parts(error_of(path("a.h5"), at_rate(1)),
+               {"a.h5: its datasets claim more numbers than the file can hold", "--channel"});
+  ImportOptions one = at_rate(1);
+  one.channels = {"y7"};
+  EXPECT_EQ(error_of(path("a.h5"), one), "no error");
+}
+
 TEST_F(Hdf5, NumbersInAnotherFileAreNotFollowed) {
   write("secret", std::string(160, 's'));
   {

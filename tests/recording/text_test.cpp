@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "core/support/units.h"
 #include "recording/import/line_reader.h"
 #include "recording/import/text_table.h"
@@ -204,6 +206,14 @@ TEST_F(Text, TinyBlocksReadWhatBigOnesRead) {
       EXPECT_TRUE(small->columns[c].samples == big->columns[c].samples) << block;
     }
   }
+}
+
+// Looked at from its beginning for each word, this line takes minutes.
+TEST_F(Text, ABracketThatNeverClosesTakesNoTime) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto file = write("a.txt", "(" + repeated(" a", 250'000) + "\n1 2 3\n");
+  expect_parts(error_of(file, at_rate(1)), {"a.txt"});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST_F(Text, AnEndlessLineIsRefusedInBoundedMemory) {
