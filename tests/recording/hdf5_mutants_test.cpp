@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 
 #include <atomic>
-#include <iostream>
 #include <map>
 #include <stdexcept>
 #include <thread>
