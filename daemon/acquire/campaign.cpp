@@ -19,11 +19,12 @@ class Run {
  public:
   Run(const v1::Campaign& campaign, RunMode mode, const CampaignSurroundings& with,
       const std::stop_token& stop)
-      : campaign_(campaign), with_(with), stop_(stop), mode_(mode) {}
+      : campaign_(campaign), with_(with), stop_(stop), mode_(mode), leaps_(with.clock) {}
 
   void run() {
     while (!stop_.stop_requested()) {
-      auto found = newest_recording(with_.files, campaign_);
+      follow_clock();
+      auto found = newest_recording(with_.files, campaign_, with_.clock, last_);
       if (!found) {
         hold_up(found.error().message);
         continue;
@@ -41,6 +42,15 @@ class Run {
   }
 
  private:
+  // What is remembered, and what is told of it, keep their distance from now when the clock is set.
+  void follow_clock() {
+    const auto leap = leaps_.look();
+    if (!leap) return;
+    shift(memory_, *leap);
+    add_news(fmt::format("the clock of this machine was {}; the schedule follows it",
+                         describe_leap(*leap)));
+  }
+
   std::filesystem::path folder_at(Time started) const {
     return std::filesystem::path(campaign_.folder()) / recording_name(started);
   }
@@ -95,13 +105,15 @@ class Run {
       memory_.calibrated = memory_.published = false;
     }
     if (auto done = make_root(); !done) return hold_up(done.error().message);
+    last_ = task.folder;
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
+    follow_clock();
     if (stop_.stop_requested()) return;
     if (!note) return hold_up(note.error().message);
     memory_.replicate_ended = with_.clock.now();
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
-    news_ = describe(*note);
+    add_news(describe(*note));
   }
 
   Result<void> make_root() {
@@ -137,15 +149,21 @@ class Run {
   }
 
   void tidy() {
-    const auto removed = tidy_recordings(with_.files, campaign_, with_.clock.now());
-    if (!removed) {
-      add_news(removed.error().message);
-    } else if (!removed->empty()) {
-      add_news(fmt::format("{} recordings are no longer kept", removed->size()));
+    const auto tidied = tidy_recordings(with_.files, campaign_, with_.clock);
+    if (!tidied) return add_news(tidied.error().message);
+    if (!tidied->removed.empty())
+      add_news(fmt::format("{} recordings are no longer kept", tidied->removed.size()));
+    if (tidied->doubtful > 0) {
+      add_news(
+          fmt::format("{} recordings look older than retention.age and are kept: this "
+                      "machine's clock is, or was, not kept right by a time service "
+                      "(timedatectl shows it); delete by hand those that are old",
+                      tidied->doubtful));
     }
   }
 
   void hold_up(const std::string& reason) {
+    follow_clock();
     memory_.held_up_until = with_.clock.now() + pause_;
     pause_ = std::min(2 * pause_, kLongestPause);
     tell({.phase = v1::held_up, .until = memory_.held_up_until}, reason);
@@ -176,7 +194,9 @@ class Run {
   const std::stop_token& stop_;
   RunMode mode_;
   Memory memory_;
+  LeapWatch leaps_;
   std::optional<FoundRecording> newest_;
+  std::filesystem::path last_;  // where this process recorded last
   std::filesystem::path folder_of_next_;
   std::chrono::seconds pause_ = kFirstPause;
   std::string news_;  // what the next status tells of the step before it

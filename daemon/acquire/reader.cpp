@@ -73,6 +73,7 @@ bool Reader::step(drivers::Block& block) {
 
 bool Reader::push(const drivers::Block& block) {
   recording::Block taken = recorded_block(block);
+  for (std::int64_t& time : taken.rows.host_time) time += plan_.shift_ns;
   if (lost_[taken.stream] && !taken.rows.flags.empty()) {
     taken.rows.flags.front() |= recording::kLostBefore;
     lost_[taken.stream] = false;
@@ -85,6 +86,13 @@ bool Reader::push(const drivers::Block& block) {
     return false;
   }
   return true;
+}
+
+std::vector<v1::ClockComparison> Reader::clocks() const {
+  auto out = clocks_.comparisons(plan_.device.name());
+  for (v1::ClockComparison& one : out)
+    one.set_first_sample_ns(one.first_sample_ns() + plan_.shift_ns);
+  return out;
 }
 
 // Waits, opens, waits longer. False when it was told to stop before.

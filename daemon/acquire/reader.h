@@ -38,6 +38,7 @@ struct ReaderPlan {
   Reopening reopening;
   /// Sees what is recorded; may be empty.
   std::function<void(const recording::Block&)> observe;
+  std::int64_t shift_ns = 0;  ///< From the host's clock to the recording's time stamps.
 };
 
 /// Its thread is the only one that reads the device.
@@ -63,9 +64,7 @@ class Reader {
   bool connected() const { return connected_; }
   const std::string& disconnection() const { return disconnection_; }
   const std::vector<v1::Disturbance>& disturbances() const { return stillness_.disturbances(); }
-  std::vector<v1::ClockComparison> clocks() const {
-    return clocks_.comparisons(plan_.device.name());
-  }
+  std::vector<v1::ClockComparison> clocks() const;
 
  private:
   void run();

@@ -10,6 +10,7 @@
 #include "daemon/acquire/clock.h"
 #include "daemon/acquire/latecomer.h"
 #include "daemon/acquire/recorded_device.h"
+#include "daemon/acquire/recordings.h"
 #include "daemon/acquire/wire_file.h"
 #include "recording/store/layout.h"
 
@@ -21,6 +22,13 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kWatchEvery{10};   // readers and the caller's wish to stop
 constexpr milliseconds kLookEvery{1000};  // at the disk
+
+// From the host's clock, which began with this process, to the time of day.
+std::int64_t shift_to(const Clock& clock) {
+  const std::chrono::nanoseconds shift =
+      clock.now().time_since_epoch() - std::chrono::nanoseconds(drivers::host_time_ns());
+  return std::chrono::abs(shift) < kLeastLeap ? 0 : shift.count();
+}
 
 // One replicate, from its plan to its outcome; functions in the order in which they are called.
 class Replicate {
@@ -61,19 +69,26 @@ class Replicate {
   Result<std::unique_ptr<drivers::Device>> open(std::size_t i, const std::stop_token& stop) {
     drivers::WireHandler wire;
     if (!wires_.empty()) wire = [file = wires_[i].get()](auto bytes) { file->take(bytes); };
-    return open_device(plan_.devices[i], tell_, std::move(wire), stop);
+    auto device = open_device(plan_.devices[i], tell_, std::move(wire), stop);
+    if (!device) return device;
+    // What cannot be recorded is missing, and stops no other.
+    if (auto good = recording::check_device(describe(i, **device)); !good)
+      return fail(fmt::format("{}: {}", plan_.devices[i].name, good.error().message));
+    return device;
   }
 
   void describe(const OpenDevices& opened) {
     recorded_.campaign = plan_.campaign;
     recorded_.replicate = plan_.replicate;
-    recorded_.started_ns = now_ns();
+    stamp_start(note_, *plan_.clock);
+    leaps_.emplace(*plan_.clock);
+    shift_ns_ = shift_to(*plan_.clock);
+    recorded_.started_ns = note_.started_ns();
     for (std::size_t i = 0; i < opened.devices.size(); ++i) {
       if (opened.devices[i]) recorded_.devices.push_back(describe(i, *opened.devices[i]));
     }
     note_.set_replicate(plan_.replicate);
     note_.set_state(v1::open);
-    note_.set_started_ns(recorded_.started_ns);
     note_.mutable_missing()->Add(opened.missing.begin(), opened.missing.end());
     recorded_.note = note_;
   }
@@ -119,8 +134,13 @@ class Replicate {
   void start_reading(recording::Recorder& recorder, std::size_t i,
                      std::unique_ptr<drivers::Device> device) {
     const std::size_t index = readers_.size();
-    ReaderPlan one{index, recorded_.devices[index], plan_.devices[i].driver.info.name, {},
-                   {},    observer_of(index)};
+    ReaderPlan one{index,
+                   recorded_.devices[index],
+                   plan_.devices[i].driver.info.name,
+                   {},
+                   {},
+                   observer_of(index),
+                   shift_ns_};
     if (plan_.reopening) {
       one.open = [this, i](const std::stop_token& stop) { return open(i, stop); };
       one.reopening = *plan_.reopening;
@@ -143,7 +163,7 @@ class Replicate {
     v1::MissingDevice& missing =
         *std::find_if(note_.mutable_missing()->begin(), note_.mutable_missing()->end(),
                       [&](const auto& one) { return one.device() == described.name(); });
-    missing.set_joined_ns(now_ns());
+    missing.set_joined_ns(stamp());
     recorder.annotate(note_);
     const auto added = recorder.add(described);
     if (!added) {
@@ -175,6 +195,7 @@ class Replicate {
       }
       if (Steady::now() - looked >= kLookEvery) {
         looked = Steady::now();
+        look_at_clock();
         if (reserve_is_reached()) return true;
       }
       if (!plan_.duration) return false;
@@ -188,6 +209,22 @@ class Replicate {
     }
   }
 
+  // By the time stamps of this replicate.
+  std::int64_t stamp() const { return drivers::host_time_ns() + shift_ns_; }
+
+  // Time stamps go on as they began; by how much the time of day left them is noted.
+  void look_at_clock() {
+    const auto leap = leaps_->look();
+    if (!leap) return;
+    v1::ClockStep& step = *note_.add_clock_steps();
+    step.set_noticed_ns(stamp());
+    step.set_step_s(std::chrono::duration<double>(*leap).count());
+    if (tell_)
+      tell_("clock", "the clock of this machine was " + describe_leap(*leap) +
+                         "; time "
+                         "stamps go on as they began until the replicate ends");
+  }
+
   bool reserve_is_reached() {
     const auto free = plan_.free_space(plan_.folder);
     if (!free || *free >= plan_.reserve_bytes) return false;
@@ -197,6 +234,7 @@ class Replicate {
 
   // What the manifest will say.
   void conclude() {
+    look_at_clock();
     std::vector<v1::Disturbance> disturbances;
     std::size_t failed = 0;
     for (std::size_t i = 0; i < readers_.size(); ++i) {
@@ -216,7 +254,7 @@ class Replicate {
     if (interruption_.empty() && failed == readers_.size()) {
       interruption_ = note_.missing(note_.missing_size() - 1).reason();
     }
-    note_.set_ended_ns(now_ns());
+    note_.set_ended_ns(stamp());
     note_.set_state(interruption_.empty() ? v1::complete : v1::interrupted);
     note_.set_reason(interruption_);
   }
@@ -246,6 +284,8 @@ class Replicate {
   v1::ReplicateNote note_;  // what the manifest will say
   std::vector<std::unique_ptr<Reader>> readers_;
   std::string interruption_;
+  std::optional<LeapWatch> leaps_;
+  std::int64_t shift_ns_ = 0;  // from the host's clock to this replicate's time stamps
   std::map<std::size_t, std::unique_ptr<Latecomer>> latecomers_;  // by device of the plan
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/support/progress.h"
+#include "daemon/acquire/clock.h"
 #include "daemon/acquire/disk_space.h"
 #include "daemon/acquire/open_devices.h"
 #include "daemon/acquire/reader.h"
@@ -50,6 +51,7 @@ struct ReplicatePlan {
   std::uint64_t reserve_bytes = 0;
   std::uint32_t replicates_to_come = 0;
   FreeSpace free_space = acquire::free_space;
+  const Clock* clock = &system_clock();
   ReplicateObserver* observer = nullptr;  ///< May be none; outlives the replicate.
 };
 
