@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace imunoise::recording {
 namespace {
@@ -29,9 +30,10 @@ class FakeDisk::File final : public WritableFile {
     return {};
   }
   Result<void> sync() override {
-    const std::lock_guard guard(disk_.mutex_);
+    std::unique_lock guard(disk_.mutex_);
     if (auto good = disk_.begin(path_); !good) return good;
-    if (disk_.fail_syncs_) return trouble(path_, "Input/output error");
+    disk_.released_.wait(guard, [&] { return path_.parent_path() != disk_.hanging_; });
+    if (disk_.sync_fails(path_.parent_path())) return trouble(path_, "Input/output error");
     content_->synced = content_->live;
     return {};
   }
@@ -54,6 +56,10 @@ Result<FakeDisk::Folder*> FakeDisk::parent(const Path& path) {
   const auto found = folders_.find(path.parent_path());
   if (found == folders_.end()) return trouble(path, "No such file or directory");
   return &found->second;
+}
+
+bool FakeDisk::sync_fails(const Path& folder) {
+  return std::exchange(fail_next_, false) || fail_syncs_ || folder == failing_;
 }
 
 std::size_t FakeDisk::used() const {
@@ -139,7 +145,7 @@ Result<void> FakeDisk::make_folder(const Path& path) {
 Result<void> FakeDisk::sync_folder(const Path& path) {
   const std::lock_guard guard(mutex_);
   if (auto good = begin(path); !good) return good;
-  if (fail_syncs_) return trouble(path, "Input/output error");
+  if (sync_fails(path)) return trouble(path, "Input/output error");
   const auto folder = folders_.find(path);
   if (folder == folders_.end()) return trouble(path, "No such file or directory");
   folder->second.synced = folder->second.live;
@@ -223,6 +229,26 @@ void FakeDisk::set_read_only(bool read_only) {
 void FakeDisk::fail_syncs(bool fail) {
   const std::lock_guard guard(mutex_);
   fail_syncs_ = fail;
+}
+
+void FakeDisk::fail_next_sync() {
+  const std::lock_guard guard(mutex_);
+  fail_next_ = true;
+}
+
+void FakeDisk::fail_syncs_in(const Path& folder) {
+  const std::lock_guard guard(mutex_);
+  failing_ = folder;
+}
+
+void FakeDisk::hang_syncs_in(const Path& folder) {
+  const std::lock_guard guard(mutex_);
+  hanging_ = folder;
+}
+
+void FakeDisk::let_go() {
+  hang_syncs_in({});
+  released_.notify_all();
 }
 
 void FakeDisk::overwrite(const Path& path, const std::string& bytes) {

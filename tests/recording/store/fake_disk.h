@@ -2,6 +2,7 @@
 
 // A disk in memory that forgets what was not synced, gets full, fails, or cannot be written.
 
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -40,6 +41,12 @@ class FakeDisk final : public FileSystem {
   void set_capacity(std::size_t bytes);  ///< Of all files; a write beyond it is cut short.
   void set_read_only(bool read_only);
   void fail_syncs(bool fail);  ///< EIO; what was written stays readable.
+  void fail_next_sync();
+  /// Only in this folder, from now on.
+  void fail_syncs_in(const Path& folder);
+  /// Syncs of files in this folder do not return until let_go().
+  void hang_syncs_in(const Path& folder);
+  void let_go();
 
   /// For tests that damage a file.
   void overwrite(const Path& path, const std::string& bytes);
@@ -62,6 +69,7 @@ class FakeDisk final : public FileSystem {
   Result<void> begin(const Path& path);  // counts a changing call; the lock is held
   Result<Folder*> parent(const Path& path);
   std::size_t used() const;
+  bool sync_fails(const Path& folder);
 
   mutable std::mutex mutex_;
   std::map<Path, Folder> folders_ = {{"/", {}}};
@@ -70,6 +78,10 @@ class FakeDisk final : public FileSystem {
   std::size_t capacity_ = SIZE_MAX;
   bool read_only_ = false;
   bool fail_syncs_ = false;
+  bool fail_next_ = false;
+  Path failing_;  // folder whose syncs fail
+  Path hanging_;  // folder whose syncs hang
+  std::condition_variable released_;
 };
 
 }  // namespace imunoise::recording

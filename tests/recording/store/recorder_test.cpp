@@ -172,7 +172,7 @@ TEST(Recorder, AFullDiskCostsCountedRowsOnly) {
   }
   ASSERT_FALSE(refused) << "a full disk was not noticed";
   EXPECT_NE(refused.error().message.find("No space left"), std::string::npos);
-  EXPECT_TRUE((*recorder)->state().trouble);
+  EXPECT_TRUE((*recorder)->state().disks[0].trouble);
   int dropped = 0;
   for (int i = 0; i < 20; ++i, next += 10) {
     const auto taken = (*recorder)->offer(0, imu_block(next, 10));
