@@ -99,7 +99,7 @@ class Run {
 
   void record(const Step& step) {
     ReplicateTask task{newest_ ? newest_->folder : std::filesystem::path(), step.attempt,
-                       campaign_.replicates() - step.replicate};
+                       campaign_.replicates() - step.replicate, std::exchange(unfinished_, {})};
     if (step.new_recording) {
       task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
@@ -109,7 +109,10 @@ class Run {
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
     follow_clock();
     if (stop_.stop_requested()) return;
-    if (!note) return hold_up(note.error().message);
+    if (!note) {
+      unfinished_ = note.error().message;
+      return hold_up(unfinished_);
+    }
     memory_.replicate_ended = with_.clock.now();
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
@@ -197,6 +200,7 @@ class Run {
   LeapWatch leaps_;
   std::optional<FoundRecording> newest_;
   std::filesystem::path last_;  // where this process recorded last
+  std::string unfinished_;      // why the last replicate may have stayed open
   std::filesystem::path folder_of_next_;
   std::chrono::seconds pause_ = kFirstPause;
   std::string news_;  // what the next status tells of the step before it

@@ -13,6 +13,9 @@
 namespace imunoise::recording {
 namespace {
 
+constexpr const char* kEndedByItself =
+    "the program, the machine or its power ended while it was recorded";
+
 // A path that a manifest may name: replicate-N/DEVICE/NNNNNN.h5.
 bool is_chunk_path(const std::string& file) {
   const std::size_t first = file.find('/');
@@ -113,11 +116,11 @@ void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note) {
   });
 }
 
-void end_open_replicates(v1::Manifest& manifest) {
+void end_open_replicates(v1::Manifest& manifest, const std::string& reason) {
   for (v1::ReplicateNote& note : *manifest.mutable_replicates()) {
     if (note.state() != v1::open) continue;
     note.set_state(v1::interrupted);
-    note.set_reason("the program, the machine or its power ended while it was recorded");
+    note.set_reason(reason.empty() ? kEndedByItself : reason);
   }
 }
 

@@ -33,7 +33,7 @@ void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device);
 /// Replaces the note of its replicate, or adds it, in order.
 void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note);
 /// Replicates that are open while nobody records them were interrupted.
-void end_open_replicates(v1::Manifest& manifest);
+void end_open_replicates(v1::Manifest& manifest, const std::string& reason = {});
 
 Checksums checksums(const v1::Manifest& manifest);
 

@@ -18,7 +18,7 @@ Result<v1::Manifest> open_manifest(FileSystem& files, const std::filesystem::pat
   if (manifest.started_ns() == 0) manifest.set_started_ns(plan.started_ns);
   if (manifest.campaign().empty()) manifest.set_campaign(plan.campaign);
   for (const v1::RecordedDevice& device : plan.devices) add_device(manifest, device);
-  end_open_replicates(manifest);
+  end_open_replicates(manifest, plan.unfinished);
   if (plan.note) {
     v1::ReplicateNote note = *plan.note;
     note.set_replicate(plan.replicate);
@@ -69,7 +69,14 @@ Result<bool> Recorder::offer(std::size_t device, Block block) {
 }
 
 Result<void> Recorder::push(std::size_t device, const Block& block) {
-  return threads_->push(device, block);
+  const auto taken = threads_->push(device, block, std::nullopt);
+  if (!taken) return tl::make_unexpected(taken.error());
+  return {};
+}
+
+Result<bool> Recorder::push_for(std::size_t device, const Block& block,
+                                std::chrono::milliseconds patience) {
+  return threads_->push(device, block, patience);
 }
 
 RecorderState Recorder::state() const { return threads_->state(); }

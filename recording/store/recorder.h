@@ -27,6 +27,7 @@ struct RecordingPlan {
   /// Set: how the replicate comes about, for the manifest; its number, start and state are filled
   /// in.
   std::optional<v1::ReplicateNote> note = {};
+  std::string unfinished = {};  ///< Why the replicate before was not closed, where that is known.
 };
 
 struct RecorderOptions {
@@ -93,6 +94,9 @@ class Recorder {
   /// Hands a block over, waiting for room. Error: as offer(), or that of the disk under this
   /// device; the block is then not taken and may be pushed again.
   Result<void> push(std::size_t device, const Block& block);
+  /// As push(), but waits no longer than `patience`, whatever the disk does; false: there was no
+  /// room, and the block is not taken.
+  Result<bool> push_for(std::size_t device, const Block& block, std::chrono::milliseconds patience);
 
   RecorderState state() const;
 

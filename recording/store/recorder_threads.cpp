@@ -73,22 +73,28 @@ Result<bool> Recorder::Threads::offer(std::size_t device, Block block) {
   } else {
     intake.refuse(block);
   }
-  wake_journals(intake.presses());
+  wake_journals(lines_[device].presses());
   return room;
 }
 
-Result<void> Recorder::Threads::push(std::size_t device, const Block& block) {
-  if (auto good = check(device, block); !good) return good;
+Result<bool> Recorder::Threads::push(std::size_t device, const Block& block,
+                                     std::optional<std::chrono::milliseconds> patience) {
+  if (auto good = check(device, block); !good) return tl::make_unexpected(good.error());
   std::unique_lock guard(mutex_);
   Line& line = lines_[device];
   const std::uint64_t failures = line.journal_disk.failures();
   const auto room = [&] { return line.intake.has_room(block.rows.size()); };
+  const auto decided = [&] { return room() || line.journal_disk.failures() != failures; };
   if (!room()) wake_journals(true);
-  room_.wait(guard, [&] { return room() || line.journal_disk.failures() != failures; });
+  if (!patience) {
+    room_.wait(guard, decided);
+  } else if (!room_.wait_for(guard, *patience, decided)) {
+    return false;
+  }
   if (!room()) return tl::make_unexpected(line.journal_disk.last_error());
   line.intake.add(block);
-  wake_journals(line.intake.presses());
-  return {};
+  wake_journals(line.presses());
+  return true;
 }
 
 RecorderState Recorder::Threads::state() const {

@@ -31,7 +31,8 @@ class Recorder::Threads {
   // As the recorder's.
   Result<std::size_t> add(const v1::RecordedDevice& device);
   Result<bool> offer(std::size_t device, Block block);
-  Result<void> push(std::size_t device, const Block& block);
+  Result<bool> push(std::size_t device, const Block& block,
+                    std::optional<std::chrono::milliseconds> patience);
   RecorderState state() const;
   void annotate(const v1::ReplicateNote& note) { set_note(manifest_, note); }
   Result<void> close(const Conclusion& conclude);
@@ -50,6 +51,9 @@ class Recorder::Threads {
     std::deque<std::uint64_t> segments;  // that grow no more
     std::uint64_t after = 0;             // last block in a chunk; used by the chunk thread
     std::vector<v1::ChunkEntry> chunks;  // made of segments; used by the chunk thread
+
+    // What a failing disk did not take is tried again in the next round, and no sooner.
+    bool presses() const { return intake.presses() && !journal_disk.trouble(); }
   };
 
   void append(const v1::RecordedDevice& device, DeviceFolder where, double first_share);

@@ -3,8 +3,9 @@
 // found again as soon as the word is another; "broken": it fails for good; "absent": it does not
 // open; "deaf": its opening waits for as long as it may; "other": as "here", but opened then it is
 // another device; "knock": as "here", a hundred times as loud; "rateless": as "here", opened then
-// its stream has no rate. With speed=20 twenty samples come instead of one, and its time runs as
-// fast; with stamped=true they carry the host's time.
+// its stream has no rate; "silent": nothing comes any more; "over": it has nothing more to say.
+// With speed=20 twenty samples come instead of one, and its time runs as fast; with stamped=true
+// they carry the host's time.
 
 #include <chrono>
 #include <fstream>
@@ -55,8 +56,10 @@ class Whims : public plugin::Device {
       next_ = Clock::now();
       throw plugin::DeviceError(IMUNOISE_DISCONNECTED, "the device is gone");
     }
+    if (word == "over") return samples.end();
     if (!wait.until(next_)) return;
     next_ += kPeriod;
+    if (word == "silent") return;
     const double loud = word == "knock" ? 100.0 : 1.0;
     for (std::int64_t k = 0; k < speed_; ++k) {
       time_ns_ = stamped_ ? host_.now_ns() : time_ns_ + std::chrono::nanoseconds(kPeriod).count();
