@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "daemon/app/arguments.h"
@@ -103,6 +106,19 @@ class Memory {
   int calls_ = 0;
 };
 
+// A disk that hangs holds up threads that nothing can end. They are waited for, but not for ever.
+void end_if_late(std::chrono::steady_clock::time_point stopping, const std::string& hanging,
+                 Log& log) {
+  constexpr std::chrono::seconds kPatience{10};
+  constexpr int kNotClosed = 3;
+  if (std::chrono::steady_clock::now() - stopping < kPatience) return;
+  log.error(hanging);
+  log.error(
+      "ends without closing its recordings; samples that were acknowledged are in the "
+      "journals, and the next start recovers them");
+  std::_Exit(kNotClosed);
+}
+
 int record(const Arguments& arguments, const CampaignFiles& files, const drivers::Drivers& drivers,
            const sigset_t& signals) {
   Log log;
@@ -118,6 +134,7 @@ int record(const Arguments& arguments, const CampaignFiles& files, const drivers
   const auto service = serve(arguments, files, drivers, supervisor, log);
   manager.ready();
   bool stays = service != nullptr && !arguments.once;  // clients may start campaigns again
+  std::optional<std::chrono::steady_clock::time_point> stopping;
   std::string told;
   constexpr timespec kPatience{0, 200'000'000};
   while (stays || !supervisor.ended()) {
@@ -127,8 +144,11 @@ int record(const Arguments& arguments, const CampaignFiles& files, const drivers
       manager.stopping();
       supervisor.stop();
       stays = false;
+      if (!stopping) stopping = std::chrono::steady_clock::now();
     }
-    manager.alive();
+    const auto hanging = supervisor.hanging();
+    if (hanging && stopping) end_if_late(*stopping, *hanging, log);
+    if (!hanging) manager.alive();  // systemd may start us again
     supervisor.tell_warnings();
     memory.keep_flat();
     if (const std::string status = supervisor.status(); status != told) {
