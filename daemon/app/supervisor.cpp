@@ -142,7 +142,7 @@ void Supervisor::tell_troubles() {
   }
   for (const auto& [name, trouble] : told_) {
     if (now.contains(name)) continue;
-    log_.fact(fmt::format("{}: goes on; over is: {}", name, live::sentence(trouble)));
+    log_.fact(fmt::format("{}: is over: {}", name, live::sentence(trouble)));
     changed.push_back(name);
   }
   told_ = std::move(now);
