@@ -52,6 +52,9 @@ class Replicate {
     if (auto room = check_disk(); !room) return tl::make_unexpected(room.error());
     auto recorder = recording::Recorder::start(files_, plan_.folder, recorded_, plan_.recorder);
     if (!recorder) return tl::make_unexpected(recorder.error());
+    for (const std::string& one : (*recorder)->repaired()) {
+      if (tell_) tell_("recording", one);
+    }
     open_wires();
     if (plan_.observer != nullptr) {
       plan_.observer->begin(plan_, recorded_.devices);
@@ -64,6 +67,7 @@ class Replicate {
       return note_;
     });
     if (!closed) return fail(closed.error().message + room_left());
+    note_ = (*recorder)->note().value_or(note_);
     if (auto done = close_wires(); !done) return tl::make_unexpected(done.error());
     return outcome((*recorder)->state());
   }

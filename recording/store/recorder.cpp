@@ -3,18 +3,18 @@
 #include <set>
 #include <utility>
 
+#include "recording/store/layout.h"
 #include "recording/store/recorder_threads.h"
-#include "recording/store/recover.h"
 
 namespace imunoise::recording {
 namespace {
 
 // Recovers what is there and adds the plan's devices. Their chunks come when the recorder closes.
-Result<v1::Manifest> open_manifest(FileSystem& files, const std::filesystem::path& folder,
-                                   const RecordingPlan& plan) {
-  auto recovered = recover_recording(files, folder);
-  if (!recovered) return tl::make_unexpected(recovered.error());
-  v1::Manifest manifest = std::move(recovered->manifest);
+Result<RecoveredRecording> open_manifest(FileSystem& files, const std::filesystem::path& folder,
+                                         const RecordingPlan& plan) {
+  auto recovered = recover_recording(files, folder, Recovery::kUnsettled);
+  if (!recovered) return recovered;
+  v1::Manifest& manifest = recovered->manifest;
   if (manifest.started_ns() == 0) manifest.set_started_ns(plan.started_ns);
   if (manifest.campaign().empty()) manifest.set_campaign(plan.campaign);
   for (const v1::RecordedDevice& device : plan.devices) add_device(manifest, device);
@@ -27,7 +27,18 @@ Result<v1::Manifest> open_manifest(FileSystem& files, const std::filesystem::pat
     set_note(manifest, note);
   }
   manifest.set_closed(false);
-  return manifest;
+  return recovered;
+}
+
+// Makes the folder. Its name survives a power cut before anything in it is acknowledged: later than
+// the first manifest it is there for good.
+Result<void> make_root(FileSystem& files, const std::filesystem::path& folder) {
+  if (auto done = files.make_folder(folder); !done) return done;
+  const auto begun = contains(files, folder, kManifestName);
+  if (!begun) return tl::make_unexpected(begun.error());
+  if (*begun) return {};
+  const std::filesystem::path name = folder.has_filename() ? folder : folder.parent_path();
+  return files.sync_folder(name.has_parent_path() ? name.parent_path() : ".");
 }
 
 Result<void> check_plan(const RecordingPlan& plan) {
@@ -50,12 +61,12 @@ Result<std::unique_ptr<Recorder>> Recorder::start(FileSystem& files,
                                                   const RecordingPlan& plan,
                                                   const RecorderOptions& options) {
   if (auto good = check_plan(plan); !good) return tl::make_unexpected(good.error());
-  if (auto done = files.make_folder(folder); !done) return tl::make_unexpected(done.error());
+  if (auto done = make_root(files, folder); !done) return tl::make_unexpected(done.error());
   auto lock = files.lock(folder);
   if (!lock) return tl::make_unexpected(lock.error());
-  auto manifest = open_manifest(files, folder, plan);
-  if (!manifest) return tl::make_unexpected(manifest.error());
-  auto threads = std::make_unique<Threads>(files, folder, std::move(*lock), std::move(*manifest),
+  auto recovered = open_manifest(files, folder, plan);
+  if (!recovered) return tl::make_unexpected(recovered.error());
+  auto threads = std::make_unique<Threads>(files, folder, std::move(*lock), std::move(*recovered),
                                            plan.replicate, options);
   if (auto done = threads->add_devices(plan.devices); !done) {
     return tl::make_unexpected(done.error());
@@ -63,6 +74,10 @@ Result<std::unique_ptr<Recorder>> Recorder::start(FileSystem& files,
   if (auto done = threads->run(); !done) return tl::make_unexpected(done.error());
   return std::unique_ptr<Recorder>(new Recorder(std::move(threads)));
 }
+
+const std::vector<std::string>& Recorder::repaired() const { return threads_->repaired(); }
+
+std::optional<v1::ReplicateNote> Recorder::note() const { return threads_->note(); }
 
 Result<bool> Recorder::offer(std::size_t device, Block block) {
   return threads_->offer(device, std::move(block));

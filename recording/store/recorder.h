@@ -76,8 +76,9 @@ using Conclusion = std::function<v1::ReplicateNote(const RecorderState&)>;
 class Recorder {
  public:
   /// Locks the folder (made when missing), recovers what an interrupted recording left, writes the
-  /// manifest. Error: the disk's, somebody is recording into it, a plan that cannot be, a device
-  /// whose replicate is recorded already.
+  /// manifest. Replicates that were closed are not read again. Error: the disk's (nothing is set
+  /// aside because it cannot be read; try again), somebody is recording into it, a plan that cannot
+  /// be, a device whose replicate is recorded already.
   static Result<std::unique_ptr<Recorder>> start(FileSystem& files,
                                                  const std::filesystem::path& folder,
                                                  const RecordingPlan& plan,
@@ -86,6 +87,10 @@ class Recorder {
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
+
+  /// What start() found in the folder and did, for people: what a crash left, what was damaged and
+  /// set aside, what is missing.
+  const std::vector<std::string>& repaired() const;
 
   /// Hands a block over and never waits. False when too many rows wait already: the block's rows
   /// are then refused (overrun), and the next row of the stream carries kLostBefore. Error: a block
@@ -117,6 +122,9 @@ class Recorder {
   /// manifest could not be; what was acknowledged stays in the journals, for the next recording
   /// into the folder or `imunoise verify --repair`.
   Result<void> close(const Conclusion& conclude = {});
+
+  /// After close(): the replicate's note as the manifest has it; nothing when the plan had none.
+  std::optional<v1::ReplicateNote> note() const;
 
  private:
   class Threads;

@@ -24,12 +24,13 @@ Result<void> check_new(const v1::RecordedDevice& device, std::set<std::string>& 
 }
 
 Recorder::Threads::Threads(FileSystem& files, std::filesystem::path folder,
-                           std::unique_ptr<FolderLock> lock, v1::Manifest manifest,
+                           std::unique_ptr<FolderLock> lock, RecoveredRecording recovered,
                            std::uint32_t replicate, const RecorderOptions& options)
     : files_(files),
       folder_(std::move(folder)),
       lock_(std::move(lock)),
-      manifest_(std::move(manifest)),
+      manifest_(std::move(recovered.manifest)),
+      repaired_(std::move(recovered.repaired)),
       replicate_(replicate),
       options_(options) {}
 
@@ -142,16 +143,8 @@ void Recorder::Threads::append(const v1::RecordedDevice& device, DeviceFolder wh
   Journal journal(files_, where.path(), device, JournalPlace{replicate_, 1, 1}, options_.segments,
                   first_share);
   const std::lock_guard guard(mutex_);
-  lines_.push_back({device,
-                    std::move(where),
-                    std::move(journal),
-                    Intake(device, options_.waiting_rows),
-                    0,
-                    {},
-                    {},
-                    {},
-                    0,
-                    {}});
+  lines_.emplace_back(device, std::move(where), std::move(journal),
+                      Intake(device, options_.waiting_rows));
 }
 
 Recorder::Threads::Line& Recorder::Threads::found(std::size_t device) {
@@ -259,6 +252,8 @@ void Recorder::Threads::seal_line(Line& line, std::unique_lock<std::mutex>& guar
     const std::uint64_t number = line.segments.front();
     guard.unlock();
     auto sealed = seal_segment(files_, line.where, number, line.after);
+    if (sealed && sealed->damage)
+      line.damaged.push_back(damaged_segment(line.where, number, *sealed));
     if (sealed && sealed->entry) {
       line.after = sealed->entry->last_sequence();
       line.chunks.push_back(std::move(*sealed->entry));
@@ -282,16 +277,25 @@ Result<void> Recorder::Threads::finish(const Conclusion& conclude) {
     note.set_replicate(replicate_);
     set_note(manifest_, note);
   }
+  bool leftover = false;
   std::vector<v1::RecordedDevice> devices;
   for (const Line& line : lines_) {
     devices.push_back(line.device);
+    leftover = leftover || line.journal.leftover();
     manifest_.mutable_chunks()->Add(line.chunks.begin(), line.chunks.end());
+    for (const v1::DamagedFile& one : line.damaged) set_damaged(manifest_, one);
   }
-  for (v1::ReplicateNote& note : *manifest_.mutable_replicates()) {
-    if (note.replicate() == replicate_) settle_note(note, devices, state);
-  }
+  sort_chunks(manifest_);
   const Result<void> closed = check_closed(state);
   manifest_.set_closed(closed.has_value());
+  for (v1::ReplicateNote& note : *manifest_.mutable_replicates()) {
+    if (note.replicate() != replicate_) continue;
+    settle_note(note, devices, state);
+    for (const Line& line : lines_) {
+      if (auto back = check_back(line); !back) interrupt(note, back.error());
+    }
+    note.set_settled(closed && !leftover);
+  }
   Result<void> written;
   for (int i = 0; i < kLastAttempts; ++i) {
     written = write_manifest(files_, folder_, manifest_);
@@ -300,18 +304,41 @@ Result<void> Recorder::Threads::finish(const Conclusion& conclude) {
   return closed ? written : closed;
 }
 
+std::optional<v1::ReplicateNote> Recorder::Threads::note() const {
+  for (const v1::ReplicateNote& note : manifest_.replicates()) {
+    if (note.replicate() == replicate_) return note;
+  }
+  return std::nullopt;
+}
+
 // Every row is in a chunk. Error: the first device that lacks some, with its disk's error.
 Result<void> Recorder::Threads::check_closed(const RecorderState& state) const {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (auto written = check_written(lines_[i].device, state, i); !written) return written;
   }
   for (const Line& line : lines_) {
+    if (auto back = check_back(line); !back) return back;
     if (line.segments.empty()) continue;
     return fail(fmt::format("device {}: {} journal segments are not chunks yet: {}",
                             line.device.name(), line.segments.size(),
                             line.chunk_disk.last_error().message));
   }
   return {};
+}
+
+// What was acknowledged came back from the journal.
+Result<void> Recorder::Threads::check_back(const Line& line) {
+  if (!line.segments.empty()) return {};  // nobody knows yet
+  std::uint64_t stored = 0;
+  std::uint64_t in_chunks = 0;
+  for (const StreamCounts& counts : line.intake.counts()) stored += counts.stored;
+  for (const v1::ChunkEntry& chunk : line.chunks) in_chunks += chunk.samples();
+  if (in_chunks >= stored) return {};
+  return fail(fmt::format(
+      "device {}: {} of {} stored samples did not come back from the journal{}; record to a better "
+      "disk",
+      line.device.name(), stored - in_chunks, stored,
+      line.damaged.empty() ? "" : ": " + line.damaged.front().reason()));
 }
 
 }  // namespace imunoise::recording

@@ -7,11 +7,13 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "recording/store/device_folder.h"
 #include "recording/store/disk_log.h"
 #include "recording/store/intake.h"
 #include "recording/store/recorder.h"
+#include "recording/store/recover.h"
 
 namespace imunoise::recording {
 
@@ -21,7 +23,7 @@ Result<void> check_new(const v1::RecordedDevice& device, std::set<std::string>& 
 class Recorder::Threads {
  public:
   Threads(FileSystem& files, std::filesystem::path folder, std::unique_ptr<FolderLock> lock,
-          v1::Manifest manifest, std::uint32_t replicate, const RecorderOptions& options);
+          RecoveredRecording recovered, std::uint32_t replicate, const RecorderOptions& options);
   ~Threads() { (void)close({}); }
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
@@ -34,6 +36,8 @@ class Recorder::Threads {
   Result<bool> push(std::size_t device, const Block& block,
                     std::optional<std::chrono::milliseconds> patience);
   RecorderState state() const;
+  const std::vector<std::string>& repaired() const { return repaired_; }
+  std::optional<v1::ReplicateNote> note() const;
   void annotate(const v1::ReplicateNote& note) { set_note(manifest_, note); }
   Result<void> close(const Conclusion& conclude);
 
@@ -41,16 +45,20 @@ class Recorder::Threads {
   // All of one device. A deque of them: what it holds stays where it is, only finding it needs the
   // lock.
   struct Line {
+    Line(const v1::RecordedDevice& of, DeviceFolder in, Journal to, Intake from)
+        : device(of), where(std::move(in)), journal(std::move(to)), intake(std::move(from)) {}
+
     v1::RecordedDevice device;
     DeviceFolder where;
-    Journal journal;                     // used by the journal thread
-    Intake intake;                       // from here on guarded by the lock
-    std::uint64_t acknowledged = 0;      // last block that is safe
-    DiskLog journal_disk;                // calls of the journal
-    DiskLog chunk_disk;                  // calls that make chunks
-    std::deque<std::uint64_t> segments;  // that grow no more
-    std::uint64_t after = 0;             // last block in a chunk; used by the chunk thread
-    std::vector<v1::ChunkEntry> chunks;  // made of segments; used by the chunk thread
+    Journal journal;                       // used by the journal thread
+    Intake intake;                         // from here on guarded by the lock
+    std::uint64_t acknowledged = 0;        // last block that is safe
+    DiskLog journal_disk;                  // calls of the journal
+    DiskLog chunk_disk;                    // calls that make chunks
+    std::deque<std::uint64_t> segments;    // that grow no more
+    std::uint64_t after = 0;               // last block in a chunk; used by the chunk thread
+    std::vector<v1::DamagedFile> damaged;  // segments; used by the chunk thread
+    std::vector<v1::ChunkEntry> chunks;    // made of segments; used by the chunk thread
 
     // What a failing disk did not take is tried again in the next round, and no sooner.
     bool presses() const { return intake.presses() && !journal_disk.trouble(); }
@@ -72,11 +80,13 @@ class Recorder::Threads {
 
   Result<void> finish(const Conclusion& conclude);
   Result<void> check_closed(const RecorderState& state) const;
+  static Result<void> check_back(const Line& line);
 
   WatchedFiles files_;
   std::filesystem::path folder_;
   std::unique_ptr<FolderLock> lock_;
   v1::Manifest manifest_;
+  const std::vector<std::string> repaired_;
   const std::uint32_t replicate_;
   const RecorderOptions options_;
   Result<void> outcome_;

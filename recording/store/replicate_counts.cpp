@@ -39,6 +39,11 @@ Result<void> check_written(const v1::RecordedDevice& device, const RecorderState
                           trouble ? trouble->error.message : "the disk failed at the end"));
 }
 
+void interrupt(v1::ReplicateNote& note, const Error& reason) {
+  note.set_state(v1::interrupted);
+  note.set_reason((note.reason().empty() ? "" : note.reason() + "; ") + reason.message);
+}
+
 void settle_note(v1::ReplicateNote& note, const std::vector<v1::RecordedDevice>& devices,
                  const RecorderState& state) {
   note.clear_streams();
@@ -47,11 +52,8 @@ void settle_note(v1::ReplicateNote& note, const std::vector<v1::RecordedDevice>&
       *note.add_streams() = to_message(
           devices[i].name(), devices[i].streams(static_cast<int>(k)).name(), state.counts[i][k]);
     }
-    const auto written = check_written(devices[i], state, i);
-    if (written) continue;
-    note.set_state(v1::interrupted);
-    const std::string before = note.reason().empty() ? "" : note.reason() + "; ";
-    note.set_reason(before + written.error().message);
+    if (auto written = check_written(devices[i], state, i); !written)
+      interrupt(note, written.error());
   }
 }
 

@@ -50,9 +50,9 @@ Result<std::unique_ptr<WritableFile>> WatchedFiles::create(const Path& path) {
   return std::make_unique<File>(*this, path, std::move(*file));
 }
 
-Result<std::string> WatchedFiles::read(const Path& path) const {
+Result<std::string> WatchedFiles::read_up_to(const Path& path, std::uint64_t limit) const {
   const Watch watch(*this, "read", path);
-  return files_.read(path);
+  return files_.read(path, limit);
 }
 
 Result<std::vector<std::string>> WatchedFiles::list(const Path& folder) const {

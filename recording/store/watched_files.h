@@ -26,7 +26,6 @@ class WatchedFiles final : public FileSystem {
   explicit WatchedFiles(FileSystem& files) : files_(files) {}
 
   Result<std::unique_ptr<WritableFile>> create(const Path& path) override;
-  Result<std::string> read(const Path& path) const override;
   Result<std::vector<std::string>> list(const Path& folder) const override;
   Result<void> rename(const Path& from, const Path& to) override;
   Result<void> remove(const Path& path) override;
@@ -40,6 +39,8 @@ class WatchedFiles final : public FileSystem {
  private:
   class File;
   class Watch;
+
+  Result<std::string> read_up_to(const Path& path, std::uint64_t limit) const override;
 
   FileSystem& files_;
   mutable std::mutex mutex_;
