@@ -54,7 +54,8 @@ std::string progress_text(const v1::CampaignState& state) {
 std::string state_text(const v1::CampaignState& state) {
   const std::string progress = progress_text(state);
   return report::clean_text(app::status_text(state.status()) +
-                            (progress.empty() ? "" : " (" + progress + ")")) +
+                            (progress.empty() ? "" : " (" + progress + ")") +
+                            (state.trouble().empty() ? "" : "; " + state.trouble())) +
          "\n";
 }
 

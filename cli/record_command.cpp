@@ -127,6 +127,11 @@ int run(const RecordArguments& arguments) {
       add(one, first + k, report);
       failed = failed || one.failure.has_value();
     }
+    if (outcome->note.state() != v1::complete && !interrupt.token().stop_requested()) {
+      fmt::print(stderr, "replicate {} is interrupted: {}\n", first + k,
+                 report::clean_text(outcome->note.reason()));
+      failed = true;
+    }
   }
   if (!try_print(arguments.json ? report::to_json(report) : describe(report))) {
     return print_error(

@@ -183,7 +183,7 @@ typedef struct imunoise_block {
 typedef struct imunoise_host {
   uint32_t size;
   uint32_t abi;
-  /* The host's clock: ns since 1970-01-01 UTC. */
+  /* The host's clock: ns since 1970-01-01 UTC. It never steps, even when the time of day is set. */
   int64_t (*now_ns)(void);
   /* Tells what a person should know of a device (one line, "reset after 3 bad checksums").
    * `context` is what open was given. Not after close. */

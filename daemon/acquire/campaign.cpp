@@ -24,11 +24,13 @@ class Run {
         stop_(stop),
         mode_(mode),
         stopped_(stop, End{ending_}),
-        left_(with.leave, End{ending_}) {}
+        left_(with.leave, End{ending_}),
+        leaps_(with.clock) {}
 
   void run() {
     while (!ending_.stop_requested()) {
-      auto found = newest_recording(with_.files, campaign_);
+      follow_clock();
+      auto found = newest_recording(with_.files, campaign_, with_.clock, last_);
       if (!found) {
         hold_up(found.error().message);
         continue;
@@ -50,6 +52,14 @@ class Run {
     std::stop_source& of;
     void operator()() const { of.request_stop(); }
   };
+  // What is remembered, and what is told of it, keep their distance from now when the clock is set.
+  void follow_clock() {
+    const auto leap = leaps_.look();
+    if (!leap) return;
+    shift(memory_, *leap);
+    add_news(fmt::format("the clock of this machine was {}; the schedule follows it",
+                         describe_leap(*leap)));
+  }
 
   std::filesystem::path folder_at(Time started) const {
     return std::filesystem::path(campaign_.folder()) / recording_name(started);
@@ -99,19 +109,24 @@ class Run {
 
   void record(const Step& step) {
     ReplicateTask task{newest_ ? newest_->folder : std::filesystem::path(), step.attempt,
-                       campaign_.replicates() - step.replicate};
+                       campaign_.replicates() - step.replicate, std::exchange(unfinished_, {})};
     if (step.new_recording) {
       task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
     }
     if (auto done = make_root(); !done) return hold_up(done.error().message);
+    last_ = task.folder;
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
+    follow_clock();
     if (stop_.stop_requested()) return;
-    if (!note) return hold_up(note.error().message);
+    if (!note) {
+      unfinished_ = note.error().message;
+      return hold_up(unfinished_);
+    }
     memory_.replicate_ended = with_.clock.now();
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
-    news_ = describe(*note);
+    add_news(describe(*note));
   }
 
   Result<void> make_root() {
@@ -147,15 +162,21 @@ class Run {
   }
 
   void tidy() {
-    const auto removed = tidy_recordings(with_.files, campaign_, with_.clock.now());
-    if (!removed) {
-      add_news(removed.error().message);
-    } else if (!removed->empty()) {
-      add_news(fmt::format("{} recordings are no longer kept", removed->size()));
+    const auto tidied = tidy_recordings(with_.files, campaign_, with_.clock);
+    if (!tidied) return add_news(tidied.error().message);
+    if (!tidied->removed.empty())
+      add_news(fmt::format("{} recordings are no longer kept", tidied->removed.size()));
+    if (tidied->doubtful > 0) {
+      add_news(
+          fmt::format("{} recordings look older than retention.age and are kept: this "
+                      "machine's clock is, or was, not kept right by a time service "
+                      "(timedatectl shows it); delete by hand those that are old",
+                      tidied->doubtful));
     }
   }
 
   void hold_up(const std::string& reason) {
+    follow_clock();
     memory_.held_up_until = with_.clock.now() + pause_;
     pause_ = std::min(2 * pause_, kLongestPause);
     tell({.phase = v1::held_up, .until = memory_.held_up_until}, reason);
@@ -189,7 +210,10 @@ class Run {
   std::stop_callback<End> stopped_;
   std::stop_callback<End> left_;
   Memory memory_;
+  LeapWatch leaps_;
   std::optional<FoundRecording> newest_;
+  std::filesystem::path last_;  // where this process recorded last
+  std::string unfinished_;      // why the last replicate may have stayed open
   std::filesystem::path folder_of_next_;
   std::chrono::seconds pause_ = kFirstPause;
   std::string news_;  // what the next status tells of the step before it

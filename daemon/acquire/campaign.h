@@ -19,6 +19,7 @@ struct ReplicateTask {
   std::filesystem::path folder;          ///< Of the recording; made when missing.
   std::uint32_t replicate = 1;           ///< Its number on disk.
   std::uint32_t replicates_to_come = 0;  ///< After this one, in this recording.
+  std::string unfinished = {};  ///< Why the one before was not closed, where that is known.
 };
 
 /// What records replicates.

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
+#include <string>
 
 namespace imunoise::acquire {
 
@@ -18,9 +20,16 @@ std::int64_t now_ns();
 class Clock {
  public:
   virtual ~Clock() = default;
+  /// The time of day, which may be wrong, and may be set at any time.
   virtual Time now() const = 0;
-  /// Waits until it is so late, or until somebody wants it to stop: then false. Follows the clock
-  /// when somebody sets it.
+  /// Since the machine started, sleep included. Setting the time of day does not move it.
+  virtual std::chrono::nanoseconds since_boot() const = 0;
+  /// Names this run of the machine; empty when unknown.
+  virtual std::string boot_id() const = 0;
+  /// A time service (NTP, PTP) is known to keep the time of day right.
+  virtual bool synchronised() const = 0;
+  /// Waits until this time, or until the time of day is set, which the caller has to look at.
+  /// False: `stop` was requested.
   virtual bool wait_until(Time time, const std::stop_token& stop) = 0;
 };
 
@@ -28,7 +37,31 @@ class Clock {
 class SystemClock : public Clock {
  public:
   Time now() const override;
+  std::chrono::nanoseconds since_boot() const override;
+  std::string boot_id() const override;
+  bool synchronised() const override;
   bool wait_until(Time time, const std::stop_token& stop) override;
 };
+
+const Clock& system_clock();
+
+/// Differences between two clocks below this are chance: the two are not read in one moment.
+inline constexpr std::chrono::milliseconds kLeastLeap{50};
+
+/// Notices when the time of day is set. Not thread-safe.
+class LeapWatch {
+ public:
+  explicit LeapWatch(const Clock& clock);
+  /// By how much the time of day was set since the last call, or since the beginning (> 0:
+  /// forward); nothing when it was not.
+  std::optional<std::chrono::nanoseconds> look();
+
+ private:
+  const Clock& clock_;
+  std::chrono::nanoseconds offset_;  // from the time since boot to the time of day
+};
+
+/// "set forward by 2 h", "set back by 5 s"
+std::string describe_leap(std::chrono::nanoseconds leap);
 
 }  // namespace imunoise::acquire

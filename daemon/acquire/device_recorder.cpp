@@ -27,6 +27,7 @@ Result<v1::ReplicateNote> DeviceRecorder::record(const v1::Campaign& campaign,
   ReplicatePlan plan;
   plan.folder = task.folder;
   plan.replicate = task.replicate;
+  plan.unfinished = task.unfinished;
   plan.devices = std::move(*devices);
   plan.duration = std::chrono::duration<double>(campaign.length_s());
   plan.wire = campaign.wire();

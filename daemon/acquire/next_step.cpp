@@ -13,7 +13,9 @@ std::chrono::nanoseconds seconds(double count) {
 std::optional<Time> next_start(const v1::Campaign& campaign, const RecordingState& newest,
                                const Memory& memory) {
   if (memory.once_since) {
-    return newest.started < *memory.once_since ? memory.once_since : std::nullopt;
+    // Names are whole seconds; where the clock was set meanwhile, both are known less exactly.
+    constexpr std::chrono::milliseconds kHalf{500};
+    return newest.started + kHalf < *memory.once_since ? memory.once_since : std::nullopt;
   }
   if (!campaign.schedule().has_every_s()) return std::nullopt;
   return newest.started + seconds(campaign.schedule().every_s());
@@ -39,6 +41,13 @@ Step begin(const v1::Campaign& campaign, const Memory& memory, Time now) {
 }
 
 }  // namespace
+
+void shift(Memory& memory, std::chrono::nanoseconds leap) {
+  for (std::optional<Time>* const one : {&memory.at_rest_since, &memory.replicate_ended,
+                                         &memory.held_up_until, &memory.once_since}) {
+    if (*one) **one += leap;
+  }
+}
 
 std::uint32_t good_replicates(const v1::Campaign& campaign,
                               const std::vector<v1::ReplicateNote>& notes) {

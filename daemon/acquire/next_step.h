@@ -32,6 +32,9 @@ struct Memory {
   std::optional<Time> once_since;
 };
 
+/// The same moments by a clock that was set by so much.
+void shift(Memory& memory, std::chrono::nanoseconds leap);
+
 struct Step {
   v1::CampaignPhase phase = v1::finished;
   std::optional<Time> until = {};  ///< Of settling, pausing, waiting and being held up.

@@ -11,8 +11,15 @@
 namespace imunoise::acquire {
 namespace {
 
+using Steady = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kPatience{100};  // of one read
 constexpr std::size_t kBlockRows = 1024;
+constexpr std::chrono::milliseconds kDiskSlice{250};  // of waiting for the disk's room
+// Between attempts on a disk that fails: as long as the first, then twice as long each time.
+constexpr std::chrono::milliseconds kFirstDiskPause{50};
+constexpr std::chrono::milliseconds kLongestDiskPause{2000};
+constexpr std::chrono::seconds kLastDiskPatience{2};  // once somebody wants the reader's end
 
 }  // namespace
 
@@ -23,6 +30,8 @@ Reader::Reader(recording::Recorder& recorder, ReaderPlan plan,
       stillness_(plan_.device),
       lost_(static_cast<std::size_t>(plan_.device.streams_size()), false),
       pause_(plan_.reopening.first),
+      disk_patience_(plan_.disk_patience),
+      disk_pause_(kFirstDiskPause),
       device_(std::move(device)),
       thread_([this] { run(); }) {}
 
@@ -73,6 +82,7 @@ bool Reader::step(drivers::Block& block) {
 
 bool Reader::push(const drivers::Block& block) {
   recording::Block taken = recorded_block(block);
+  for (std::int64_t& time : taken.rows.host_time) time += plan_.shift_ns;
   if (lost_[taken.stream] && !taken.rows.flags.empty()) {
     taken.rows.flags.front() |= recording::kLostBefore;
     lost_[taken.stream] = false;
@@ -80,11 +90,55 @@ bool Reader::push(const drivers::Block& block) {
   stillness_.take(taken);
   clocks_.take(block);
   if (plan_.observe) plan_.observe(taken);
-  if (const auto done = recorder_.push(plan_.index, taken); !done) {
-    disk_failure_ = done.error();
+  if (taken.rows.size() > 0) last_ = Steady::now();
+  return deliver(taken);
+}
+
+// Whatever the disk does, the device is read on in the end, and every row is counted. False when
+// the block does not fit the device's description.
+bool Reader::deliver(const recording::Block& block) {
+  if (Steady::now() >= disk_next_) {
+    const auto taken = push_patiently(block);
+    if (taken && *taken) {
+      disk_patience_ = plan_.disk_patience;
+      disk_pause_ = kFirstDiskPause;
+      return true;
+    }
+    disk_failure_ = taken ? "it took nothing for too long" : taken.error().message;
+    disk_patience_ = {};  // enough was waited; from now on what finds no room is counted
+    disk_next_ = Steady::now() + disk_pause_;
+    disk_pause_ = std::min(2 * disk_pause_, kLongestDiskPause);
+  }
+  const auto room = recorder_.offer(plan_.index, block);
+  if (!room) {
+    failure_ = room.error();
     return false;
   }
+  if (!*room) discarded_ += block.rows.size();
   return true;
+}
+
+// False: there was no room in time. Error: the disk's.
+Result<bool> Reader::push_patiently(const recording::Block& block) {
+  const Steady::time_point begin = Steady::now();
+  auto pause = kFirstDiskPause;
+  while (true) {
+    auto taken = recorder_.push_for(plan_.index, block, kDiskSlice);
+    const Steady::duration patience =
+        stop_.stop_requested() ? std::min<Steady::duration>(disk_patience_, kLastDiskPatience)
+                               : disk_patience_;
+    if ((taken && *taken) || Steady::now() - begin >= patience) return taken;
+    if (taken) continue;  // that was a wait
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, kLongestDiskPause);
+  }
+}
+
+std::vector<v1::ClockComparison> Reader::clocks() const {
+  auto out = clocks_.comparisons(plan_.device.name());
+  for (v1::ClockComparison& one : out)
+    one.set_first_sample_ns(one.first_sample_ns() + plan_.shift_ns);
+  return out;
 }
 
 // Waits, opens, waits longer. False when it was told to stop before.

@@ -38,6 +38,10 @@ struct ReaderPlan {
   Reopening reopening;
   /// Sees what is recorded; may be empty.
   std::function<void(const recording::Block&)> observe;
+  std::int64_t shift_ns = 0;  ///< From the host's clock to the recording's time stamps.
+  /// How long the device is not read because the disk leaves no room. Then it is read on, and what
+  /// finds no room is counted, until the disk takes something again.
+  std::chrono::milliseconds disk_patience{10000};
 };
 
 /// Its thread is the only one that reads the device.
@@ -58,19 +62,23 @@ class Reader {
   std::uint64_t disconnections() const { return disconnections_; }
   /// Why nothing comes from the device: its failure, or why it was gone last.
   const std::optional<Error>& failure() const { return failure_; }
-  const std::optional<Error>& disk_failure() const { return disk_failure_; }
+  /// Rows that were not recorded because the disk left no room for them, and what it said last.
+  std::uint64_t discarded() const { return discarded_; }
+  const std::string& disk_failure() const { return disk_failure_; }
+  /// When the last samples came.
+  std::optional<std::chrono::steady_clock::time_point> last() const { return last_; }
   /// It was there to the end, or had nothing more to say.
   bool connected() const { return connected_; }
   const std::string& disconnection() const { return disconnection_; }
   const std::vector<v1::Disturbance>& disturbances() const { return stillness_.disturbances(); }
-  std::vector<v1::ClockComparison> clocks() const {
-    return clocks_.comparisons(plan_.device.name());
-  }
+  std::vector<v1::ClockComparison> clocks() const;
 
  private:
   void run();
   bool step(drivers::Block& block);
   bool push(const drivers::Block& block);
+  bool deliver(const recording::Block& block);
+  Result<bool> push_patiently(const recording::Block& block);
   bool open_again();
   Result<std::unique_ptr<drivers::Device>> same_device() const;
 
@@ -84,7 +92,12 @@ class Reader {
   std::uint64_t disconnections_ = 0;
   std::string disconnection_;
   std::optional<Error> failure_;
-  std::optional<Error> disk_failure_;
+  std::optional<std::chrono::steady_clock::time_point> last_;
+  std::uint64_t discarded_ = 0;
+  std::string disk_failure_;
+  std::chrono::milliseconds disk_patience_;
+  std::chrono::milliseconds disk_pause_;  // before the disk is tried the next time
+  std::chrono::steady_clock::time_point disk_next_ = {};
   std::atomic<bool> ended_ = false;
 
   std::mutex mutex_;  // guards what follows

@@ -7,10 +7,12 @@
 #include <thread>
 #include <utility>
 
-#include "daemon/acquire/clock.h"
+#include "daemon/acquire/completeness.h"
 #include "daemon/acquire/latecomer.h"
 #include "daemon/acquire/recorded_device.h"
+#include "daemon/acquire/recordings.h"
 #include "daemon/acquire/wire_file.h"
+#include "daemon/config/quantity_text.h"
 #include "recording/store/layout.h"
 
 namespace imunoise::acquire {
@@ -19,8 +21,16 @@ namespace {
 using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kWatchEvery{10};   // readers and the caller's wish to stop
-constexpr milliseconds kLookEvery{1000};  // at the disk
+constexpr milliseconds kWatchEvery{10};            // readers and the caller's wish to stop
+constexpr milliseconds kLookEvery{500};            // at the disk and the clock
+constexpr std::uint64_t kLittleRoom = 64'000'000;  // bytes
+
+// From the host's clock, which began with this process, to the time of day.
+std::int64_t shift_to(const Clock& clock) {
+  const std::chrono::nanoseconds shift =
+      clock.now().time_since_epoch() - std::chrono::nanoseconds(drivers::host_time_ns());
+  return std::chrono::abs(shift) < kLeastLeap ? 0 : shift.count();
+}
 
 // One replicate, from its plan to its outcome; functions in the order in which they are called.
 class Replicate {
@@ -40,19 +50,24 @@ class Replicate {
     if (!opened) return tl::make_unexpected(opened.error());
     describe(*opened);
     if (auto room = check_disk(); !room) return tl::make_unexpected(room.error());
-    auto recorder = recording::Recorder::start(files_, plan_.folder, recorded_);
+    auto recorder = recording::Recorder::start(files_, plan_.folder, recorded_, plan_.recorder);
     if (!recorder) return tl::make_unexpected(recorder.error());
+    for (const std::string& one : (*recorder)->repaired()) {
+      if (tell_) tell_("recording", one);
+    }
     open_wires();
-    if (plan_.observer != nullptr) plan_.observer->begin(plan_, recorded_.devices);
+    if (plan_.observer != nullptr) {
+      plan_.observer->begin(plan_, recorded_.devices);
+      plan_.observer->watch([from = recorder->get()] { return from->state(); });
+    }
     read(**recorder, *opened);
     if (plan_.observer != nullptr) plan_.observer->end();
-    conclude();
-    (*recorder)->annotate(note_);
-    const auto closed = (*recorder)->close();
-    for (const auto& reader : readers_) {
-      if (reader->disk_failure()) return tl::make_unexpected(*reader->disk_failure());
-    }
-    if (!closed) return tl::make_unexpected(closed.error());
+    const auto closed = (*recorder)->close([this](const recording::RecorderState& state) {
+      conclude(state);
+      return note_;
+    });
+    if (!closed) return fail(closed.error().message + room_left());
+    note_ = (*recorder)->note().value_or(note_);
     if (auto done = close_wires(); !done) return tl::make_unexpected(done.error());
     return outcome((*recorder)->state());
   }
@@ -61,19 +76,27 @@ class Replicate {
   Result<std::unique_ptr<drivers::Device>> open(std::size_t i, const std::stop_token& stop) {
     drivers::WireHandler wire;
     if (!wires_.empty()) wire = [file = wires_[i].get()](auto bytes) { file->take(bytes); };
-    return open_device(plan_.devices[i], tell_, std::move(wire), stop);
+    auto device = open_device(plan_.devices[i], tell_, std::move(wire), stop);
+    if (!device) return device;
+    // What cannot be recorded is missing, and stops no other.
+    if (auto good = recording::check_device(describe(i, **device)); !good)
+      return fail(fmt::format("{}: {}", plan_.devices[i].name, good.error().message));
+    return device;
   }
 
   void describe(const OpenDevices& opened) {
     recorded_.campaign = plan_.campaign;
     recorded_.replicate = plan_.replicate;
-    recorded_.started_ns = now_ns();
+    recorded_.unfinished = plan_.unfinished;
+    stamp_start(note_, *plan_.clock);
+    leaps_.emplace(*plan_.clock);
+    shift_ns_ = shift_to(*plan_.clock);
+    recorded_.started_ns = note_.started_ns();
     for (std::size_t i = 0; i < opened.devices.size(); ++i) {
       if (opened.devices[i]) recorded_.devices.push_back(describe(i, *opened.devices[i]));
     }
     note_.set_replicate(plan_.replicate);
     note_.set_state(v1::open);
-    note_.set_started_ns(recorded_.started_ns);
     note_.mutable_missing()->Add(opened.missing.begin(), opened.missing.end());
     recorded_.note = note_;
   }
@@ -119,8 +142,14 @@ class Replicate {
   void start_reading(recording::Recorder& recorder, std::size_t i,
                      std::unique_ptr<drivers::Device> device) {
     const std::size_t index = readers_.size();
-    ReaderPlan one{index, recorded_.devices[index], plan_.devices[i].driver.info.name, {},
-                   {},    observer_of(index)};
+    ReaderPlan one{index,
+                   recorded_.devices[index],
+                   plan_.devices[i].driver.info.name,
+                   {},
+                   {},
+                   observer_of(index),
+                   shift_ns_,
+                   plan_.disk_patience};
     if (plan_.reopening) {
       one.open = [this, i](const std::stop_token& stop) { return open(i, stop); };
       one.reopening = *plan_.reopening;
@@ -143,7 +172,7 @@ class Replicate {
     v1::MissingDevice& missing =
         *std::find_if(note_.mutable_missing()->begin(), note_.mutable_missing()->end(),
                       [&](const auto& one) { return one.device() == described.name(); });
-    missing.set_joined_ns(now_ns());
+    missing.set_joined_ns(stamp());
     recorder.annotate(note_);
     const auto added = recorder.add(described);
     if (!added) {
@@ -163,7 +192,7 @@ class Replicate {
 
   // Until the plan's end, the readers', the disk's, or that of the caller's patience.
   void wait(recording::Recorder& recorder) {
-    const Steady::time_point begin = Steady::now();
+    const Steady::time_point begin = began_ = Steady::now();
     Steady::time_point looked = begin;
     const auto over = [&] {
       if (progress_.stopped()) {
@@ -175,6 +204,8 @@ class Replicate {
       }
       if (Steady::now() - looked >= kLookEvery) {
         looked = Steady::now();
+        if (plan_.observer != nullptr) plan_.observer->beat();
+        look_at_clock();
         if (reserve_is_reached()) return true;
       }
       if (!plan_.duration) return false;
@@ -188,6 +219,22 @@ class Replicate {
     }
   }
 
+  // By the time stamps of this replicate.
+  std::int64_t stamp() const { return drivers::host_time_ns() + shift_ns_; }
+
+  // Time stamps go on as they began; by how much the time of day left them is noted.
+  void look_at_clock() {
+    const auto leap = leaps_->look();
+    if (!leap) return;
+    v1::ClockStep& step = *note_.add_clock_steps();
+    step.set_noticed_ns(stamp());
+    step.set_step_s(std::chrono::duration<double>(*leap).count());
+    if (tell_)
+      tell_("clock", "the clock of this machine was " + describe_leap(*leap) +
+                         "; time "
+                         "stamps go on as they began until the replicate ends");
+  }
+
   bool reserve_is_reached() {
     const auto free = plan_.free_space(plan_.folder);
     if (!free || *free >= plan_.reserve_bytes) return false;
@@ -195,12 +242,15 @@ class Replicate {
     return true;
   }
 
-  // What the manifest will say.
-  void conclude() {
+  // What the manifest will say, now that it is known what became of every row.
+  void conclude(const recording::RecorderState& state) {
+    look_at_clock();
     std::vector<v1::Disturbance> disturbances;
     std::size_t failed = 0;
+    const bool to_the_end = plan_.duration && interruption_.empty();
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       const Reader& reader = *readers_[i];
+      add_reason(shortfall(i, state, to_the_end && !reader.failure() && reader.connected()));
       const auto& seen = reader.disturbances();
       disturbances.insert(disturbances.end(), seen.begin(), seen.end());
       for (const v1::ClockComparison& clock : reader.clocks()) *note_.add_clocks() = clock;
@@ -216,9 +266,35 @@ class Replicate {
     if (interruption_.empty() && failed == readers_.size()) {
       interruption_ = note_.missing(note_.missing_size() - 1).reason();
     }
-    note_.set_ended_ns(now_ns());
+    note_.set_ended_ns(stamp());
     note_.set_state(interruption_.empty() ? v1::complete : v1::interrupted);
     note_.set_reason(interruption_);
+  }
+
+  void add_reason(const std::string& text) {
+    if (!text.empty()) interruption_ += (interruption_.empty() ? "" : "; ") + text;
+  }
+
+  // Of the i-th recorded device, which should have come to the end or not.
+  std::string shortfall(std::size_t i, const recording::RecorderState& state,
+                        bool to_the_end) const {
+    const Reader& reader = *readers_[i];
+    DeviceCourse course{
+        recorded_.devices[i], state.counts[i], {}, reader.discarded(), reader.disk_failure()};
+    if (reader.last()) {
+      course.last_s = std::chrono::duration<double>(*reader.last() - began_).count();
+    }
+    std::optional<double> planned_s;
+    if (to_the_end) planned_s = plan_.duration->count();
+    return acquire::shortfall(course, planned_s);
+  }
+
+  // Said of an error of the disk, when it may be full.
+  std::string room_left() const {
+    const auto free = plan_.free_space(plan_.folder);
+    if (!free || *free > plan_.reserve_bytes + kLittleRoom) return "";
+    return fmt::format("; the disk of {} has {} free, make room", plan_.folder.string(),
+                       config::print_bytes(static_cast<double>(*free)));
   }
 
   Result<void> close_wires() {
@@ -246,6 +322,9 @@ class Replicate {
   v1::ReplicateNote note_;  // what the manifest will say
   std::vector<std::unique_ptr<Reader>> readers_;
   std::string interruption_;
+  Steady::time_point began_;  // when all readers had
+  std::optional<LeapWatch> leaps_;
+  std::int64_t shift_ns_ = 0;  // from the host's clock to this replicate's time stamps
   std::map<std::size_t, std::unique_ptr<Latecomer>> latecomers_;  // by device of the plan
 };
 

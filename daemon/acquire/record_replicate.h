@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/support/progress.h"
+#include "daemon/acquire/clock.h"
 #include "daemon/acquire/disk_space.h"
 #include "daemon/acquire/open_devices.h"
 #include "daemon/acquire/reader.h"
@@ -24,6 +25,10 @@ class ReplicateObserver {
  public:
   virtual ~ReplicateObserver() = default;
   virtual void begin(const ReplicatePlan& plan, const std::vector<v1::RecordedDevice>& devices) = 0;
+  /// What the recorder knows, in order of the devices: may be asked from any thread until end().
+  virtual void watch(std::function<recording::RecorderState()> /*recorder*/) {}
+  /// The replicate's own thread goes on: at least once a second.
+  virtual void beat() {}
   /// One more device, whose index is the next.
   virtual void join(const v1::RecordedDevice& device) = 0;
   /// `device` is an index in begin()'s, or of one that joined.
@@ -34,6 +39,7 @@ class ReplicateObserver {
 struct ReplicatePlan {
   std::filesystem::path folder;  ///< Of the recording; made when missing.
   std::uint32_t replicate = 1;
+  std::string unfinished;  ///< Why the one before was not closed, where that is known.
   std::vector<DevicePlan> devices;
   /// How long to record once the devices are open; unset: until every device has ended.
   std::optional<std::chrono::duration<double>> duration;
@@ -50,7 +56,10 @@ struct ReplicatePlan {
   std::uint64_t reserve_bytes = 0;
   std::uint32_t replicates_to_come = 0;
   FreeSpace free_space = acquire::free_space;
-  ReplicateObserver* observer = nullptr;  ///< May be none; outlives the replicate.
+  const Clock* clock = &system_clock();
+  recording::RecorderOptions recorder = {};
+  std::chrono::milliseconds disk_patience{10000};  ///< As a reader's.
+  ReplicateObserver* observer = nullptr;           ///< May be none; outlives the replicate.
 };
 
 /// What became of a device.
@@ -66,6 +75,11 @@ struct ReplicateOutcome {
   v1::ReplicateNote note;              ///< As the manifest has it.
 };
 
+/// The replicate is complete if every device that was there reached the planned end, and every row
+/// that came and was not refused is stored; else it is interrupted, and the reason names the
+/// device. While the disk fails or hangs, devices are read on: rows wait in memory, and those that
+/// find no room there are counted.
+///
 /// Opens the devices, records them, each from a thread of its own, and closes the recording: at the
 /// end of the plan's duration, when every device has ended or failed, when the disk's reserve is
 /// reached, or when the caller stops it, which is no error. A device that is unplugged is waited

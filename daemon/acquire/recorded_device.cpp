@@ -26,7 +26,7 @@ const char* dtype_of(drivers::NumberType type) {
 // The counter as a recording can hold it; drivers may count further than it can.
 bool counts(const drivers::Stream& stream) {
   constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  return stream.counter_maximum > 0 && stream.counter_maximum < kMost;
+  return stream.counter_maximum > 0 && stream.counter_maximum <= kMost;
 }
 
 // A recording keeps some names for itself.

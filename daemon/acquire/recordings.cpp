@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kShape = "0000-00-00T000000Z";
+constexpr std::chrono::seconds kSameSecond{1};  // names are whole seconds
 
 // The number in text[at, at + digits).
 int number_at(std::string_view text, std::size_t at, std::size_t digits) {
@@ -70,6 +71,87 @@ bool is_of(const v1::Manifest& manifest, const v1::Campaign& campaign) {
   return manifest.campaign() == campaign.name();
 }
 
+std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
+
+// A recording, and when it began by the clock as it is set now.
+struct Dated {
+  fs::path folder;
+  Time began;
+  std::optional<v1::Manifest> manifest;
+};
+
+bool of_this_boot(const v1::ReplicateNote& note, const Clock& clock) {
+  return !note.boot_id().empty() && note.boot_id() == clock.boot_id();
+}
+
+std::chrono::nanoseconds time_since(const v1::ReplicateNote& note, const Clock& clock) {
+  return clock.since_boot() - std::chrono::nanoseconds(note.started_since_boot_ns());
+}
+
+// When a recording that was named `named` began. Of those made since the machine started the time
+// since then tells, however the clock was set.
+Time began(Time named, const v1::Manifest& manifest, const Clock& clock) {
+  if (manifest.replicates().empty() || !of_this_boot(manifest.replicates(0), clock)) return named;
+  const v1::ReplicateNote& first = manifest.replicates(0);
+  const auto leap = (clock.now() - time_since(first, clock)).time_since_epoch() -
+                    std::chrono::nanoseconds(first.started_ns());
+  return std::chrono::abs(leap) < kLeastLeap ? named : named + leap;
+}
+
+// Nothing: of another campaign.
+Result<std::optional<Dated>> dated_recording(const recording::FileSystem& files,
+                                             const v1::Campaign& campaign, const Listed& one,
+                                             const Clock& clock) {
+  auto manifest = recording::read_manifest(files, one.folder);
+  if (!manifest) return tl::make_unexpected(manifest.error());
+  std::optional<Dated> out;
+  if (*manifest && !is_of(**manifest, campaign)) return out;
+  const Time start = *manifest ? began(one.started, **manifest, clock) : one.started;
+  out = Dated{one.folder, start, std::move(*manifest)};
+  return out;
+}
+
+// The recordings of a campaign whose manifests are sound, the newest first. Those that seem to
+// begin after now come last: they were made before a clock was corrected.
+Result<std::vector<Dated>> by_age(const recording::FileSystem& files, const v1::Campaign& campaign,
+                                  const Clock& clock) {
+  const auto listed = list_recordings(files, campaign.folder());
+  if (!listed) return tl::make_unexpected(listed.error());
+  std::vector<Dated> out;
+  for (const Listed& one : *listed) {
+    auto dated = dated_recording(files, campaign, one, clock);
+    if (dated && *dated && (*dated)->manifest) out.push_back(std::move(**dated));
+  }
+  const Time now = clock.now() + kSameSecond;
+  std::sort(out.begin(), out.end(), [&](const Dated& a, const Dated& b) {
+    return std::pair(a.began <= now, a.began) > std::pair(b.began <= now, b.began);
+  });
+  return out;
+}
+
+enum class Age { kYoung, kTooOld, kDoubtful };
+
+// Whether a recording is older than `most` s, by clocks that can be trusted.
+Age age_of(const Dated& one, double most, const Clock& clock) {
+  const auto older = [&](std::chrono::nanoseconds age) {
+    return std::chrono::duration<double>(age).count() > most;
+  };
+  if (!older(clock.now() - one.began)) return Age::kYoung;
+  if (!clock.synchronised() || clock.boot_id().empty()) return Age::kDoubtful;
+  const auto& notes = one.manifest->replicates();
+  Time last = one.began;  // known to be right
+  bool known = notes.empty();
+  for (const v1::ReplicateNote& note : notes) {
+    if (of_this_boot(note, clock) && !older(time_since(note, clock))) return Age::kDoubtful;
+    // Recordings from before this was noted are taken at their word.
+    const bool trusted = !note.has_clock_synchronised() || note.clock_synchronised();
+    known = known || trusted || of_this_boot(note, clock);
+    if (trusted) last = std::max(last, Time(std::chrono::nanoseconds(note.started_ns())));
+  }
+  if (!known) return Age::kDoubtful;
+  return older(clock.now() - last) ? Age::kTooOld : Age::kYoung;
+}
+
 }  // namespace
 
 std::string recording_name(Time started) {
@@ -90,43 +172,54 @@ std::optional<Time> start_of(std::string_view name) {
   return Time(sys_days(day)) + hours(hour) + minutes(minute) + seconds(second);
 }
 
-Result<std::optional<FoundRecording>> newest_recording(const recording::FileSystem& files,
-                                                       const v1::Campaign& campaign) {
-  const auto listed = list_recordings(files, campaign.folder());
-  if (!listed) return tl::make_unexpected(listed.error());
-  for (const Listed& one : *listed) {
-    const auto manifest = recording::read_manifest(files, one.folder);
-    if (!manifest) return tl::make_unexpected(manifest.error());
-    if (*manifest && !is_of(**manifest, campaign)) continue;
-    FoundRecording out{one.folder, {one.started, {}, 0}};
-    const auto last = last_replicate(files, one.folder);
-    if (!last) return tl::make_unexpected(last.error());
-    out.state.last_replicate = *last;
-    if (*manifest) {
-      const auto& notes = (*manifest)->replicates();
-      out.state.notes.assign(notes.begin(), notes.end());
-    }
-    return std::optional(std::move(out));
-  }
-  return std::optional<FoundRecording>();
+void stamp_start(v1::ReplicateNote& note, const Clock& clock) {
+  note.set_started_ns(ns(clock.now()));
+  note.set_boot_id(clock.boot_id());
+  note.set_started_since_boot_ns(clock.since_boot().count());
+  note.set_clock_synchronised(clock.synchronised());
 }
 
-Result<std::vector<fs::path>> tidy_recordings(const recording::FileSystem& files,
-                                              const v1::Campaign& campaign, Time now) {
-  const v1::CampaignRetention& keep = campaign.retention();
-  std::vector<fs::path> out;
-  if (keep.recordings() == 0 && !keep.has_age_s()) return out;
+Result<std::optional<FoundRecording>> newest_recording(const recording::FileSystem& files,
+                                                       const v1::Campaign& campaign,
+                                                       const Clock& clock, const fs::path& known) {
   const auto listed = list_recordings(files, campaign.folder());
   if (!listed) return tl::make_unexpected(listed.error());
-  std::uint32_t kept = 0;
+  std::optional<Dated> newest;
+  bool agrees = false;  // with its name: what was named before began before
   for (const Listed& one : *listed) {
-    const auto manifest = recording::read_manifest(files, one.folder);
-    if (!manifest || !*manifest || !is_of(**manifest, campaign)) continue;
-    const std::chrono::duration<double> age = now - one.started;
-    const bool too_many = keep.recordings() > 0 && kept >= keep.recordings();
-    const bool too_old = keep.has_age_s() && age.count() > keep.age_s();
-    if (kept == 0 || !(*manifest)->closed() || (!too_many && !too_old)) {
+    if (agrees && one.folder != known) continue;
+    auto dated = dated_recording(files, campaign, one, clock);
+    if (!dated) return tl::make_unexpected(dated.error());
+    if (!*dated || (*dated)->began > clock.now() + kSameSecond) continue;
+    agrees = agrees || (*dated)->began == one.started;
+    if (!newest || (*dated)->began > newest->began) newest = std::move(**dated);
+  }
+  if (!newest) return std::optional<FoundRecording>();
+  const auto last = last_replicate(files, newest->folder);
+  if (!last) return tl::make_unexpected(last.error());
+  FoundRecording out{newest->folder, {newest->began, {}, *last}};
+  if (newest->manifest) {
+    const auto& notes = newest->manifest->replicates();
+    out.state.notes.assign(notes.begin(), notes.end());
+  }
+  return std::optional(std::move(out));
+}
+
+Result<Tidied> tidy_recordings(const recording::FileSystem& files, const v1::Campaign& campaign,
+                               const Clock& clock) {
+  const v1::CampaignRetention& keep = campaign.retention();
+  Tidied out;
+  if (keep.recordings() == 0 && !keep.has_age_s()) return out;
+  const auto dated = by_age(files, campaign, clock);
+  if (!dated) return tl::make_unexpected(dated.error());
+  std::uint32_t kept = 0;
+  for (const Dated& one : *dated) {
+    const bool may_go = kept > 0 && one.manifest->closed();
+    const bool too_many = may_go && keep.recordings() > 0 && kept >= keep.recordings();
+    const Age age = may_go && keep.has_age_s() ? age_of(one, keep.age_s(), clock) : Age::kYoung;
+    if (!too_many && age != Age::kTooOld) {
       ++kept;
+      if (age == Age::kDoubtful) ++out.doubtful;
       continue;
     }
     std::error_code trouble;
@@ -135,7 +228,7 @@ Result<std::vector<fs::path>> tidy_recordings(const recording::FileSystem& files
       return fail(fmt::format("{}: is no longer to be kept, and cannot be deleted: {}",
                               one.folder.string(), trouble.message()));
     }
-    out.push_back(one.folder);
+    out.removed.push_back(one.folder);
   }
   return out;
 }

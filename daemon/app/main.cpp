@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -113,6 +116,19 @@ void reload(const Arguments& arguments, const drivers::Drivers& drivers, Supervi
   supervisor.reload(std::move(files));
 }
 
+// A disk that hangs holds up threads that nothing can end. They are waited for, but not for ever.
+void end_if_late(std::chrono::steady_clock::time_point stopping, const std::string& hanging,
+                 Log& log) {
+  constexpr std::chrono::seconds kPatience{10};
+  constexpr int kNotClosed = 3;
+  if (std::chrono::steady_clock::now() - stopping < kPatience) return;
+  log.error(hanging);
+  log.error(
+      "ends without closing its recordings; samples that were acknowledged are in the "
+      "journals, and the next start recovers them");
+  std::_Exit(kNotClosed);
+}
+
 int record(const Arguments& arguments, CampaignFiles files, const drivers::Drivers& drivers,
            const sigset_t& signals) {
   Log log;
@@ -126,22 +142,24 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
   const auto service = serve(arguments, drivers, supervisor, log);
   manager.ready();
   bool stays = service != nullptr && !arguments.once;  // clients may start campaigns again
-  bool stopped = false;
+  std::optional<std::chrono::steady_clock::time_point> stopping;
   std::string told;
   constexpr timespec kPatience{0, 200'000'000};
   while (stays || !supervisor.ended()) {
     const int signal = sigtimedwait(&signals, nullptr, &kPatience);
     if (signal == SIGHUP) {
-      if (!stopped) reload(arguments, drivers, supervisor, log);
+      if (!stopping) reload(arguments, drivers, supervisor, log);
     } else if (signal > 0) {
       log.fact(
           fmt::format("{}: recordings are being closed", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
       manager.stopping();
       supervisor.stop();
       stays = false;
-      stopped = true;
+      if (!stopping) stopping = std::chrono::steady_clock::now();
     }
-    manager.alive();
+    const auto hanging = supervisor.hanging();
+    if (hanging && stopping) end_if_late(*stopping, *hanging, log);
+    if (!hanging) manager.alive();  // systemd may start us again
     supervisor.settle();
     supervisor.tell_warnings();
     memory.keep_flat();
@@ -150,7 +168,7 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
       told = status;
     }
   }
-  return stopped || supervisor.rejected().empty() ? 0 : 1;
+  return stopping || supervisor.rejected().empty() ? 0 : 1;
 }
 
 int run(int argc, const char* const* argv) {

@@ -29,19 +29,26 @@ bool same(const v1::Campaign& a, const v1::Campaign& b) {
   return google::protobuf::util::MessageDifferencer::Equals(a, b);
 }
 
+bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const auto whole = (folder / ".").lexically_normal().parent_path();
+  const auto inner = path.lexically_normal();
+  return std::mismatch(whole.begin(), whole.end(), inner.begin(), inner.end()).first == whole.end();
+}
+
 }  // namespace
 
 Supervisor::Supervisor(CampaignFiles files, const drivers::Drivers& drivers, acquire::RunMode mode,
                        Log& log)
     : mode_(mode),
       log_(log),
+      files_(recording::posix_file_system()),
       recorder_(
-          recording::posix_file_system(), drivers,
+          files_, drivers,
           [this](const std::string& device, std::string_view text) {
             log_.chatter(device, std::string(text));
           },
           [this](const std::string& campaign) { return &live_.of(campaign); }),
-      aftercare_(recording::posix_file_system(), beside_us("imunoise")) {
+      aftercare_(files_, beside_us("imunoise")) {
   rejected_ = std::move(files.rejected);
   wanted_ = by_name(std::move(files.found));
   settle();
@@ -171,7 +178,7 @@ void Supervisor::begin_unless_left(Run& run) {
 
 void Supervisor::run(const v1::Campaign& campaign, acquire::RunMode mode,
                      const std::stop_token& stop, const std::stop_token& leave) {
-  acquire::CampaignSurroundings with{clock_, recording::posix_file_system(), recorder_};
+  acquire::CampaignSurroundings with{clock_, files_, recorder_};
   if (campaign.calibration().enabled()) {
     with.calibrate = [this](const auto& of, const auto& recording, const Progress& progress) {
       return aftercare_.calibrate(of, recording, progress);
@@ -228,14 +235,69 @@ void Supervisor::watch(Watcher changed) {
 
 void Supervisor::tell_warnings() {
   for (const std::string& one : live_.new_warnings()) log_.warning(one);
+  tell_troubles();
+}
+
+void Supervisor::tell_troubles() {
+  std::map<std::string, live::Trouble> now = troubles();
+  std::vector<std::string> changed;
+  for (const auto& [name, trouble] : now) {
+    const auto before = told_.find(name);
+    if (before != told_.end() && before->second.since == trouble.since) continue;
+    const std::string text = name + ": " + live::sentence(trouble);
+    trouble.hangs ? log_.error(text) : log_.warning(text);
+    changed.push_back(name);
+  }
+  for (const auto& [name, trouble] : told_) {
+    if (now.contains(name)) continue;
+    log_.fact(fmt::format("{}: is over: {}", name, live::sentence(trouble)));
+    changed.push_back(name);
+  }
+  told_ = std::move(now);
+  for (const std::string& name : changed) tell(name);
+}
+
+// Calls that hang come first: nothing else is known for sure while one does.
+std::optional<live::Trouble> Supervisor::trouble_of(const v1::Campaign& campaign) const {
+  const auto now = live::Steady::now();
+  for (const recording::DiskCall& call : files_.calls()) {
+    if (!lies_in(call.path, campaign.folder())) continue;
+    if (auto found = live::trouble_of(call, now)) return found;
+  }
+  return live_.trouble(campaign.name(), now);
+}
+
+std::map<std::string, live::Trouble> Supervisor::troubles() const {
+  std::vector<v1::Campaign> campaigns;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [name, run] : runs_) {
+      if (run.state.running) campaigns.push_back(run.state.campaign);
+    }
+  }
+  std::map<std::string, live::Trouble> out;
+  for (const v1::Campaign& one : campaigns) {
+    if (auto trouble = trouble_of(one)) out.emplace(one.name(), std::move(*trouble));
+  }
+  return out;
+}
+
+std::optional<std::string> Supervisor::hanging() const {
+  for (const auto& [name, trouble] : troubles()) {
+    if (trouble.hangs) return name + ": " + live::sentence(trouble);
+  }
+  return std::nullopt;
 }
 
 std::string Supervisor::status() const {
+  const auto troubles = this->troubles();
   const std::lock_guard lock(mutex_);
   std::string out;
   for (const auto& [name, run] : runs_) {
     if (run.state.status.phase() == v1::campaign_phase_unspecified) continue;
     out += (out.empty() ? "" : " | ") + status_text(run.state.status);
+    const auto trouble = troubles.find(name);
+    if (trouble != troubles.end()) out += "; " + live::sentence(trouble->second);
   }
   std::string files;
   for (const v1::RejectedFile& one : rejected_) files += (files.empty() ? "" : ", ") + one.file();
@@ -249,9 +311,14 @@ std::vector<v1::RejectedFile> Supervisor::rejected() const {
 }
 
 std::vector<service::BenchCampaign> Supervisor::campaigns() const {
+  const auto troubles = this->troubles();
   const std::lock_guard lock(mutex_);
   std::vector<service::BenchCampaign> out;
-  for (const auto& [name, run] : runs_) out.push_back(run.state);
+  for (const auto& [name, run] : runs_) {
+    out.push_back(run.state);
+    const auto trouble = troubles.find(name);
+    if (trouble != troubles.end()) out.back().trouble = live::sentence(trouble->second);
+  }
   return out;
 }
 

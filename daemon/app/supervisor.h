@@ -5,6 +5,7 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "daemon/app/log.h"
 #include "daemon/live/live_board.h"
 #include "daemon/service/bench.h"
+#include "recording/store/watched_files.h"
 
 namespace imunoise::app {
 
@@ -44,8 +46,12 @@ class Supervisor : public service::Bench {
   bool ended() const;
   /// What each does, in one line.
   std::string status() const;
-  /// Logs what is of concern in the replicates that are being recorded, once. To be called often.
+  /// Logs what is of concern in the replicates that are being recorded, and what keeps campaigns
+  /// from recording, once. To be called often, from one thread.
   void tell_warnings();
+  /// What hangs, so that a campaign goes no further: its name, what, where and since when. Nothing
+  /// while all go on.
+  std::optional<std::string> hanging() const;
 
   std::vector<service::BenchCampaign> campaigns() const override;
   std::vector<v1::RejectedFile> rejected() const override;
@@ -64,6 +70,9 @@ class Supervisor : public service::Bench {
   };
   using Runs = std::map<std::string, Run>;
 
+  std::optional<live::Trouble> trouble_of(const v1::Campaign& campaign) const;
+  std::map<std::string, live::Trouble> troubles() const;
+  void tell_troubles();
   bool left_to_timer(const v1::Campaign& campaign) const;
   void run(const v1::Campaign& campaign, acquire::RunMode mode, const std::stop_token& stop,
            const std::stop_token& leave);
@@ -80,9 +89,11 @@ class Supervisor : public service::Bench {
   const acquire::RunMode mode_;
   Log& log_;
   acquire::SystemClock clock_;
+  recording::WatchedFiles files_;
   live::LiveBoard live_;
   acquire::DeviceRecorder recorder_;
   Aftercare aftercare_;
+  std::map<std::string, live::Trouble> told_;  // by campaign
   std::atomic<std::size_t> running_ = 0;
   std::mutex watching_;  // held while the watcher is called
   Watcher watcher_;

@@ -1,5 +1,6 @@
 #include "daemon/live/live_board.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace imunoise::live {
@@ -13,7 +14,33 @@ void LiveReplicate::begin(const acquire::ReplicatePlan& plan,
   about_.set_length_s(plan.duration ? plan.duration->count() : 0.0);
   devices_.clear();
   told_.clear();
+  beat_ = Steady::now();
   for (const v1::RecordedDevice& one : devices) devices_.push_back(std::make_shared<Watched>(one));
+}
+
+void LiveReplicate::watch(std::function<recording::RecorderState()> recorder) {
+  const std::lock_guard lock(asking_);
+  recorder_ = std::move(recorder);
+}
+
+recording::RecorderState LiveReplicate::recorder_state() const {
+  const std::lock_guard lock(asking_);
+  return recorder_ ? recorder_() : recording::RecorderState();
+}
+
+void LiveReplicate::beat() {
+  const std::lock_guard lock(mutex_);
+  beat_ = Steady::now();
+}
+
+std::optional<Trouble> LiveReplicate::trouble(Steady::time_point now) const {
+  const recording::RecorderState recorder = recorder_state();
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < std::min(devices_.size(), recorder.disks.size()); ++i) {
+    if (auto found = trouble_of(devices_[i]->live.name(), recorder.disks[i], now)) return found;
+  }
+  if (devices_.empty() || now - beat_ < kHangsAfter) return std::nullopt;
+  return Trouble{"its recording makes no progress; a device or the disk holds it up", beat_, true};
 }
 
 void LiveReplicate::join(const v1::RecordedDevice& device) {
@@ -29,6 +56,7 @@ void LiveReplicate::take(std::size_t device, const recording::Block& block) {
 }
 
 void LiveReplicate::end() {
+  watch({});
   const std::lock_guard lock(mutex_);
   devices_.clear();
 }
@@ -44,9 +72,22 @@ std::optional<v1::LiveReplicate> LiveReplicate::state() const {
   const auto devices = devices_;
   v1::LiveReplicate out = about_;
   lock.unlock();
-  for (const auto& one : devices) {
-    const std::lock_guard own(one->mutex);
-    *out.add_devices() = one->live.state();
+  const recording::RecorderState recorder = recorder_state();
+  const Steady::time_point now = Steady::now();
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    v1::LiveDevice& to = *out.add_devices();
+    {
+      const std::lock_guard own(devices[i]->mutex);
+      to = devices[i]->live.state();
+    }
+    if (i >= recorder.counts.size()) continue;
+    for (const recording::StreamCounts& counts : recorder.counts[i]) {
+      to.set_received(to.received() + counts.received);
+      to.set_stored(to.stored() + counts.stored);
+      to.set_discarded(to.discarded() + recording::refused_rows(counts.refused));
+    }
+    if (const auto found = trouble_of(to.device(), recorder.disks[i], now))
+      to.set_disk_trouble(sentence(*found));
   }
   return out;
 }
@@ -76,6 +117,13 @@ LiveReplicate& LiveBoard::of(const std::string& campaign) {
   auto& out = campaigns_[campaign];
   if (!out) out = std::make_unique<LiveReplicate>(campaign);
   return *out;
+}
+
+std::optional<Trouble> LiveBoard::trouble(const std::string& campaign,
+                                          Steady::time_point now) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = campaigns_.find(campaign);
+  return found == campaigns_.end() ? std::nullopt : found->second->trouble(now);
 }
 
 std::vector<v1::LiveReplicate> LiveBoard::state() const {

@@ -199,6 +199,7 @@ v1::LiveDevice LiveDevice::state() const {
     out.set_refused(out.refused() + of.refused);
     out.set_gaps(out.gaps() + of.gaps);
     if (!of.begin_ns) continue;
+    out.set_last_sample_ns(std::max(out.last_sample_ns(), of.now_ns));
     const double elapsed = static_cast<double>(of.now_ns - *of.begin_ns) * 1e-9;
     out.set_elapsed_s(std::max(out.elapsed_s(), elapsed));
     for (const Channel& channel : of.channels) *out.add_channels() = describe(stream, channel);

@@ -18,6 +18,7 @@ struct BenchCampaign {
   v1::Campaign campaign;
   v1::CampaignStatus status;
   bool running = false;
+  std::string trouble = {};  ///< What keeps it from recording, where, since when; empty: nothing.
 };
 
 /// Name of the recording of which a replicate is being recorded: "2026-03-01T060000Z"; empty: none.

@@ -32,13 +32,15 @@ class ConfinedFiles final : public recording::FileSystem {
     for (const Path& one : folders) folders_.push_back(one.lexically_normal());
   }
 
-  Result<std::string> read(const Path& path) const override {
+  Result<std::string> read_up_to(const Path& path, std::uint64_t limit) const override {
     const auto file = open(path, O_RDONLY | O_NONBLOCK);
     if (!file) return tl::unexpected(file.error());
     struct stat found {};
     if (::fstat(file->get(), &found) != 0) return trouble(path, errno);
     if (!S_ISREG(found.st_mode)) return fail(path.string() + ": is no regular file");
-    std::string out(static_cast<std::size_t>(found.st_size), '\0');
+    const auto size = static_cast<std::size_t>(found.st_size);
+    if (size > limit) return tl::make_unexpected(recording::too_large(path, limit));
+    std::string out(size, '\0');
     std::size_t at = 0;
     while (at < out.size()) {
       const ssize_t got = ::read(file->get(), out.data() + at, out.size() - at);

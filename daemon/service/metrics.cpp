@@ -63,6 +63,10 @@ void add_campaigns(std::string& out, const Figures& figures) {
   Family running(out, "imunoise_campaign_running", "gauge", "0: stopped, or finished.");
   for (const auto& one : figures.campaigns)
     running.add({{"campaign", one.campaign().name()}}, one.running() ? 1 : 0);
+  Family troubled(out, "imunoise_campaign_troubled", "gauge",
+                  "1: the disk fails or hangs, or the recording makes no progress.");
+  for (const auto& one : figures.campaigns)
+    troubled.add({{"campaign", one.campaign().name()}}, one.trouble().empty() ? 0 : 1);
   Family left(out, "imunoise_campaign_left_seconds", "gauge",
               "Until the recording under way is complete.");
   for (const auto& one : figures.campaigns) {
@@ -74,6 +78,39 @@ void add_campaigns(std::string& out, const Figures& figures) {
   Family free(out, "imunoise_disk_free_bytes", "gauge", "Of the disk that a campaign records to.");
   for (const auto& [campaign, bytes] : figures.free_bytes)
     free.add({{"campaign", campaign}}, bytes);
+}
+
+// One family over the devices that are being recorded.
+template <class Value>
+void add_devices(std::string& out, const Figures& figures, std::string_view name,
+                 std::string_view help, const Value& value) {
+  Family family(out, name, "gauge", help);
+  for (const v1::LiveReplicate& replicate : figures.live) {
+    for (const v1::LiveDevice& one : replicate.devices()) {
+      family.add({{"campaign", replicate.campaign()}, {"device", one.device()}}, value(one));
+    }
+  }
+}
+
+// All of the replicate under way.
+void add_live(std::string& out, const Figures& figures) {
+  using Device = v1::LiveDevice;
+  add_devices(out, figures, "imunoise_device_received_samples",
+              "Samples that the device delivered.",
+              [](const Device& one) { return one.received(); });
+  add_devices(out, figures, "imunoise_device_stored_samples", "Samples that are safe on disk.",
+              [](const Device& one) { return one.stored(); });
+  add_devices(out, figures, "imunoise_device_discarded_samples",
+              "Samples that were received and will not be stored.",
+              [](const Device& one) { return one.discarded(); });
+  add_devices(out, figures, "imunoise_device_gaps", "Places where samples are missing.",
+              [](const Device& one) { return one.gaps(); });
+  add_devices(out, figures, "imunoise_device_last_sample_timestamp_seconds",
+              "When the last sample came; 0: none did.",
+              [](const Device& one) { return 1e-9 * static_cast<double>(one.last_sample_ns()); });
+  add_devices(out, figures, "imunoise_device_disk_troubled",
+              "1: the disk under the device's samples fails or hangs.",
+              [](const Device& one) { return one.disk_trouble().empty() ? 0 : 1; });
 }
 
 void add_service(std::string& out, const Figures& figures) {
@@ -116,6 +153,7 @@ std::string metrics_text(const Figures& figures) {
   Family(out, "imunoise_uptime_seconds", "counter", "Since the daemon began to serve.")
       .add({}, figures.uptime_s);
   add_campaigns(out, figures);
+  add_live(out, figures);
   add_jobs(out, figures);
   add_service(out, figures);
   return out;

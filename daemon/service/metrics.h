@@ -17,6 +17,7 @@ struct Figures {
   std::vector<v1::CampaignState> campaigns;
   std::size_t rejected_files = 0;                   ///< Of campaigns.
   std::map<std::string, std::uint64_t> free_bytes;  ///< Of each campaign's disk, where known.
+  std::vector<v1::LiveReplicate> live;              ///< Replicates that are being recorded.
   std::vector<v1::Job> jobs;
   std::map<unsigned, std::uint64_t> responses;  ///< By status.
   HttpCounters http;

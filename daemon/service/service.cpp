@@ -93,6 +93,14 @@ class Service::Implementation {
           return std::move(*queue);
         });
     methods_.on<v1::GetHealthRequest>([this](const v1::GetHealthRequest&) -> Answer<v1::Health> {
+      // Anybody may ask: names, but no places.
+      std::string held_up;
+      for (const BenchCampaign& one : bench_.campaigns()) {
+        if (one.trouble.empty()) continue;
+        held_up += (held_up.empty() ? "" : ", ") + one.campaign.name();
+      }
+      if (!held_up.empty())
+        return refuse(503, "cannot record: " + held_up + "; GET /v1/campaigns tells why");
       v1::Health out;
       out.set_status("ok");
       out.set_version(options_.version);
@@ -120,6 +128,7 @@ class Service::Implementation {
       if (free) out.free_bytes[one.campaign.name()] = *free;
     }
     out.rejected_files = bench_.rejected().size();
+    out.live = bench_.live();
     out.jobs = jobs_.list();
     out.responses = gate_->responses();
     const std::lock_guard lock(server_mutex_);

@@ -17,6 +17,14 @@ using std::chrono::milliseconds;
 constexpr milliseconds kRetry{200};
 constexpr milliseconds kSilence{2000};
 constexpr int kMostAtOnce = 4096;
+constexpr int kLonger = 4;  // times as long as asked for, for messages that came once
+
+std::string no_rate(const CanStream& stream, double listened_s) {
+  return fmt::format(
+      "message {} (0x{:x}) came once in {:.3g} s, which tells no rate; give the rate of the "
+      "fastest message (rate=100), or listen longer (listen=10)",
+      stream.message().name, stream.message().id, listened_s);
+}
 
 }  // namespace
 
@@ -41,23 +49,48 @@ CanDevice::CanDevice(Settings settings, const plugin::Host& host)
   restart();
 }
 
-void CanDevice::listen() {
-  const plugin::Wait wait(host_.opening(), settings_.listen);
-  while (wait.ready(socket_->descriptor())) {
+// For so long, or until it is enough; returns how long it took, s.
+template <class Enough>
+double CanDevice::hear(milliseconds time, Enough enough) {
+  const Clock::time_point begin = Clock::now();
+  const plugin::Wait wait(host_.opening(), time);
+  while (!enough() && wait.ready(socket_->descriptor())) {
+    time_.look(host_);
     while (const auto received = socket_->receive()) {
       if (received->frame.error) {
         trouble_.add_error(received->frame);
       } else {
-        streams_.hear(received->frame, received->time_ns);
+        streams_.hear(received->frame, time_.host_time_ns(received->time_ns));
       }
     }
   }
   if (wait.cancelled())
     throw plugin::DeviceError(IMUNOISE_CANCELLED, settings_.interface + ": cancelled");
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void CanDevice::listen() {
+  double listened = hear(settings_.listen, [] { return false; });
   const CanStream* const missing = streams_.missing();
   if (missing != nullptr && settings_.all_required) refuse_silence(missing);
-  streams_.settle(settings_.rate_hz);
+  // One frame tells no rate: the next is waited for.
+  listened +=
+      hear(kLonger * settings_.listen, [this] { return streams_.without_rate() == nullptr; });
+  const CanStream* const unknown = streams_.without_rate();
+  if (unknown != nullptr && !settings_.rate_hz && settings_.all_required)
+    refuse_rate(*unknown, listened);
+  std::vector<CanStream> left_out = streams_.settle(settings_.rate_hz, listened);
+  if (streams_.streams().empty() && !left_out.empty()) refuse_rate(left_out.front(), listened);
   if (streams_.streams().empty()) refuse_silence(nullptr);
+  for (const CanStream& one : left_out) {
+    host_.note(
+        fmt::format("{}: {}; it is not recorded", settings_.interface, no_rate(one, listened)));
+  }
+}
+
+void CanDevice::refuse_rate(const CanStream& stream, double listened_s) const {
+  throw plugin::DeviceError(IMUNOISE_NOT_FOUND,
+                            settings_.interface + ": " + no_rate(stream, listened_s));
 }
 
 void CanDevice::refuse_silence(const CanStream* missing) const {
@@ -135,6 +168,7 @@ void CanDevice::fall_silent() {
 }
 
 void CanDevice::receive(plugin::Samples& samples) {
+  time_.look(host_);
   for (int i = 0; i < kMostAtOnce; ++i) {
     const auto received = socket_->receive();
     if (!received) return;
@@ -151,7 +185,7 @@ void CanDevice::take(const transport::ReceivedCanFrame& received, plugin::Sample
   last_frame_ = Clock::now();
   off_ = false;
   if (std::exchange(silent_, false)) host_.note(settings_.interface + ": the IMU sends again");
-  const std::int64_t time_ns = received.time_ns != 0 ? received.time_ns : host_.now_ns();
+  const std::int64_t time_ns = time_.host_time_ns(received.time_ns);
   if (wire_) tap(received.frame, time_ns);
   streams_.take(received.frame, time_ns, samples);
 }

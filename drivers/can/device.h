@@ -9,6 +9,7 @@
 #include "drivers/can/bus_trouble.h"
 #include "drivers/can/channels.h"
 #include "drivers/can/frame_streams.h"
+#include "drivers/can/kernel_time.h"
 #include "drivers/plugin/device.h"
 #include "drivers/transport/can_socket.h"
 
@@ -38,7 +39,10 @@ class CanDevice final : public plugin::Device {
   using Clock = plugin::Wait::Clock;
 
   void listen();
+  template <class Enough>
+  double hear(std::chrono::milliseconds time, Enough enough);
   [[noreturn]] void refuse_silence(const CanStream* missing) const;
+  [[noreturn]] void refuse_rate(const CanStream& stream, double listened_s) const;
   bool reopen(const plugin::Wait& wait);
   void receive(plugin::Samples& samples);
   void take(const transport::ReceivedCanFrame& received, plugin::Samples& samples);
@@ -53,6 +57,7 @@ class CanDevice final : public plugin::Device {
   plugin::WireTap wire_;
   std::vector<transport::CanFilter> filters_;
   std::optional<transport::CanSocket> socket_;  // none while the interface is away
+  KernelTime time_;
   BusTrouble trouble_;
   Clock::time_point last_frame_;
   Clock::duration patience_{};

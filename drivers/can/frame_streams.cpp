@@ -63,18 +63,31 @@ const CanStream* FrameStreams::missing() const {
   return nullptr;
 }
 
-void FrameStreams::settle(std::optional<double> rate_hz) {
+const CanStream* FrameStreams::without_rate() const {
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (arrivals_[s].count > 0 && arrivals_[s].rate() == 0.0) return &streams_[s];
+  }
+  return nullptr;
+}
+
+std::vector<CanStream> FrameStreams::settle(std::optional<double> rate_hz, double listened_s) {
+  const bool some_known = std::any_of(arrivals_.begin(), arrivals_.end(),
+                                      [](const Arrivals& one) { return one.rate() > 0.0; });
   std::vector<CanStream> came;
+  std::vector<CanStream> left_out;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     if (arrivals_[s].count == 0) continue;
-    const double measured = arrivals_[s].rate();
-    CanStream& stream = came.emplace_back(std::move(streams_[s]));
-    if (measured == 0.0) continue;
-    stream.set_rate(rate_hz ? *rate_hz / std::max(1.0, std::round(*rate_hz / measured))
-                            : round_rate(measured));
+    double heard = arrivals_[s].rate();
+    // It came once: about so often, where others are faster; else it is the fastest itself.
+    if (heard == 0.0 && rate_hz) heard = some_known ? 1.0 / listened_s : *rate_hz;
+    CanStream& stream = (heard > 0.0 ? came : left_out).emplace_back(std::move(streams_[s]));
+    if (heard == 0.0) continue;
+    stream.set_rate(rate_hz ? *rate_hz / std::max(1.0, std::round(*rate_hz / heard))
+                            : round_rate(heard));
   }
   streams_ = std::move(came);
   restart();
+  return left_out;
 }
 
 void FrameStreams::take(const drivers::CanFrame& frame, std::int64_t time_ns,

@@ -28,9 +28,12 @@ class FrameStreams {
   void hear(const drivers::CanFrame& frame, std::int64_t time_ns);
   /// The first stream of which nothing was heard; null: none.
   const CanStream* missing() const;
-  /// Forgets streams of which nothing was heard, and gives the others their rates: as they came, to
-  /// three digits, or whole fractions of `rate_hz`, which is the fastest's.
-  void settle(std::optional<double> rate_hz);
+  /// The first stream that was heard, but not often enough to tell its rate; null: none.
+  const CanStream* without_rate() const;
+  /// Forgets streams of which nothing was heard in `listened_s` s, and gives the others their
+  /// rates: as they came, to three digits, or whole fractions of `rate_hz`, which is the fastest's.
+  /// Returns those that were heard and whose rate nothing tells: they are forgotten too.
+  std::vector<CanStream> settle(std::optional<double> rate_hz, double listened_s);
 
   /// Adds the samples of a frame.
   void take(const drivers::CanFrame& frame, std::int64_t time_ns, plugin::Samples& samples);

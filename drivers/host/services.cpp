@@ -1,16 +1,16 @@
 #include "drivers/host/services.h"
 
-#include <chrono>
+#include <ctime>
 
 #include "core/support/utf8.h"
 
 namespace imunoise::drivers {
 namespace {
 
-std::int64_t now_ns() {
-  using std::chrono::nanoseconds;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<nanoseconds>(now).count();
+std::int64_t read_clock(clockid_t id) {
+  timespec time{};
+  ::clock_gettime(id, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
 void note(void* context, const char* text) {
@@ -33,9 +33,14 @@ void while_opening(void* context, void (*cancel)(void* argument), void* argument
 
 }  // namespace
 
+std::int64_t host_time_ns() {
+  static const std::int64_t kBoot = read_clock(CLOCK_REALTIME) - read_clock(CLOCK_BOOTTIME);
+  return kBoot + read_clock(CLOCK_BOOTTIME);
+}
+
 const imunoise_host& host_services() {
   static const imunoise_host kServices = {
-      sizeof(imunoise_host), IMUNOISE_DRIVER_ABI, &now_ns, &note, &wire, &while_opening};
+      sizeof(imunoise_host), IMUNOISE_DRIVER_ABI, &host_time_ns, &note, &wire, &while_opening};
   return kServices;
 }
 

@@ -2,6 +2,7 @@
 
 // What the host does for plugins.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -19,6 +20,11 @@ struct DeviceHandlers {
   /// What the driver wants called then.
   std::optional<std::stop_callback<std::function<void()>>> stopping = {};
 };
+
+/// The host's clock for time stamps, ns since 1970-01-01 UTC: the time of day when this process
+/// asked first, continued by the time since the machine started (CLOCK_BOOTTIME). It never steps,
+/// whoever sets the time of day; that it was set shows in the difference between the two.
+std::int64_t host_time_ns();
 
 /// The table that every plugin is given. The context of its functions is a DeviceHandlers. Lives
 /// for ever.

@@ -40,7 +40,7 @@ class Host {
   /// Set once nobody wants the device any more that is being opened: waits of its constructor go
   /// through Wait(host.opening(), ...), and end in a DeviceError of IMUNOISE_CANCELLED.
   const CancelSignal& opening() const { return *opening_; }
-  /// The host's clock: ns since 1970-01-01 UTC.
+  /// The host's clock: ns since 1970-01-01 UTC. It never steps, even when the time of day is set.
   std::int64_t now_ns() const { return table_->now_ns(); }
   /// Tells what a person should know of the device: "reset after 3 bad checksums".
   void note(const std::string& text) const { table_->note(context_, text.c_str()); }

@@ -52,6 +52,22 @@ Result<std::optional<double>> read_number_attribute(hid_t object, const char* na
   return std::optional(value);
 }
 
+Result<std::optional<std::uint64_t>> read_count_attribute(hid_t object, const char* name) {
+  const auto opened = open_one(object, name);
+  if (!opened) return tl::make_unexpected(opened.error());
+  if (!*opened) return std::optional<std::uint64_t>();
+  const hid_t attribute = (*opened)->attribute.get();
+  const bool whole = (*opened)->type_class == H5T_INTEGER;
+  const bool has_sign = whole && H5Tget_sign((*opened)->type.get()) != H5T_SGN_NONE;
+  std::int64_t sign = 0;
+  std::uint64_t value = 0;
+  if (!whole || (has_sign && H5Aread(attribute, H5T_NATIVE_INT64, &sign) < 0) || sign < 0 ||
+      H5Aread(attribute, H5T_NATIVE_UINT64, &value) < 0) {
+    return fail(fmt::format("attribute {} is no count", name));
+  }
+  return std::optional(value);
+}
+
 Result<std::optional<std::string>> read_string_attribute(hid_t object, const char* name) {
   const auto opened = open_one(object, name);
   if (!opened) return tl::make_unexpected(opened.error());

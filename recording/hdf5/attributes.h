@@ -17,6 +17,10 @@ namespace imunoise::recording {
 /// there is no such attribute. Error, without file and object: another type or shape.
 Result<std::optional<double>> read_number_attribute(hid_t object, const char* name);
 
+/// The whole number, not negative, in attribute `name`, exact up to 64 bits; nothing when there is
+/// none. Error, without file and object: another type or shape, a negative number.
+Result<std::optional<std::uint64_t>> read_count_attribute(hid_t object, const char* name);
+
 /// The string in attribute `name` (fixed or variable length, one element); nothing when there is
 /// none. Error, without file and object: another type or shape, more than 4096 bytes.
 Result<std::optional<std::string>> read_string_attribute(hid_t object, const char* name);

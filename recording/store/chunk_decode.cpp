@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "recording/hdf5/attributes.h"
@@ -17,8 +15,6 @@ namespace {
 
 using namespace chunk_names;
 
-constexpr double kExact = 9007199254740992.0;  // 2^53: every count up to here is a double
-
 // Reads attributes of one object and remembers the first trouble, so that a message can be filled
 // field by field.
 class Attributes {
@@ -31,18 +27,9 @@ class Attributes {
   std::string text(const char* name) {
     return take(read_string_attribute(object_, name)).value_or("");
   }
-  double required(const char* name) {
-    const std::optional<double> value = number(name);
-    if (!value && !error_) error_ = Error{fmt::format("attribute {} is missing", name)};
-    return value.value_or(0.0);
-  }
+  double required(const char* name) { return needed(name, number(name)); }
   std::uint64_t count(const char* name) {
-    const double value = required(name);
-    if (value >= 0.0 && value <= kExact && value == std::floor(value)) {
-      return static_cast<std::uint64_t>(value);
-    }
-    if (!error_) error_ = Error{fmt::format("attribute {} is no count", name)};
-    return 0;
+    return needed(name, take(read_count_attribute(object_, name)));
   }
   // Counts in attributes "refused.REASON".
   void add_refusals_of(const std::string& channel, std::vector<Refusal>& out) {
@@ -58,6 +45,11 @@ class Attributes {
   const std::optional<Error>& error() const { return error_; }
 
  private:
+  template <class Value>
+  Value needed(const char* name, const std::optional<Value>& value) {
+    if (!value && !error_) error_ = Error{fmt::format("attribute {} is missing", name)};
+    return value.value_or(Value{});
+  }
   template <class Value>
   std::optional<Value> take(Result<std::optional<Value>> got) {
     if (got) return std::move(*got);
@@ -218,11 +210,9 @@ Result<void> read_stream(hid_t file, const std::string& name,
 }
 
 Result<void> read_root(hid_t file, Chunk& chunk, std::uint64_t& streams) {
-  const auto version = read_number_attribute(file, kVersion);
+  const auto version = read_count_attribute(file, kVersion);
   if (!version || !*version) return fail("is not a chunk of a recording");
-  if (**version != kFormatVersion) {
-    return fail(other_version(static_cast<std::uint64_t>(std::clamp(**version, 0.0, kExact))));
-  }
+  if (**version != kFormatVersion) return fail(other_version(**version));
   Attributes attributes(file);
   chunk.replicate = static_cast<std::uint32_t>(attributes.count(kReplicate));
   chunk.device.set_name(attributes.text(kDevice));
@@ -242,13 +232,12 @@ Result<void> read_root(hid_t file, Chunk& chunk, std::uint64_t& streams) {
 
 }  // namespace
 
-Result<void> reopen_chunk(std::string_view bytes) {
+bool chunk_of_other_version(std::string_view bytes) {
   const QuietHdf5 quiet;
   const Hdf5Handle file = open_memory_file(bytes);
-  if (!file) return fail("HDF5 cannot open it: truncated or damaged");
-  Chunk chunk;
-  std::uint64_t stream_count = 0;
-  return read_root(file.get(), chunk, stream_count);
+  if (!file) return false;
+  const auto version = read_count_attribute(file.get(), kVersion);
+  return version && *version && **version != kFormatVersion;
 }
 
 Result<Chunk> decode_chunk(std::string_view bytes) {

@@ -28,8 +28,10 @@ std::uint64_t row_count(const Chunk& chunk);
 /// want of memory. Precondition: check_device() and check_block() accepted what is in it.
 Result<std::string> encode_chunk(const Chunk& chunk);
 
-/// Opens a chunk's bytes and looks at its root, not at its numbers. Error as decode_chunk().
-Result<void> reopen_chunk(std::string_view bytes);
+/// True when these are the bytes of a chunk, whole or not, of another version of the format.
+bool chunk_of_other_version(std::string_view bytes);
+/// The same blocks, streams, counts and rows, bit by bit; texts are not compared.
+bool same_samples(const Chunk& a, const Chunk& b);
 
 /// Error, without the file's name: damage, with the dataset where it is; not a chunk; another
 /// version. HDF5's own checksums guard every number and name.

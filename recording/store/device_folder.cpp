@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "recording/store/crc32c.h"
 #include "recording/store/layout.h"
 
 namespace imunoise::recording {
@@ -36,14 +37,16 @@ Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem
 }
 
 Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
-                                                      const std::filesystem::path& root) {
+                                                      const std::filesystem::path& root,
+                                                      const std::set<std::uint32_t>& left_out) {
   const auto names = files.list(root);
   if (!names) return tl::make_unexpected(names.error());
   std::map<std::uint32_t, std::string> replicates;
   for (const std::string& name : *names) {
     if (!name.ends_with('/')) continue;
     const std::string folder = name.substr(0, name.size() - 1);
-    if (const auto number = replicate_of(folder)) replicates[*number] = folder;
+    const auto number = replicate_of(folder);
+    if (number && !left_out.contains(*number)) replicates[*number] = folder;
   }
   std::vector<DeviceFolder> out;
   for (const auto& [number, folder] : replicates) {
@@ -65,6 +68,7 @@ Result<DeviceFiles> list_device_files(const FileSystem& files, const DeviceFolde
     if (const auto number = number_of(name, kChunkSuffix)) out.chunks.push_back(*number);
     if (const auto number = number_of(name, kJournalSuffix)) out.journals.push_back(*number);
     if (name.ends_with(kPartSuffix)) out.unfinished.push_back(name);
+    if (is_broken(name)) out.broken.push_back(name);
     out.next_number = std::max(out.next_number, leading_number(name) + 1);
   }
   std::sort(out.chunks.begin(), out.chunks.end());
@@ -72,24 +76,32 @@ Result<DeviceFiles> list_device_files(const FileSystem& files, const DeviceFolde
   return out;
 }
 
-Result<ReadChunk> read_chunk(const FileSystem& files, const DeviceFolder& where,
-                             std::uint64_t number, const Checksums& expected) {
+tl::expected<ReadChunk, ChunkTrouble> read_chunk(const FileSystem& files, const DeviceFolder& where,
+                                                 std::uint64_t number, const Checksums& expected) {
+  using Kind = ChunkTrouble::Kind;
   const std::string name = numbered(number, kChunkSuffix);
-  const auto trouble = [&](const std::string& what) {
-    return fail(fmt::format("{}: chunk {}: {}", where.folder, name, what));
+  const auto trouble = [&](Kind kind, const std::string& what) {
+    return tl::make_unexpected(
+        ChunkTrouble{kind, fmt::format("{}: chunk {}: {}", where.folder, name, what)});
   };
   const auto bytes = files.read(where.path() / name);
-  if (!bytes) return tl::make_unexpected(bytes.error());
+  if (!bytes) return trouble(Kind::kUnread, bytes.error().message);
+  const auto listed = expected.find(where.file(name));
+  const bool as_written = listed != expected.end() && listed->second == crc32c_text(*bytes);
   Result<Chunk> chunk = decode_chunk(*bytes);
-  if (!chunk) return trouble(chunk.error().message);
+  if (!chunk) {
+    const bool whole = as_written || chunk_of_other_version(*bytes);
+    return trouble(whole ? Kind::kUnusable : Kind::kDamaged, chunk.error().message);
+  }
   const std::string belongs = replicate_folder(chunk->replicate) + "/" + chunk->device.name();
-  if (belongs != where.folder) return trouble("belongs into " + belongs + ": move it back");
+  if (belongs != where.folder)
+    return trouble(Kind::kUnusable, "belongs into " + belongs + ": move it back");
   v1::ChunkEntry entry = chunk_entry(where.file(name), *chunk, *bytes);
-  const auto listed = expected.find(entry.file());
-  if (listed != expected.end() && listed->second != entry.crc32c()) {
-    return trouble(
-        fmt::format("was changed since it was written: checksum {} where the manifest has {}",
-                    entry.crc32c(), listed->second));
+  if (listed != expected.end() && !as_written) {
+    return trouble(Kind::kDamaged,
+                   fmt::format("was changed since it was written: checksum {} where the manifest "
+                               "has {}",
+                               entry.crc32c(), listed->second));
   }
   return ReadChunk{std::move(*chunk), std::move(entry)};
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,17 @@ using Checksums = std::map<std::string, std::string>;
 Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem::path& root,
                                         std::uint32_t replicate, const std::string& device);
 
-/// The folders of all devices in all replicates, replicates in order. Error: the root cannot be
-/// listed.
+/// The folders of all devices in all replicates but those left out, replicates in order. Error: a
+/// folder cannot be listed.
 Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
-                                                      const std::filesystem::path& root);
+                                                      const std::filesystem::path& root,
+                                                      const std::set<std::uint32_t>& left_out = {});
 
 struct DeviceFiles {
   std::vector<std::uint64_t> chunks;    ///< Numbers, in order.
   std::vector<std::uint64_t> journals;  ///< Numbers, in order.
   std::vector<std::string> unfinished;  ///< Names of files whose writing was interrupted.
+  std::vector<std::string> broken;      ///< Names of files that were set aside.
   std::uint64_t next_number = 1;        ///< No file has it, not even a broken one.
 };
 Result<DeviceFiles> list_device_files(const FileSystem& files, const DeviceFolder& where);
@@ -37,10 +40,20 @@ struct ReadChunk {
   v1::ChunkEntry entry;
 };
 
-/// Reads chunk `number` once, for its checksum and its contents. Error: "chunk 000012.h5: ..." with
-/// what is wrong: unreadable, damaged, not what the manifest lists, of another folder.
-Result<ReadChunk> read_chunk(const FileSystem& files, const DeviceFolder& where,
-                             std::uint64_t number, const Checksums& expected);
+/// Why a chunk cannot be used.
+struct ChunkTrouble {
+  enum class Kind {
+    kUnread,    ///< The disk's error: nobody knows what is in the file.
+    kDamaged,   ///< Its bytes are no chunk, or not those that the manifest lists.
+    kUnusable,  ///< Nothing shows damage: of another version of the format, or another folder.
+  };
+  Kind kind = Kind::kUnread;
+  std::string message;  ///< "replicate-1/imu0: chunk 000012.h5: ..."
+};
+
+/// Reads chunk `number` once, for its checksum and its contents.
+tl::expected<ReadChunk, ChunkTrouble> read_chunk(const FileSystem& files, const DeviceFolder& where,
+                                                 std::uint64_t number, const Checksums& expected);
 
 /// The way out for chunk errors: "...; the 11 chunks before it are intact (imunoise verify --repair
 /// keeps them)".

@@ -70,9 +70,10 @@ class PosixFileSystem final : public FileSystem {
     return std::make_unique<PosixFile>(path, std::move(descriptor));
   }
 
-  Result<std::string> read(const Path& path) const override {
+  Result<std::string> read_up_to(const Path& path, std::uint64_t limit) const override {
     const Result<File> file = File::open(path);
     if (!file) return tl::make_unexpected(file.error());
+    if (file->size() > limit) return tl::make_unexpected(too_large(path, limit));
     std::string out(file->size(), '\0');
     const Result<std::size_t> got = file->read_at(0, out);
     if (!got) return tl::make_unexpected(got.error());
@@ -85,8 +86,11 @@ class PosixFileSystem final : public FileSystem {
     std::error_code error;
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
-      std::error_code ignored;
-      out.push_back(entry->path().filename().string() + (entry->is_directory(ignored) ? "/" : ""));
+      std::error_code unknown;
+      const bool is_folder = entry->is_directory(unknown);
+      const bool gone = unknown == std::errc::no_such_file_or_directory;
+      if (unknown && !gone) return trouble(entry->path(), "cannot be looked at", unknown.value());
+      out.push_back(entry->path().filename().string() + (is_folder ? "/" : ""));
     }
     if (error) return trouble(folder, "cannot be listed", error.value());
     std::sort(out.begin(), out.end());
@@ -133,7 +137,14 @@ FileSystem& posix_file_system() {
   return files;
 }
 
-Result<void> replace_file(FileSystem& files, const Path& path, std::string_view bytes) {
+Error too_large(const Path& path, std::uint64_t limit) {
+  return {
+      fmt::format("{}: is larger than {} bytes, no file of a recording is; replace it by a copy",
+                  path.string(), limit)};
+}
+
+Result<void> replace_file(FileSystem& files, const Path& path, std::string_view bytes,
+                          const ReadBack& check) {
   Path part = path;
   part += kPartSuffix;
   {
@@ -141,6 +152,11 @@ Result<void> replace_file(FileSystem& files, const Path& path, std::string_view 
     if (!file) return tl::make_unexpected(file.error());
     if (auto done = (*file)->write(bytes); !done) return done;
     if (auto done = (*file)->sync(); !done) return done;
+  }
+  if (check) {
+    const auto back = files.read(part);
+    if (!back) return tl::make_unexpected(back.error());
+    if (auto good = check(*back); !good) return good;
   }
   if (auto done = files.rename(part, path); !done) return done;
   return files.sync_folder(path.parent_path());

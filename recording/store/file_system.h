@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -31,6 +32,9 @@ class FolderLock {
   virtual ~FolderLock() = default;
 };
 
+/// No file of ours is larger: a length beyond it is no length but damage, or a trap.
+inline constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 33U;  // bytes
+
 /// Errors name the file, what failed and the way out. Functions are thread-safe.
 class FileSystem {
  public:
@@ -39,8 +43,12 @@ class FileSystem {
   /// A new file, or an existing one made empty. Its name survives a power cut only after
   /// sync_folder().
   virtual Result<std::unique_ptr<WritableFile>> create(const std::filesystem::path& path) = 0;
-  /// The whole contents of a regular file.
-  virtual Result<std::string> read(const std::filesystem::path& path) const = 0;
+  /// The whole contents of a regular file. Error: the disk's, or more than `limit` bytes; a sparse
+  /// file may claim any length.
+  Result<std::string> read(const std::filesystem::path& path,
+                           std::uint64_t limit = kLargestFile) const {
+    return read_up_to(path, limit);
+  }
   /// Names in a folder, sorted; those of folders end in '/'.
   virtual Result<std::vector<std::string>> list(const std::filesystem::path& folder) const = 0;
   /// Replaces `to` when it exists.
@@ -53,15 +61,25 @@ class FileSystem {
   virtual Result<void> sync_folder(const std::filesystem::path& path) = 0;
   /// Error: another process (or another lock of this one) holds it.
   virtual Result<std::unique_ptr<FolderLock>> lock(const std::filesystem::path& folder) = 0;
+
+ protected:
+  virtual Result<std::string> read_up_to(const std::filesystem::path& path,
+                                         std::uint64_t limit) const = 0;
 };
+
+/// What read() says of a file that is longer than it may be.
+Error too_large(const std::filesystem::path& path, std::uint64_t limit);
 
 /// The disk. One object for the whole process, stateless.
 FileSystem& posix_file_system();
 
+/// Sees the bytes of a file as they are read back.
+using ReadBack = std::function<Result<void>(std::string_view)>;
+
 /// Writes a whole file so that after a power cut there is the old one or the new one, complete:
-/// write under a temporary name, sync, rename, sync the folder.
+/// write under a temporary name, sync, read back when there is a `check`, rename, sync the folder.
 Result<void> replace_file(FileSystem& files, const std::filesystem::path& path,
-                          std::string_view bytes);
+                          std::string_view bytes, const ReadBack& check = {});
 
 /// What replace_file() appends to a name while it writes.
 inline constexpr std::string_view kPartSuffix = ".part";

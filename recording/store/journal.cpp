@@ -71,13 +71,20 @@ void Journal::abandon_segment() {
     end_segment();  // what was acknowledged in it becomes a chunk
   } else if (file_ != nullptr) {
     file_.reset();
-    // It holds nothing that was acknowledged; if the disk does not even let it go, recovery will.
-    (void)files_.remove(folder_ / numbered(place_.segment, kJournalSuffix));
-    ++place_.segment;
+    abandoned_.push_back(place_.segment++);
+    remove_abandoned();
   }
 }
 
+// What the disk does not let go now is tried again, at last by a recovery.
+void Journal::remove_abandoned() {
+  std::erase_if(abandoned_, [&](std::uint64_t segment) {
+    return files_.remove(folder_ / numbered(segment, kJournalSuffix)).has_value();
+  });
+}
+
 void Journal::end_segment() {
+  remove_abandoned();
   if (file_ == nullptr) return;
   file_.reset();
   ended_.push_back(place_.segment++);

@@ -53,12 +53,15 @@ class Journal {
   bool pending() const { return !pending_.empty(); }
   /// Ends the current segment.
   void end_segment();
+  /// True when the disk did not let a segment go that holds nothing acknowledged.
+  bool leftover() const { return !abandoned_.empty(); }
   /// Numbers of segments that grow no more, since the last call, in order.
   std::vector<std::uint64_t> take_ended() { return std::exchange(ended_, {}); }
 
  private:
   Result<void> write_pending();
   void abandon_segment();
+  void remove_abandoned();
 
   FileSystem& files_;
   std::filesystem::path folder_;
@@ -75,6 +78,7 @@ class Journal {
   std::string pending_;  // frames not acknowledged
   std::uint64_t acknowledged_;
   std::vector<std::uint64_t> ended_;
+  std::vector<std::uint64_t> abandoned_;  // segments without an acknowledged block
 };
 
 }  // namespace imunoise::recording

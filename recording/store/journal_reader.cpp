@@ -51,7 +51,7 @@ class Collector {
 }  // namespace
 
 Result<Segment> read_segment(std::string_view bytes, std::uint64_t after,
-                             const v1::JournalHeader* fallback) {
+                             const v1::JournalHeader* fallback, std::uint64_t before) {
   Segment out;
   std::optional<Result<v1::JournalHeader>> header;
   std::vector<Frame> frames;
@@ -70,7 +70,7 @@ Result<Segment> read_segment(std::string_view bytes, std::uint64_t after,
   const v1::JournalHeader& used = header ? **header : *fallback;
   Collector collector(used, after);
   for (const Frame& frame : frames) {
-    if (frame.sequence <= collector.last()) continue;  // written twice after a failed sync
+    if (frame.sequence <= collector.last() || frame.sequence >= before) continue;  // written twice
     Result<Block> block = parse_block(used.device(), frame.payload);
     if (block) {
       collector.add(frame.sequence, std::move(*block));

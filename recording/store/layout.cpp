@@ -20,6 +20,17 @@ std::optional<Number> positive(std::string_view digits) {
 
 }  // namespace
 
+bool is_broken(std::string_view name) {
+  const std::size_t at = name.rfind(kBrokenSuffix);
+  if (at == std::string_view::npos) return false;
+  const std::string_view rest = name.substr(at + kBrokenSuffix.size());
+  return rest.empty() || (rest.front() == '-' && positive<std::uint32_t>(rest.substr(1)));
+}
+
+std::string_view name_before(std::string_view broken) {
+  return broken.substr(0, broken.rfind(kBrokenSuffix));
+}
+
 std::string replicate_folder(std::uint32_t replicate) {
   return fmt::format("{}{}", kFolderPrefix, replicate);
 }

@@ -16,6 +16,11 @@ inline constexpr std::string_view kJournalSuffix = ".journal";
 /// Appended to what was damaged and set aside.
 inline constexpr std::string_view kBrokenSuffix = ".broken";
 
+/// "000012.h5.broken", "000012.h5.broken-2"
+bool is_broken(std::string_view name);
+/// What it was called before it was set aside.
+std::string_view name_before(std::string_view broken);
+
 /// "replicate-1"
 std::string replicate_folder(std::uint32_t replicate);
 /// The inverse; nothing for another name.

@@ -13,6 +13,11 @@
 namespace imunoise::recording {
 namespace {
 
+constexpr const char* kNotClosed =
+    "it was not closed: the program, the machine, its power or its disk failed while it was "
+    "recorded";
+constexpr std::uint64_t kLargestManifest = std::uint64_t{256} << 20U;  // bytes; a million chunks
+
 // A path that a manifest may name: replicate-N/DEVICE/NNNNNN.h5.
 bool is_chunk_path(const std::string& file) {
   const std::size_t first = file.find('/');
@@ -62,25 +67,31 @@ std::string print_manifest(const v1::Manifest& manifest) {
   return out;
 }
 
-Result<std::optional<v1::Manifest>> read_manifest(const FileSystem& files,
-                                                  const std::filesystem::path& root) {
+Result<std::optional<std::string>> read_manifest_text(const FileSystem& files,
+                                                      const std::filesystem::path& root) {
   const auto there = contains(files, root, kManifestName);
   if (!there) return tl::make_unexpected(there.error());
-  if (!*there) return std::optional<v1::Manifest>();
-  const auto text = files.read(root / kManifestName);
+  if (!*there) return std::optional<std::string>();
+  auto text = files.read(root / kManifestName, kLargestManifest);
   if (!text) return tl::make_unexpected(text.error());
-  Result<v1::Manifest> manifest = parse_manifest((root / kManifestName).string(), *text);
+  return std::optional(std::move(*text));
+}
+
+Result<std::optional<v1::Manifest>> read_manifest(const FileSystem& files,
+                                                  const std::filesystem::path& root) {
+  const auto text = read_manifest_text(files, root);
+  if (!text) return tl::make_unexpected(text.error());
+  if (!*text) return std::optional<v1::Manifest>();
+  Result<v1::Manifest> manifest = parse_manifest((root / kManifestName).string(), **text);
   if (!manifest) return tl::make_unexpected(manifest.error());
   return std::optional(std::move(*manifest));
 }
 
-bool of_other_version(const FileSystem& files, const std::filesystem::path& root) {
-  const auto text = files.read(root / kManifestName);
-  if (!text) return false;
+bool of_other_version(const std::string& json) {
   v1::Manifest out;
   google::protobuf::util::JsonParseOptions lenient;  // later versions have fields of their own
   lenient.ignore_unknown_fields = true;
-  const auto status = google::protobuf::util::JsonStringToMessage(*text, &out, lenient);
+  const auto status = google::protobuf::util::JsonStringToMessage(json, &out, lenient);
   return status.ok() && out.version() != 0 && out.version() != kFormatVersion;
 }
 
@@ -113,12 +124,51 @@ void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note) {
   });
 }
 
-void end_open_replicates(v1::Manifest& manifest) {
+void end_open_replicates(v1::Manifest& manifest, const std::string& reason) {
   for (v1::ReplicateNote& note : *manifest.mutable_replicates()) {
     if (note.state() != v1::open) continue;
     note.set_state(v1::interrupted);
-    note.set_reason("the program, the machine or its power ended while it was recorded");
+    note.set_reason(reason.empty() ? kNotClosed : "it was not closed: " + reason);
   }
+}
+
+void sort_chunks(v1::Manifest& manifest) {
+  const auto place = [](const v1::ChunkEntry& chunk) {
+    const std::string& file = chunk.file();
+    return std::pair(replicate_of(file.substr(0, file.find('/'))), std::string_view(file));
+  };
+  std::sort(manifest.mutable_chunks()->begin(), manifest.mutable_chunks()->end(),
+            [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+void set_damaged(v1::Manifest& manifest, const v1::DamagedFile& damaged) {
+  const auto place = [](const v1::DamagedFile& one) {
+    return std::pair(std::string_view(one.file()), std::string_view(one.kept_as()));
+  };
+  auto& all = *manifest.mutable_damaged();
+  const auto same = std::find_if(all.begin(), all.end(), [&](const v1::DamagedFile& one) {
+    return place(one) == place(damaged);
+  });
+  if (same != all.end()) {
+    *same = damaged;
+    return;
+  }
+  *all.Add() = damaged;
+  std::sort(all.begin(), all.end(),
+            [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+std::set<std::string> promised_folders(const v1::Manifest& manifest) {
+  std::set<std::string> out;
+  for (const v1::ChunkEntry& chunk : manifest.chunks())
+    out.insert(chunk.file().substr(0, chunk.file().rfind('/')));
+  for (const v1::ReplicateNote& note : manifest.replicates()) {
+    for (const v1::StreamCount& count : note.streams()) {
+      if (count.stored() > count.missing())
+        out.insert(replicate_folder(note.replicate()) + "/" + count.device());
+    }
+  }
+  return out;
 }
 
 Checksums checksums(const v1::Manifest& manifest) {

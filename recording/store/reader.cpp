@@ -41,8 +41,10 @@ class DeviceReader {
       out_.defects.push_back(where_.file(name) +
                              ": was not written to its end (imunoise verify --repair removes it)");
     }
+    for (const std::string& name : names->broken) out_.broken.push_back(where_.file(name));
+    using Read = tl::expected<ReadChunk, ChunkTrouble>;
     for (std::size_t first = 0; first < names->chunks.size(); first += kTogether) {
-      std::vector<Result<ReadChunk>> read(std::min(kTogether, names->chunks.size() - first));
+      std::vector<Read> read(std::min(kTogether, names->chunks.size() - first));
       for_each_index(read.size(), [&](std::size_t i) {
         read[i] = read_chunk(files_, where_, names->chunks[first + i], expected_);
       });
@@ -78,9 +80,10 @@ class DeviceReader {
     out_.in_journal.assign(out_.streams.size(), 0);
   }
 
-  Result<void> add_chunk(Result<ReadChunk> read) {
+  Result<void> add_chunk(tl::expected<ReadChunk, ChunkTrouble> read) {
     if (!read) {
-      out_.defects.push_back(read.error().message + keep_the_rest(out_.chunks));
+      const bool damaged = read.error().kind == ChunkTrouble::Kind::kDamaged;
+      out_.defects.push_back(read.error().message + (damaged ? keep_the_rest(out_.chunks) : ""));
       return {};
     }
     Chunk& chunk = read->chunk;

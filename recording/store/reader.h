@@ -18,7 +18,8 @@ struct DeviceRecording {
       streams;  ///< As device.streams; kLostBefore where blocks or chunks are missing.
   std::vector<std::uint64_t> in_journal;  ///< Rows of each stream that are not in a chunk yet.
   std::size_t chunks = 0;                 ///< Intact ones.
-  std::vector<std::string> defects;       ///< What is not intact; each with the way out.
+  std::vector<std::string> broken;   ///< Files that were set aside, as the manifest names them.
+  std::vector<std::string> defects;  ///< What is not intact; each with the way out.
 };
 
 /// Reads all chunks of a device; changes nothing. `manifest` is empty when there is none. What is

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "recording/store/crc32c.h"
-#include "recording/store/journal_reader.h"
+#include "recording/store/device_folder.h"
 #include "recording/store/layout.h"
 
 namespace imunoise::recording {
@@ -28,6 +28,29 @@ std::optional<std::string> describe_damage(const Segment& segment) {
   return out;
 }
 
+bool is_torn(const Segment& segment) {
+  return segment.unusable == 0 && segment.lost_blocks == 0 && segment.damage.size() == 1 &&
+         segment.damage.front().at_end;
+}
+
+// When an earlier attempt removed the segment and only then failed: the chunk that it left.
+// `error` is that of reading the segment.
+Result<Sealed> sealed_before(FileSystem& files, const DeviceFolder& where, std::uint64_t number,
+                             const Error& error) {
+  const auto names = list_device_files(files, where);
+  if (!names || std::binary_search(names->journals.begin(), names->journals.end(), number)) {
+    return tl::make_unexpected(error);
+  }
+  if (auto done = files.sync_folder(where.path()); !done) return tl::make_unexpected(done.error());
+  Sealed out;
+  if (!std::binary_search(names->chunks.begin(), names->chunks.end(), number)) return out;
+  auto chunk = read_chunk(files, where, number, {});
+  if (!chunk) return fail(chunk.error().message);
+  out.entry = std::move(chunk->entry);
+  out.chunk = std::move(chunk->chunk);
+  return out;
+}
+
 }  // namespace
 
 std::uint32_t DeviceFolder::replicate() const {
@@ -47,6 +70,17 @@ v1::ChunkEntry chunk_entry(const std::string& file, const Chunk& chunk, std::str
   return out;
 }
 
+v1::DamagedFile damaged_segment(const DeviceFolder& where, std::uint64_t number,
+                                const Sealed& sealed) {
+  v1::DamagedFile out;
+  out.set_file(where.file(numbered(number, kJournalSuffix)));
+  out.set_kept_as(where.file(sealed.kept_as));
+  out.set_reason(*sealed.damage + "; its whole blocks are kept");
+  // Nobody can tell an interrupted write, which costs nothing, from a damaged end.
+  out.set_accepted(sealed.torn);
+  return out;
+}
+
 Result<std::string> set_aside(FileSystem& files, const std::filesystem::path& folder,
                               const std::string& name) {
   const auto names = files.list(folder);
@@ -63,32 +97,39 @@ Result<std::string> set_aside(FileSystem& files, const std::filesystem::path& fo
 }
 
 Result<Sealed> seal_segment(FileSystem& files, const DeviceFolder& where, std::uint64_t number,
-                            std::uint64_t after, const v1::JournalHeader* fallback) {
+                            std::uint64_t after, const v1::JournalHeader* fallback,
+                            std::uint64_t before) {
   const std::string journal = numbered(number, kJournalSuffix);
   const auto trouble = [&](const Error& error) {
     return fail(fmt::format("{}: {}", where.file(journal), error.message));
   };
   const auto bytes = files.read(where.path() / journal);
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  const Result<Segment> segment = read_segment(*bytes, after, fallback);
+  if (!bytes) return sealed_before(files, where, number, bytes.error());
+  Result<Segment> segment = read_segment(*bytes, after, fallback, before);
   if (!segment) return trouble(segment.error());
   Sealed out;
   out.damage = describe_damage(*segment);
+  out.torn = is_torn(*segment);
   if (segment->chunk) {
-    const std::string name = numbered(number, kChunkSuffix);
     const auto image = encode_chunk(*segment->chunk);
     if (!image) return trouble(image.error());
-    if (auto good = reopen_chunk(*image); !good) {
-      return trouble({"its chunk cannot be opened: " + good.error().message});
-    }
-    if (auto done = replace_file(files, where.path() / name, *image); !done) {
+    const std::string name = numbered(number, kChunkSuffix);
+    const auto holds_it = [&](std::string_view back) -> Result<void> {
+      const auto chunk = decode_chunk(back);
+      if (!chunk) return trouble({"its chunk cannot be read back: " + chunk.error().message});
+      if (same_samples(*chunk, *segment->chunk)) return {};
+      return trouble({"its chunk holds other samples; check the disk and the memory"});
+    };
+    if (auto done = replace_file(files, where.path() / name, *image, holds_it); !done) {
       return tl::make_unexpected(done.error());
     }
     out.entry = chunk_entry(where.file(name), *segment->chunk, *image);
+    out.chunk = std::move(segment->chunk);
   }
   if (out.damage) {
     const auto aside = set_aside(files, where.path(), journal);
     if (!aside) return tl::make_unexpected(aside.error());
+    out.kept_as = *aside;
     return out;
   }
   if (auto done = files.remove(where.path() / journal); !done) {

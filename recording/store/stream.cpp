@@ -12,6 +12,8 @@
 namespace imunoise::recording {
 namespace {
 
+constexpr std::uint64_t kLargestModulus = std::uint64_t{1} << 63U;  // counters are int64
+
 constexpr std::array<std::pair<Refused, std::string_view>, 7> kWords = {{
     {Refused::kChecksum, "checksum"},
     {Refused::kStale, "stale"},
@@ -146,6 +148,10 @@ Result<void> check_device(const v1::RecordedDevice& device) {
     };
     if (!std::isfinite(stream.rate_hz()) || stream.rate_hz() <= 0.0) {
       return in_stream(fmt::format("rate_hz {} is not a sampling rate", stream.rate_hz()));
+    }
+    if (stream.counter_modulus() > kLargestModulus) {
+      return in_stream(
+          fmt::format("counter_modulus {} is more than 63 bits", stream.counter_modulus()));
     }
     if (stream.channels().empty()) return in_stream("it has no channel");
     std::set<std::string> channels(kOwnColumns.begin(), kOwnColumns.end());

@@ -6,6 +6,7 @@
 
 #include "recording/store/integrity.h"
 #include "recording/store/layout.h"
+#include "recording/store/promises.h"
 #include "recording/store/reader.h"
 #include "recording/store/recover.h"
 
@@ -62,6 +63,17 @@ v1::Manifest manifest_or_defect(const FileSystem& files, const Path& root,
   return std::move(**manifest);
 }
 
+// Manifests that were set aside.
+Result<std::vector<std::string>> broken_manifests(const FileSystem& files, const Path& root) {
+  const auto names = files.list(root);
+  if (!names) return tl::make_unexpected(names.error());
+  std::vector<std::string> out;
+  for (const std::string& name : *names) {
+    if (is_broken(name) && name_before(name) == kManifestName) out.push_back(name);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<v1::VerifyReport> verify_recording(FileSystem& files, const Path& folder, bool repair) {
@@ -80,18 +92,24 @@ Result<v1::VerifyReport> verify_recording(FileSystem& files, const Path& folder,
   if (repair) {
     const auto lock = files.lock(folder);
     if (!lock) return tl::make_unexpected(lock.error());
-    const auto recovered = recover_recording(files, folder);
+    const auto recovered = recover_recording(files, folder, Recovery::kEverything);
     if (!recovered) return tl::make_unexpected(recovered.error());
     for (const std::string& what : recovered->repaired) add_defect(report, what, true);
   }
   const v1::Manifest manifest = manifest_or_defect(files, folder, report);
   std::uint32_t chunks = 0;
+  auto broken = broken_manifests(files, folder);
+  if (!broken) return tl::make_unexpected(broken.error());
   for (const DeviceFolder& where : *folders) {
     const auto device = read_device(files, where, manifest);
     if (!device) return tl::make_unexpected(device.error());
     for (const std::string& defect : device->defects) add_defect(report, defect, false);
     chunks += static_cast<std::uint32_t>(device->chunks);
     add_streams(report, where.replicate(), device->device, device->streams, device->in_journal);
+    broken->insert(broken->end(), device->broken.begin(), device->broken.end());
+  }
+  for (const v1::Defect& one : broken_promises(manifest, report, *folders, *broken)) {
+    if (!repair || !one.repaired()) *report.add_defects() = one;  // a repair has told it already
   }
   report.set_chunks(chunks);
   finish(report);

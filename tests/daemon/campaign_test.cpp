@@ -11,74 +11,15 @@
 #include <set>
 
 #include "daemon/acquire/recordings.h"
-#include "recording/store/format_version.h"
-#include "recording/store/layout.h"
 #include "recording/store/manifest.h"
-#include "tests/daemon/manual_clock.h"
+#include "tests/daemon/fake_recorder.h"
 
 namespace imunoise::acquire {
 namespace {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
-
-const Time kBegin = Time(std::chrono::sys_days(std::chrono::year(2026) / 3 / 1));
-
-recording::FileSystem& files() { return recording::posix_file_system(); }
-
-// Writes what record_replicate() writes into the manifest, and lets the time pass.
-class FakeRecorder : public ReplicateRecorder {
- public:
-  explicit FakeRecorder(testing::ManualClock& clock) : clock_(clock) {}
-
-  Result<v1::ReplicateNote> record(const v1::Campaign& campaign, const ReplicateTask& task,
-                                   const Progress& progress) override {
-    tasks.push_back(task);
-    if (!errors.empty()) {
-      const std::string error = errors.front();
-      errors.pop_front();
-      return fail(error);
-    }
-    v1::ReplicateNote note;
-    note.set_replicate(task.replicate);
-    note.set_started_ns(clock_.now().time_since_epoch().count());
-    note.set_state(v1::open);
-    write(campaign, task, note);
-    if (tasks.size() == crash_at) {
-      clock_.source().request_stop();
-      return note;  // as a process does that is killed: the manifest stays open
-    }
-    if (tasks.size() == leave_at) leave.request_stop();
-    clock_.pass(std::chrono::nanoseconds(static_cast<std::int64_t>(campaign.length_s() * 1e9)));
-    note.set_state(progress.stopped() ? v1::interrupted : v1::complete);
-    if (knocks.contains(tasks.size())) note.add_disturbances()->set_begin_ns(note.started_ns());
-    write(campaign, task, note);
-    return note;
-  }
-
-  std::vector<ReplicateTask> tasks;
-  std::deque<std::string> errors;
-  std::set<std::size_t> knocks;  // which of the tasks, from 1
-  std::size_t crash_at = 0;
-  std::size_t leave_at = 0;
-  std::stop_source leave;
-
- private:
-  static void write(const v1::Campaign& campaign, const ReplicateTask& task,
-                    const v1::ReplicateNote& note) {
-    fs::create_directories(task.folder / recording::replicate_folder(task.replicate));
-    v1::Manifest manifest =
-        recording::read_manifest(files(), task.folder).value().value_or(v1::Manifest());
-    manifest.set_version(recording::kFormatVersion);
-    manifest.set_campaign(campaign.name());
-    manifest.set_closed(note.state() != v1::open);
-    recording::end_open_replicates(manifest);
-    recording::set_note(manifest, note);
-    ASSERT_TRUE(recording::write_manifest(files(), task.folder, manifest).has_value());
-  }
-
-  testing::ManualClock& clock_;
-};
+using testing::FakeRecorder, testing::files, testing::kBegin, testing::ManualClock;
 
 class CampaignRun : public ::testing::Test {
  protected:
@@ -96,7 +37,7 @@ class CampaignRun : public ::testing::Test {
 
   // Runs a process from `begin` until it is finished or stopped; returns its last clock.
   Time run(Time begin, Time end = Time::max(), RunMode mode = RunMode::kScheduled) {
-    testing::ManualClock clock(begin);
+    ManualClock clock(begin);
     clock.stop_at(end);
     FakeRecorder recorder(clock);
     recorder.errors = errors_;
@@ -210,7 +151,7 @@ TEST_F(CampaignRun, ARestartGoesOnWhereTheManifestSaysItWas) {
   EXPECT_EQ(tasks_, (Texts{"2026-03-01T001000Z/1", "2026-03-01T001000Z/2", "2026-03-01T001000Z/3",
                            "2026-03-01T001000Z/4"}));
   EXPECT_EQ(calibrated_, Texts{"2026-03-01T001000Z"});
-  const auto newest = newest_recording(files(), campaign_).value();
+  const auto newest = newest_recording(files(), campaign_, SystemClock()).value();
   ASSERT_TRUE(newest.has_value());
   EXPECT_EQ(newest->state.notes[1].state(), v1::interrupted);
   EXPECT_EQ(good_replicates(campaign_, newest->state.notes), 3U);
@@ -283,7 +224,8 @@ TEST_F(CampaignRun, KeepsWhatRetentionSays) {
                    "2026-03-02T181000Z/", "notes/"}));
   campaign_.mutable_retention()->clear_recordings();
   campaign_.mutable_retention()->set_age_s(3600.0);
-  ASSERT_TRUE(tidy_recordings(files(), campaign_, kBegin + 1000h).has_value());
+  const ManualClock later(kBegin + 1000h);
+  ASSERT_TRUE(tidy_recordings(files(), campaign_, later).has_value());
   EXPECT_EQ(files().list(folder_).value(),
             (Texts{"2020-01-01T000000Z/", "2026-03-02T181000Z/", "notes/"}))
       << "the newest stays";
@@ -292,9 +234,10 @@ TEST_F(CampaignRun, KeepsWhatRetentionSays) {
 TEST_F(CampaignRun, RecordingsOfAnotherCampaignAreLeftAlone) {
   run(kBegin);
   campaign_.set_name("other");
-  EXPECT_FALSE(newest_recording(files(), campaign_).value().has_value());
+  const ManualClock later(kBegin + 1000h);
+  EXPECT_FALSE(newest_recording(files(), campaign_, later).value().has_value());
   campaign_.mutable_retention()->set_age_s(1.0);
-  EXPECT_TRUE(tidy_recordings(files(), campaign_, kBegin + 1000h).value().empty());
+  EXPECT_TRUE(tidy_recordings(files(), campaign_, later).value().removed.empty());
 }
 
 TEST_F(CampaignRun, ADamagedManifestHoldsItUpAndNamesTheWayOut) {

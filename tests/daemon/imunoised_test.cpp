@@ -149,7 +149,9 @@ class Imunoised : public testing::Whims {
     v1::Campaign campaign;
     campaign.set_name(name);
     campaign.set_folder((folder_ / name).string());
-    return acquire::newest_recording(recording::posix_file_system(), campaign).value();
+    return acquire::newest_recording(recording::posix_file_system(), campaign,
+                                     acquire::SystemClock())
+        .value();
   }
   void expect_sound(const std::filesystem::path& folder) const {
     const auto report = recording::verify_recording(recording::posix_file_system(), folder, false);

@@ -201,5 +201,48 @@ TEST(LiveBoard, ShowsReplicatesWhileTheyLast) {
   EXPECT_TRUE(board.new_warnings().empty());
 }
 
+TEST(LiveBoard, TellsWhatTheDiskDoes) {
+  LiveBoard board;
+  LiveReplicate& replicate = board.of("bench");
+  replicate.begin({}, {device()});
+  recording::RecorderState recorder;
+  recorder.counts = {{{100, 60, {{recording::Refused::kOverrun, "", 30}}}}};
+  recorder.disks.resize(1);
+  replicate.watch([&] { return recorder; });
+  const auto now = Steady::now();
+  v1::LiveDevice state = board.state()[0].devices(0);
+  EXPECT_EQ(state.received(), 100U);
+  EXPECT_EQ(state.stored(), 60U);
+  EXPECT_EQ(state.discarded(), 30U);
+  EXPECT_EQ(state.disk_trouble(), "");
+  EXPECT_FALSE(board.trouble("bench", now).has_value());
+
+  recorder.disks[0].call = recording::DiskCall{"sync", "/rec/a/000001.journal", now};
+  EXPECT_FALSE(board.trouble("bench", now + kHangsAfter / 2).has_value());
+  replicate.beat();
+  auto trouble = board.trouble("bench", now + kHangsAfter);
+  ASSERT_TRUE(trouble.has_value());
+  EXPECT_TRUE(trouble->hangs);
+  EXPECT_EQ(trouble->since, now);
+  EXPECT_EQ(trouble->what.find("the disk hangs: sync of /rec/a/000001.journal"), 0U)
+      << trouble->what;
+
+  recorder.disks[0].call.reset();
+  recorder.disks[0].trouble = recording::DiskTrouble{{"/rec/a: Input/output error"}, now, 0};
+  trouble = board.trouble("bench", now);
+  ASSERT_TRUE(trouble.has_value());
+  EXPECT_FALSE(trouble->hangs);
+  EXPECT_NE(board.state()[0].devices(0).disk_trouble().find("Input/output error (since 20"),
+            std::string::npos);
+
+  recorder.disks[0].trouble.reset();
+  trouble = board.trouble("bench", Steady::now() + kHangsAfter);
+  ASSERT_TRUE(trouble.has_value()) << "its thread does nothing";
+  EXPECT_TRUE(trouble->hangs);
+  replicate.end();
+  EXPECT_FALSE(board.trouble("bench", Steady::now() + kHangsAfter).has_value());
+  EXPECT_FALSE(board.trouble("another", Steady::now()).has_value());
+}
+
 }  // namespace
 }  // namespace imunoise::live

@@ -119,6 +119,19 @@ TEST_F(RecordReplicate, ADeviceThatIsNotThereStopsNoOther) {
   EXPECT_NE(note.missing(0).reason().find("absent"), std::string::npos);
 }
 
+TEST_F(RecordReplicate, ADeviceThatCannotBeRecordedStopsNoOther) {
+  add("a", "rateless");
+  add("b");
+  plan_.duration = 300ms;
+  plan_.patience = 0ms;
+  const auto done = record();
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  ASSERT_EQ(note_on_disk().missing_size(), 1);
+  EXPECT_NE(note_on_disk().missing(0).reason().find("rate_hz 0 is not a sampling rate"),
+            std::string::npos)
+      << note_on_disk().missing(0).reason();
+}
+
 TEST_F(RecordReplicate, ADeviceThatComesInTimeTakesPart) {
   add("a", "absent");
   add("b");

@@ -2,8 +2,10 @@
 // device is opened or read. "here": a sample of noise every 10 ms; "gone": it is unplugged, and
 // found again as soon as the word is another; "broken": it fails for good; "absent": it does not
 // open; "deaf": its opening waits for as long as it may; "other": as "here", but opened then it is
-// another device; "knock": as "here", a hundred times as loud. With speed=20 twenty samples come
-// instead of one, and its time runs as fast.
+// another device; "knock": as "here", a hundred times as loud; "rateless": as "here", opened then
+// its stream has no rate; "silent": nothing comes any more; "over": it has nothing more to say.
+// With speed=20 twenty samples come instead of one, and its time runs as fast; with stamped=true
+// they carry the host's time.
 
 #include <chrono>
 #include <fstream>
@@ -27,16 +29,22 @@ std::string word_in(const std::string& file) {
 
 class Whims : public plugin::Device {
  public:
-  Whims(std::string file, std::int64_t speed, const plugin::Host& host)
-      : file_(std::move(file)), speed_(speed), time_ns_(host.now_ns()), next_(Clock::now()) {
+  Whims(const plugin::Options& options, const plugin::Host& host)
+      : host_(host),
+        file_(options.text("file")),
+        speed_(options.integer("speed")),
+        stamped_(options.flag("stamped")),
+        time_ns_(host.now_ns()),
+        next_(Clock::now()) {
     const std::string word = word_in(file_);
     if (word == "absent") throw plugin::DeviceError(IMUNOISE_NOT_FOUND, "the device is absent");
     if (word == "deaf") wait_in_vain(host);
     serial_ = word == "other" ? "2" : "1";
+    rate_hz_ = word == "rateless" ? 0.0 : 100.0;
   }
 
   drivers::DeviceInfo describe() override {
-    drivers::Stream stream{"imu", {{.name = "gyro_x", .units = "rad/s"}}, 100.0, 255};
+    drivers::Stream stream{"imu", {{.name = "gyro_x", .units = "rad/s"}}, rate_hz_, 255};
     return {{stream}, "Whims", serial_, "1"};
   }
 
@@ -48,11 +56,13 @@ class Whims : public plugin::Device {
       next_ = Clock::now();
       throw plugin::DeviceError(IMUNOISE_DISCONNECTED, "the device is gone");
     }
+    if (word == "over") return samples.end();
     if (!wait.until(next_)) return;
     next_ += kPeriod;
+    if (word == "silent") return;
     const double loud = word == "knock" ? 100.0 : 1.0;
     for (std::int64_t k = 0; k < speed_; ++k) {
-      time_ns_ += std::chrono::nanoseconds(kPeriod).count();
+      time_ns_ = stamped_ ? host_.now_ns() : time_ns_ + std::chrono::nanoseconds(kPeriod).count();
       samples.add(0, {.host_time_ns = time_ns_, .counter = counter_++ % 256})
           .set(0, loud * random_.normal());
     }
@@ -65,11 +75,14 @@ class Whims : public plugin::Device {
     throw plugin::DeviceError(IMUNOISE_CANCELLED, "the device is deaf");
   }
 
+  plugin::Host host_;
   std::string file_;
   std::int64_t speed_;
+  bool stamped_;
   std::int64_t time_ns_;  // of the last sample
   std::uint64_t counter_ = 0;
   std::string serial_;
+  double rate_hz_ = 0.0;
   RandomStream random_{7};
   Clock::time_point next_;
 };
@@ -86,12 +99,16 @@ drivers::DriverInfo describe_driver() {
             .type = drivers::OptionType::kInteger,
             .description = "Times real time",
             .by_default = "1",
-            .minimum = 1}}};
+            .minimum = 1},
+           {.name = "stamped",
+            .type = drivers::OptionType::kFlag,
+            .description = "Samples carry the host's time",
+            .by_default = "false"}}};
 }
 
 std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
                                             const plugin::Host& host) {
-  return std::make_unique<Whims>(options.text("file"), options.integer("speed"), host);
+  return std::make_unique<Whims>(options, host);
 }
 
 }  // namespace

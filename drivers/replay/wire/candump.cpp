@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include "drivers/can/frame_streams.h"
@@ -12,6 +14,7 @@ namespace imunoise::replay {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;  // far beyond any frame's
+constexpr double kShortest = 1e-3;          // s, that a log takes
 
 class CandumpCodec final : public WireCodec {
  public:
@@ -22,8 +25,19 @@ class CandumpCodec final : public WireCodec {
         channels_(std::move(channels)),
         streams_(make_streams(channels_)) {
     open();
-    while (read_frame()) streams_.hear(frame_, time_ns_);
-    streams_.settle(rate_hz);
+    std::optional<std::int64_t> begin_ns;
+    while (read_frame()) {
+      if (!begin_ns) begin_ns = time_ns_;
+      streams_.hear(frame_, time_ns_);
+    }
+    const double seconds = 1e-9 * static_cast<double>(time_ns_ - begin_ns.value_or(time_ns_));
+    const auto left_out = streams_.settle(rate_hz, std::max(seconds, kShortest));
+    if (streams_.streams().empty() && !left_out.empty()) {
+      throw plugin::DeviceError(
+          IMUNOISE_BAD_OPTION,
+          fmt::format("{}: message {} comes once, which tells no rate; give it (rate=100)",
+                      path_.string(), left_out.front().message().name));
+    }
     if (streams_.streams().empty()) {
       throw plugin::DeviceError(
           IMUNOISE_BAD_OPTION,

@@ -247,6 +247,37 @@ TEST_F(Api, MetricsAreWhatPrometheusReads) {
     EXPECT_NE(response.body.find(line), std::string::npos) << line << response.body;
 }
 
+TEST_F(Api, ADiskThatHangsShows) {
+  serve();
+  bench_.tell(recording_status());
+  v1::LiveReplicate live;
+  live.set_campaign("array");
+  v1::LiveDevice& device = *live.add_devices();
+  device.set_device("imu0");
+  device.set_stored(60);
+  device.set_last_sample_ns(1'772'323'200'500'000'000);
+  device.set_disk_trouble("the disk hangs");
+  bench_.show({live});
+  EXPECT_EQ(testing::get(local_, "/healthz").status, 200);
+  bench_.hold_up("the disk hangs: sync of /rec/a does not return");
+  const RawResponse health = testing::get(local_, "/healthz");
+  EXPECT_EQ(health.status, 503);
+  EXPECT_NE(health.body.find("array"), std::string::npos) << health.body;
+  EXPECT_EQ(health.body.find("/rec"), std::string::npos) << "anybody may ask";
+  const json state = get_json("/v1/campaigns/array");
+  EXPECT_EQ(state["trouble"], "the disk hangs: sync of /rec/a does not return");
+  EXPECT_FALSE(state.contains("left_s")) << "nobody knows";
+  const std::string metrics = testing::get(local_, "/metrics").body;
+  for (const char* const line :
+       {"imunoise_campaign_troubled{campaign=\"array\"} 1\n",
+        "imunoise_campaign_troubled{campaign=\"other\"} 0\n",
+        "imunoise_device_stored_samples{campaign=\"array\",device=\"imu0\"} 60\n",
+        "imunoise_device_last_sample_timestamp_seconds{campaign=\"array\",device=\"imu0\"} "
+        "1772323200.5\n",
+        "imunoise_device_disk_troubled{campaign=\"array\",device=\"imu0\"} 1\n"})
+    EXPECT_NE(metrics.find(line), std::string::npos) << line << metrics;
+}
+
 TEST_F(Api, TheDocumentDescribesEveryRoute) {
   serve();
   const json document = get_json("/openapi.json");

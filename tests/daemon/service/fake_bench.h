@@ -57,6 +57,11 @@ class FakeBench : public service::Bench {
     const std::lock_guard lock(watching_);
     if (watcher_) watcher_(name);
   }
+  /// The first campaign cannot record.
+  void hold_up(const std::string& trouble) {
+    const std::lock_guard lock(mutex_);
+    campaigns_.front().trouble = trouble;
+  }
   void show(std::vector<v1::LiveReplicate> live) {
     const std::lock_guard lock(mutex_);
     live_ = std::move(live);

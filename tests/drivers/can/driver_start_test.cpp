@@ -66,6 +66,79 @@ TEST_F(CanStart, TheDescriptionIsWrong) {
                  "no unsigned whole number");
 }
 
+constexpr const char* kSlow = R"dbc(
+BO_ 50 Rate: 8 IMU
+ SG_ X : 0|16@1- (0.001,0) [0|0] "rad/s" HOST
+BO_ 51 Slow: 8 IMU
+ SG_ T : 0|16@1- (0.1,0) [0|0] "degC" HOST
+)dbc";
+
+// Messages of kSlow while the driver listens: Slow once, Rate often or never.
+class CanRate : public CanStart {
+ protected:
+  Result<std::unique_ptr<RecordingSession>> hear(bool rate_too, Options more,
+                                                 const std::vector<std::string>& channels = {}) {
+    Options options = describe(kSlow, channels);
+    options.push_back({"listen", "0.1"});
+    options.insert(options.end(), more.begin(), more.end());
+    const std::jthread imu([&](const std::stop_token& stop) {
+      while (!send(51) && !stop.stop_requested()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      while (rate_too && !stop.stop_requested()) {
+        send(50);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    });
+    return open(options);
+  }
+
+ private:
+  // False: nobody listens.
+  bool send(std::uint32_t id) {
+    drivers::CanFrame frame;
+    frame.id = id;
+    frame.length = 8;
+    return bus_.send(frame);
+  }
+};
+
+TEST_F(CanRate, AMessageThatCameOnceIsLeftOutAndTold) {
+  const auto session = hear(true, {});
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_EQ((*session)->info().streams.size(), 1U);
+  EXPECT_EQ((*session)->info().streams[0].name, "Rate");
+  EXPECT_NE((*session)->notes().find("message Slow (0x33) came once"), std::string::npos)
+      << (*session)->notes();
+}
+
+TEST_F(CanRate, AMessageThatCameOnceIsRecordedWhereTheRateIsKnown) {
+  const auto session = hear(true, {{"rate", "200"}});
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_EQ((*session)->info().streams.size(), 2U);
+  const double rate = (*session)->info().streams[1].nominal_rate_hz;
+  EXPECT_GT(rate, 0.5);
+  EXPECT_LT(rate, 5.0) << "about once in the 0.5 s that it listened";
+}
+
+TEST_F(CanRate, TheOnlyMessageHasTheRateThatIsGiven) {
+  const auto session = hear(false, {{"rate", "0.5"}});
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_EQ((*session)->info().streams.size(), 1U);
+  EXPECT_EQ((*session)->info().streams[0].nominal_rate_hz, 0.5);
+}
+
+TEST_F(CanRate, WithoutAnyRateTheDeviceIsRefused) {
+  for (const bool named : {false, true}) {
+    const auto session =
+        hear(false, {},
+             named ? std::vector<std::string>{"temperature=Slow.T"} : std::vector<std::string>{});
+    ASSERT_FALSE(session);
+    EXPECT_NE(session.error().message.find("message Slow (0x33) came once"), std::string::npos)
+        << session.error().message;
+  }
+}
+
 TEST(CanChannelOption, IsReadWhole) {
   const auto read = can::parse_channel_option("gyro_x=Rate.X,unit=deg/s,invalid=0xfb00,last=14");
   ASSERT_TRUE(read);

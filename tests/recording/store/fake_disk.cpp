@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace imunoise::recording {
 namespace {
@@ -9,6 +10,8 @@ namespace {
 tl::unexpected<Error> trouble(const std::filesystem::path& path, const std::string& what) {
   return fail(path.string() + ": " + what);
 }
+
+constexpr const char* kInputOutput = "Input/output error";
 
 class Nothing final : public FolderLock {};
 
@@ -22,6 +25,10 @@ class FakeDisk::File final : public WritableFile {
   Result<void> write(std::string_view bytes) override {
     const std::lock_guard guard(disk_.mutex_);
     if (auto good = disk_.begin(path_); !good) return good;
+    if (const auto fault = disk_.fault(Call::kWrite)) {
+      content_->live += bytes.substr(0, fault->done ? bytes.size() : bytes.size() / 2);
+      return trouble(path_, kInputOutput);
+    }
     const std::size_t used = disk_.used();
     const std::size_t room = disk_.capacity_ > used ? disk_.capacity_ - used : 0;
     content_->live += bytes.substr(0, room);
@@ -29,9 +36,14 @@ class FakeDisk::File final : public WritableFile {
     return {};
   }
   Result<void> sync() override {
-    const std::lock_guard guard(disk_.mutex_);
+    std::unique_lock guard(disk_.mutex_);
     if (auto good = disk_.begin(path_); !good) return good;
-    if (disk_.fail_syncs_) return trouble(path_, "Input/output error");
+    if (const auto fault = disk_.fault(Call::kSync)) {
+      if (fault->done) content_->synced = content_->live;
+      return trouble(path_, kInputOutput);
+    }
+    disk_.released_.wait(guard, [&] { return path_.parent_path() != disk_.hanging_; });
+    if (disk_.sync_fails(path_.parent_path())) return trouble(path_, kInputOutput);
     content_->synced = content_->live;
     return {};
   }
@@ -56,6 +68,10 @@ Result<FakeDisk::Folder*> FakeDisk::parent(const Path& path) {
   return &found->second;
 }
 
+bool FakeDisk::sync_fails(const Path& folder) {
+  return std::exchange(fail_next_, false) || fail_syncs_ || folder == failing_;
+}
+
 std::size_t FakeDisk::used() const {
   std::size_t sum = 0;
   for (const auto& [path, folder] : folders_) {
@@ -64,8 +80,75 @@ std::size_t FakeDisk::used() const {
   return sum;
 }
 
+std::optional<FakeDisk::Fault> FakeDisk::fault(Call kind) const {
+  const auto at = static_cast<std::size_t>(kind);
+  ++calls_of_[at];
+  std::optional<Fault> out;
+  for (Fault& one : faults_[at]) {
+    if (one.left > 0 && --one.left == 0) out = one;
+  }
+  return out;
+}
+
+void FakeDisk::fail_once(Call kind, int nth, bool done) {
+  const std::lock_guard guard(mutex_);
+  faults_[static_cast<std::size_t>(kind)].push_back({nth, done});
+}
+
+void FakeDisk::heal() {
+  const std::lock_guard guard(mutex_);
+  faults_ = {};
+}
+
+bool FakeDisk::failed() const {
+  const std::lock_guard guard(mutex_);
+  return std::all_of(faults_.begin(), faults_.end(), [](const auto& faults) {
+    return std::all_of(faults.begin(), faults.end(), [](const Fault& f) { return f.left == 0; });
+  });
+}
+
+int FakeDisk::calls(Call kind) const {
+  const std::lock_guard guard(mutex_);
+  return calls_of_[static_cast<std::size_t>(kind)];
+}
+
 Result<std::unique_ptr<WritableFile>> FakeDisk::create(const Path& path) {
   const std::lock_guard guard(mutex_);
+  const auto fails = fault(Call::kCreate);
+  if (fails && fails->done) (void)create_file(path);
+  if (fails) return trouble(path, kInputOutput);
+  return create_file(path);
+}
+
+Result<void> FakeDisk::rename(const Path& from, const Path& to) {
+  const std::lock_guard guard(mutex_);
+  return attempt(Call::kRename, to, [&] { return rename_file(from, to); });
+}
+
+Result<void> FakeDisk::remove(const Path& path) {
+  const std::lock_guard guard(mutex_);
+  return attempt(Call::kRemove, path, [&] { return remove_file(path); });
+}
+
+Result<void> FakeDisk::make_folder(const Path& path) {
+  const std::lock_guard guard(mutex_);
+  return attempt(Call::kMakeFolder, path, [&] { return make_one_folder(path); });
+}
+
+Result<void> FakeDisk::sync_folder(const Path& path) {
+  const std::lock_guard guard(mutex_);
+  return attempt(Call::kSyncFolder, path, [&] { return sync_one_folder(path); });
+}
+
+Result<void> FakeDisk::attempt(Call kind, const Path& path,
+                               const std::function<Result<void>()>& call) {
+  const auto fails = fault(kind);
+  if (!fails) return call();
+  if (fails->done) (void)call();
+  return trouble(path, kInputOutput);
+}
+
+Result<std::unique_ptr<WritableFile>> FakeDisk::create_file(const Path& path) {
   if (auto good = begin(path); !good) return tl::make_unexpected(good.error());
   const auto folder = parent(path);
   if (!folder) return tl::make_unexpected(folder.error());
@@ -76,19 +159,22 @@ Result<std::unique_ptr<WritableFile>> FakeDisk::create(const Path& path) {
   return std::make_unique<File>(*this, path, content);
 }
 
-Result<std::string> FakeDisk::read(const Path& path) const {
+Result<std::string> FakeDisk::read_up_to(const Path& path, std::uint64_t limit) const {
   const std::lock_guard guard(mutex_);
+  if (fault(Call::kRead)) return trouble(path, kInputOutput);
   const auto folder = folders_.find(path.parent_path());
   if (folder == folders_.end()) return trouble(path, "No such file or directory");
   const auto found = folder->second.live.find(path.filename());
   if (found == folder->second.live.end() || !found->second) {
     return trouble(path, "No such file or directory");
   }
+  if (found->second->live.size() > limit) return tl::make_unexpected(too_large(path, limit));
   return found->second->live;
 }
 
 Result<std::vector<std::string>> FakeDisk::list(const Path& path) const {
   const std::lock_guard guard(mutex_);
+  if (fault(Call::kList)) return trouble(path, kInputOutput);
   const auto folder = folders_.find(path);
   if (folder == folders_.end()) return trouble(path, "No such file or directory");
   std::vector<std::string> out;
@@ -97,8 +183,7 @@ Result<std::vector<std::string>> FakeDisk::list(const Path& path) const {
   return out;
 }
 
-Result<void> FakeDisk::rename(const Path& from, const Path& to) {
-  const std::lock_guard guard(mutex_);
+Result<void> FakeDisk::rename_file(const Path& from, const Path& to) {
   if (auto good = begin(to); !good) return good;
   const auto folder = parent(from);
   if (!folder || from.parent_path() != to.parent_path() ||
@@ -113,8 +198,7 @@ Result<void> FakeDisk::rename(const Path& from, const Path& to) {
   return {};
 }
 
-Result<void> FakeDisk::remove(const Path& path) {
-  const std::lock_guard guard(mutex_);
+Result<void> FakeDisk::remove_file(const Path& path) {
   if (auto good = begin(path); !good) return good;
   const auto folder = parent(path);
   if (!folder || (*folder)->live.erase(path.filename()) == 0) {
@@ -124,8 +208,7 @@ Result<void> FakeDisk::remove(const Path& path) {
   return {};
 }
 
-Result<void> FakeDisk::make_folder(const Path& path) {
-  const std::lock_guard guard(mutex_);
+Result<void> FakeDisk::make_one_folder(const Path& path) {
   if (folders_.contains(path)) return {};
   if (auto good = begin(path); !good) return good;
   const auto folder = parent(path);
@@ -136,10 +219,9 @@ Result<void> FakeDisk::make_folder(const Path& path) {
   return {};
 }
 
-Result<void> FakeDisk::sync_folder(const Path& path) {
-  const std::lock_guard guard(mutex_);
+Result<void> FakeDisk::sync_one_folder(const Path& path) {
   if (auto good = begin(path); !good) return good;
-  if (fail_syncs_) return trouble(path, "Input/output error");
+  if (sync_fails(path)) return trouble(path, kInputOutput);
   const auto folder = folders_.find(path);
   if (folder == folders_.end()) return trouble(path, "No such file or directory");
   folder->second.synced = folder->second.live;
@@ -147,7 +229,9 @@ Result<void> FakeDisk::sync_folder(const Path& path) {
   return {};
 }
 
-Result<std::unique_ptr<FolderLock>> FakeDisk::lock(const Path&) {
+Result<std::unique_ptr<FolderLock>> FakeDisk::lock(const Path& folder) {
+  const std::lock_guard guard(mutex_);
+  if (fault(Call::kLock)) return trouble(folder, kInputOutput);
   return std::make_unique<Nothing>();
 }
 
@@ -223,6 +307,26 @@ void FakeDisk::set_read_only(bool read_only) {
 void FakeDisk::fail_syncs(bool fail) {
   const std::lock_guard guard(mutex_);
   fail_syncs_ = fail;
+}
+
+void FakeDisk::fail_next_sync() {
+  const std::lock_guard guard(mutex_);
+  fail_next_ = true;
+}
+
+void FakeDisk::fail_syncs_in(const Path& folder) {
+  const std::lock_guard guard(mutex_);
+  failing_ = folder;
+}
+
+void FakeDisk::hang_syncs_in(const Path& folder) {
+  const std::lock_guard guard(mutex_);
+  hanging_ = folder;
+}
+
+void FakeDisk::let_go() {
+  hang_syncs_in({});
+  released_.notify_all();
 }
 
 void FakeDisk::overwrite(const Path& path, const std::string& bytes) {

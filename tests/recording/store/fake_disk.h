@@ -2,10 +2,14 @@
 
 // A disk in memory that forgets what was not synced, gets full, fails, or cannot be written.
 
+#include <array>
+#include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "recording/store/file_system.h"
 
@@ -19,7 +23,6 @@ class FakeDisk final : public FileSystem {
   using Path = std::filesystem::path;
 
   Result<std::unique_ptr<WritableFile>> create(const Path& path) override;
-  Result<std::string> read(const Path& path) const override;
   Result<std::vector<std::string>> list(const Path& folder) const override;
   Result<void> rename(const Path& from, const Path& to) override;
   Result<void> remove(const Path& path) override;
@@ -40,6 +43,37 @@ class FakeDisk final : public FileSystem {
   void set_capacity(std::size_t bytes);  ///< Of all files; a write beyond it is cut short.
   void set_read_only(bool read_only);
   void fail_syncs(bool fail);  ///< EIO; what was written stays readable.
+  void fail_next_sync();
+  /// Only in this folder, from now on.
+  void fail_syncs_in(const Path& folder);
+  /// Syncs of files in this folder do not return until let_go().
+  void hang_syncs_in(const Path& folder);
+  void let_go();
+
+  /// What a program may ask of a disk.
+  enum class Call {
+    kCreate,
+    kWrite,
+    kSync,
+    kRead,
+    kList,
+    kRename,
+    kRemove,
+    kMakeFolder,
+    kSyncFolder,
+    kLock,
+  };
+  static constexpr int kKinds = 10;
+  /// The `nth` call of this kind from now on, from 1, fails once: EIO. A write that fails leaves
+  /// half of its bytes. `done`: the disk has done it all the same, only the answer is an error
+  /// (reads and lists give nothing in any case).
+  void fail_once(Call kind, int nth, bool done = false);
+  /// No more of them.
+  void heal();
+  /// Whether all of them have come.
+  bool failed() const;
+  /// So many so far.
+  int calls(Call kind) const;
 
   /// For tests that damage a file.
   void overwrite(const Path& path, const std::string& bytes);
@@ -59,17 +93,36 @@ class FakeDisk final : public FileSystem {
   };
   class File;
 
+  struct Fault {
+    int left = 0;  // calls until it comes; 0: it came
+    bool done = false;
+  };
+  Result<std::string> read_up_to(const Path& path, std::uint64_t limit) const override;
   Result<void> begin(const Path& path);  // counts a changing call; the lock is held
+  std::optional<Fault> fault(Call kind) const;
+  Result<void> attempt(Call kind, const Path& path, const std::function<Result<void>()>& call);
+  Result<std::unique_ptr<WritableFile>> create_file(const Path& path);
+  Result<void> rename_file(const Path& from, const Path& to);
+  Result<void> remove_file(const Path& path);
+  Result<void> make_one_folder(const Path& path);
+  Result<void> sync_one_folder(const Path& path);
   Result<Folder*> parent(const Path& path);
   std::size_t used() const;
+  bool sync_fails(const Path& folder);
 
   mutable std::mutex mutex_;
   std::map<Path, Folder> folders_ = {{"/", {}}};
+  mutable std::array<int, kKinds> calls_of_ = {};
+  mutable std::array<std::vector<Fault>, kKinds> faults_ = {};
   int calls_ = 0;
   int left_ = -1;  // calls until the power fails; negative: it does not
   std::size_t capacity_ = SIZE_MAX;
   bool read_only_ = false;
   bool fail_syncs_ = false;
+  bool fail_next_ = false;
+  Path failing_;  // folder whose syncs fail
+  Path hanging_;  // folder whose syncs hang
+  std::condition_variable released_;
 };
 
 }  // namespace imunoise::recording

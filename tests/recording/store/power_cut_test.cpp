@@ -115,7 +115,6 @@ TEST(PowerCut, AtEveryBoundaryOfARecorder) {
     RecorderOptions options;
     options.sync_every = {};
     options.segments.bytes = 1000;
-    if (!disk.make_folder(kRoot) || !disk.sync_folder("/")) return 0;
     const auto recorder = Recorder::start(disk, kRoot, plan, options);
     if (!recorder) return 0;
     for (int i = 0; i < kBlocks; ++i) {

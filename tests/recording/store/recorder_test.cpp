@@ -172,7 +172,7 @@ TEST(Recorder, AFullDiskCostsCountedRowsOnly) {
   }
   ASSERT_FALSE(refused) << "a full disk was not noticed";
   EXPECT_NE(refused.error().message.find("No space left"), std::string::npos);
-  EXPECT_TRUE((*recorder)->state().trouble);
+  EXPECT_TRUE((*recorder)->state().disks[0].trouble);
   int dropped = 0;
   for (int i = 0; i < 20; ++i, next += 10) {
     const auto taken = (*recorder)->offer(0, imu_block(next, 10));
@@ -298,6 +298,74 @@ TEST(Recorder, BlocksWaitForTheNextRoundUnlessTheQueueFills) {
   }
   ASSERT_TRUE((*recorder)->close());
   EXPECT_EQ((*recorder)->state().counts[0][0].stored, 410U);
+}
+
+// Counters that run to 2^bits - 1 and begin again.
+TEST(Recorder, CountersUpTo63BitsComeBack) {
+  for (const unsigned bits : {52U, 53U, 54U, 62U, 63U}) {
+    SCOPED_TRACE(bits);
+    FakeDisk disk;
+    v1::RecordedDevice device = test_device();
+    const std::uint64_t modulus = std::uint64_t{1} << bits;
+    device.mutable_streams(0)->set_counter_modulus(modulus);
+    const auto recorder = Recorder::start(disk, "/run", plan({device}), small_segments());
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    Block block = imu_block(0, 100);
+    for (std::size_t i = 0; i < 100; ++i)
+      block.rows.counter[i] = static_cast<std::int64_t>((modulus - 50 + i) % modulus);
+    ASSERT_TRUE((*recorder)->push(0, block));
+    const auto closed = (*recorder)->close();
+    ASSERT_TRUE(closed) << closed.error().message;
+    const DeviceRecording back = read_back(disk, "/run");
+    EXPECT_EQ(back.device.streams(0).counter_modulus(), modulus);
+    EXPECT_EQ(back.streams[0].counter, block.rows.counter);
+    const auto report = verify_recording(disk, "/run", false);
+    EXPECT_TRUE(report->sound()) << report->DebugString();
+    EXPECT_EQ(report->streams(0).gap_count(), 0U);
+  }
+  FakeDisk disk;
+  v1::RecordedDevice device = test_device();
+  device.mutable_streams(0)->set_counter_modulus((std::uint64_t{1} << 63U) + 1);
+  EXPECT_FALSE(Recorder::start(disk, "/run", plan({device})));
+}
+
+// A unit that HDF5 takes and that no reader does: what was acknowledged stays in the journal.
+TEST(Recorder, AChunkThatCannotBeReadBackKeepsItsJournal) {
+  FakeDisk disk;
+  v1::RecordedDevice device = test_device();
+  device.mutable_streams(0)->mutable_channels(0)->set_units(std::string(5000, 'x'));
+  const auto recorder = Recorder::start(disk, "/run", plan({device}), small_segments());
+  ASSERT_TRUE(recorder) << recorder.error().message;
+  ASSERT_TRUE((*recorder)->push(0, imu_block(0, 10)));
+  const auto closed = (*recorder)->close();
+  ASSERT_FALSE(closed);
+  expect_parts(closed.error().message, {"imu0", "cannot be read back", "units"});
+  const auto names = list_device_files(disk, {"/run", "replicate-1/imu0"});
+  EXPECT_EQ(names->journals, std::vector<std::uint64_t>{1});
+  EXPECT_EQ(names->chunks, std::vector<std::uint64_t>());
+}
+
+// What was closed is not read again: the hundredth replicate starts as quickly as the second.
+TEST(Recorder, AStartReadsNothingOfClosedReplicates) {
+  FakeDisk disk;
+  using Call = FakeDisk::Call;
+  std::vector<std::pair<int, int>> costs;  // of each start: reads and lists
+  for (std::uint32_t replicate = 1; replicate <= 20; ++replicate) {
+    RecordingPlan next = plan({test_device()}, replicate);
+    next.note = v1::ReplicateNote();
+    const std::pair before(disk.calls(Call::kRead), disk.calls(Call::kList));
+    const auto recorder = Recorder::start(disk, "/run", next, small_segments());
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    costs.emplace_back(disk.calls(Call::kRead) - before.first,
+                       disk.calls(Call::kList) - before.second);
+    ASSERT_TRUE((*recorder)->push(0, imu_block(0, 100)));
+    v1::ReplicateNote note;
+    note.set_state(v1::complete);
+    ASSERT_TRUE((*recorder)->close([&](const auto&) { return note; }));
+  }
+  EXPECT_EQ(costs.back(), costs[1]);
+  EXPECT_EQ(costs[1].first, 1) << "the manifest";
+  EXPECT_TRUE(verify_recording(disk, "/run", false)->sound());
 }
 
 TEST(Recorder, HostTimeEndsSegmentsToo) {

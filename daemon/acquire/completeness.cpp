@@ -1,0 +1,56 @@
+#include "daemon/acquire/completeness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "daemon/config/quantity_text.h"
+
+namespace imunoise::acquire {
+namespace {
+
+constexpr double kShare = 0.1;  // of the planned time, at its end
+constexpr double kLeast = 1.0;  // s
+constexpr double kMost = 5.0;   // s
+constexpr double kSamples = 20.0;
+constexpr double kAsMany = 0.99;  // of the samples that a device's nominal rate promises
+
+struct Fastest {
+  double rate_hz = 0.0;
+  std::uint64_t stored = 0;
+};
+
+Fastest fastest_of(const DeviceCourse& course) {
+  Fastest out;
+  for (int i = 0; i < course.device.streams_size(); ++i) {
+    const double rate = course.device.streams(i).rate_hz();
+    if (rate > out.rate_hz) out = {rate, course.counts[static_cast<std::size_t>(i)].stored};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string shortfall(const DeviceCourse& course, std::optional<double> planned_s) {
+  if (course.discarded > 0) {
+    return fmt::format("device {}: {} samples were discarded, because its disk took none: {}",
+                       course.device.name(), course.discarded, course.disk);
+  }
+  if (!planned_s) return "";
+  const Fastest fastest = fastest_of(course);
+  const double expected = *planned_s * fastest.rate_hz;
+  const double tail =
+      std::max(std::clamp(kShare * *planned_s, kLeast, kMost), kSamples / fastest.rate_hz);
+  const bool to_the_end = course.last_s && *course.last_s >= *planned_s - tail;
+  const auto stored = static_cast<double>(fastest.stored);
+  if (fastest.stored > 0 && (to_the_end || stored >= kAsMany * expected)) return "";
+  const std::string when = course.last_s
+                               ? fmt::format("its last sample came {} after the beginning",
+                                             config::print_duration(*course.last_s))
+                               : "no sample came";
+  return fmt::format("device {}: {}; {} of about {:.0f} samples in {} are stored",
+                     course.device.name(), when, fastest.stored, expected,
+                     config::print_duration(*planned_s));
+}
+
+}  // namespace imunoise::acquire
