@@ -33,16 +33,27 @@ bool is_torn(const Segment& segment) {
          segment.damage.front().at_end;
 }
 
-// When an earlier attempt removed the segment and only then failed: the chunk that it left.
-// `error` is that of reading the segment.
+// When an earlier attempt removed the segment, or set it aside, and only then failed: the chunk
+// that it left. `error` is that of reading the segment.
 Result<Sealed> sealed_before(FileSystem& files, const DeviceFolder& where, std::uint64_t number,
-                             const Error& error) {
+                             const v1::JournalHeader* fallback, const Error& error) {
   const auto names = list_device_files(files, where);
   if (!names || std::binary_search(names->journals.begin(), names->journals.end(), number)) {
     return tl::make_unexpected(error);
   }
   if (auto done = files.sync_folder(where.path()); !done) return tl::make_unexpected(done.error());
   Sealed out;
+  const std::string journal = numbered(number, kJournalSuffix);
+  for (const std::string& name : names->broken) {
+    if (name_before(name) != journal) continue;
+    const auto bytes = files.read(where.path() / name);
+    if (!bytes) return tl::make_unexpected(bytes.error());
+    const Result<Segment> segment = read_segment(*bytes, 0, fallback);
+    if (!segment) return tl::make_unexpected(segment.error());
+    out.damage = describe_damage(*segment);
+    out.torn = is_torn(*segment);
+    out.kept_as = name;
+  }
   if (!std::binary_search(names->chunks.begin(), names->chunks.end(), number)) return out;
   auto chunk = read_chunk(files, where, number, {});
   if (!chunk) return fail(chunk.error().message);
@@ -104,7 +115,7 @@ Result<Sealed> seal_segment(FileSystem& files, const DeviceFolder& where, std::u
     return fail(fmt::format("{}: {}", where.file(journal), error.message));
   };
   const auto bytes = files.read(where.path() / journal);
-  if (!bytes) return sealed_before(files, where, number, bytes.error());
+  if (!bytes) return sealed_before(files, where, number, fallback, bytes.error());
   Result<Segment> segment = read_segment(*bytes, after, fallback, before);
   if (!segment) return trouble(segment.error());
   Sealed out;

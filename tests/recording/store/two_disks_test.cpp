@@ -163,6 +163,32 @@ TEST(TwoDisks, ASyncThatDoesNotReturnIsSeen) {
   EXPECT_TRUE((*recorder)->state().calls.empty());
 }
 
+// The segment was renamed, only the answer was an error: the next attempt tells what became of it.
+TEST(Seal, ASegmentThatAnEarlierAttemptSetAsideIsTold) {
+  FakeDisk disk;
+  const DeviceFolder where{"/run", "replicate-1/imu0"};
+  for (const char* folder : {"/run", "/run/replicate-1", "/run/replicate-1/imu0"}) {
+    ASSERT_TRUE(disk.make_folder(folder));
+  }
+  Journal journal(disk, where.path(), test_device(), {}, {});
+  for (const int first : {0, 10}) {
+    journal.append(imu_block(first, 10));
+    ASSERT_TRUE(journal.sync());
+  }
+  const std::filesystem::path file = where.path() / "000001.journal";
+  const std::string whole = *disk.read(file);
+  disk.overwrite(file, whole.substr(0, whole.size() - 20));
+  disk.fail_once(FakeDisk::Call::kRename, 2, true);  // the first puts the chunk in place
+  ASSERT_FALSE(seal_segment(disk, where, 1, 0));
+  const auto sealed = seal_segment(disk, where, 1, 0);
+  ASSERT_TRUE(sealed) << sealed.error().message;
+  ASSERT_TRUE(sealed->entry);
+  EXPECT_EQ(sealed->entry->samples(), 10U);
+  EXPECT_TRUE(sealed->damage);
+  EXPECT_TRUE(sealed->torn);
+  EXPECT_EQ(sealed->kept_as, "000001.journal.broken");
+}
+
 // No later round would try again.
 TEST(TwoDisks, OneFailureAtTheCloseCostsNothing) {
   FakeDisk disk;
