@@ -13,8 +13,6 @@ namespace {
 constexpr std::chrono::seconds kFirstPause{5};  // after something went wrong
 constexpr std::chrono::seconds kLongestPause{300};
 
-std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
-
 class Run {
  public:
   Run(const v1::Campaign& campaign, RunMode mode, const CampaignSurroundings& with,

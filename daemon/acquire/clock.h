@@ -13,6 +13,9 @@ namespace imunoise::acquire {
 /// UTC.
 using Time = std::chrono::time_point<std::chrono::system_clock, std::chrono::nanoseconds>;
 
+/// ns since 1970-01-01 UTC.
+inline std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
+
 /// The machine's: ns since 1970-01-01 UTC.
 std::int64_t now_ns();
 

@@ -71,8 +71,6 @@ bool is_of(const v1::Manifest& manifest, const v1::Campaign& campaign) {
   return manifest.campaign() == campaign.name();
 }
 
-std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
-
 // A recording, and when it began by the clock as it is set now.
 struct Dated {
   fs::path folder;
