@@ -111,7 +111,7 @@ TEST_F(CampaignRun, LeavesOnceTheReplicateIsRecorded) {
   leave_at_ = 2;
   const Time end = run(kBegin);
   EXPECT_EQ(end, kBegin + 10min + 2h + 1min) << "no pause after it";
-  const auto newest = newest_recording(files(), campaign_).value();
+  const auto newest = newest_recording(files(), campaign_, SystemClock()).value();
   ASSERT_EQ(newest->state.notes.size(), 2U);
   EXPECT_EQ(newest->state.notes[1].state(), v1::complete);
   EXPECT_TRUE(calibrated_.empty());
