@@ -3,9 +3,6 @@
 # The trials labelled slow, which `all` leaves out.
 add_custom_target(slow_tests)
 
-# What runs once is worth little optimisation.
-set(IMUNOISE_TEST_FLAGS -O1)
-
 # Where each run leaves its cases with their times (JUnit XML), for scripts/test.sh.
 set(IMUNOISE_CASES ${PROJECT_BINARY_DIR}/cases)
 
@@ -18,7 +15,6 @@ function(imunoise_test_program program)
   set_target_properties(test_${program} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests UNITY_BUILD_MODE GROUP)
   target_link_libraries(test_${program} PRIVATE GTest::gtest_main)
-  target_compile_options(test_${program} PRIVATE ${IMUNOISE_TEST_FLAGS})
   target_compile_definitions(test_${program} PRIVATE
     IMUNOISE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     IMUNOISE_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
@@ -27,10 +23,14 @@ function(imunoise_test_program program)
     IMUNOISED="${PROJECT_BINARY_DIR}/imunoised"
     IMUNOISE_DRIVER_FOLDER="${PROJECT_BINARY_DIR}/lib/imunoise/drivers"
     IMUNOISE_CMAKE="${CMAKE_COMMAND}")
+  set(time_limit 900)  # s
   if(NOT PROGRAM_LABEL)
     set(PROGRAM_LABEL fast)
   endif()
-  if(PROGRAM_LABEL STREQUAL "slow")  # built when asked for; sanitizers see the fast tests only
+  if(PROGRAM_LABEL STREQUAL "fast")
+    target_compile_options(test_${program} PRIVATE -O1)  # optimising takes longer than it saves
+  else()  # built when asked for; sanitizers see the fast tests only
+    set(time_limit 86400)
     set_target_properties(test_${program} PROPERTIES EXCLUDE_FROM_ALL TRUE)
     add_dependencies(slow_tests test_${program})
     if(IMUNOISE_SANITIZE)
@@ -52,7 +52,7 @@ function(imunoise_test_program program)
       set(name ${program}.${part}of${PROGRAM_SHARDS})
     endif()
     add_test(NAME ${name} COMMAND test_${program})
-    set_tests_properties(${name} PROPERTIES LABELS ${PROGRAM_LABEL} TIMEOUT 900 ENVIRONMENT
+    set_tests_properties(${name} PROPERTIES LABELS ${PROGRAM_LABEL} TIMEOUT ${time_limit} ENVIRONMENT
       "${environment};GTEST_TOTAL_SHARDS=${PROGRAM_SHARDS};GTEST_SHARD_INDEX=${shard};GTEST_OUTPUT=xml:${IMUNOISE_CASES}/${name}.xml;GTEST_BRIEF=1")
   endforeach()
 endfunction()

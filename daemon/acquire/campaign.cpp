@@ -112,7 +112,8 @@ class Run {
       task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
     }
-    if (auto done = make_root(); !done) return hold_up(done.error().message);
+    if (auto done = recording::make_folders(with_.files, campaign_.folder()); !done)
+      return hold_up(done.error().message);
     last_ = task.folder;
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
     follow_clock();
@@ -125,13 +126,6 @@ class Run {
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
     add_news(describe(*note));
-  }
-
-  Result<void> make_root() {
-    std::error_code trouble;
-    std::filesystem::create_directories(campaign_.folder(), trouble);
-    if (!trouble) return {};
-    return fail(fmt::format("{}: cannot be made: {}", campaign_.folder(), trouble.message()));
   }
 
   static std::string describe(const v1::ReplicateNote& note) {

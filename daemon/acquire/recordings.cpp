@@ -43,8 +43,9 @@ struct Listed {
 Result<std::vector<Listed>> list_recordings(const recording::FileSystem& files,
                                             const fs::path& root) {
   std::vector<Listed> out;
-  std::error_code trouble;
-  if (!fs::exists(root, trouble)) return out;
+  const auto there = files.exists(root);
+  if (!there) return tl::make_unexpected(there.error());
+  if (!*there) return out;
   const auto names = files.list(root);
   if (!names) return tl::make_unexpected(names.error());
   for (const std::string& name : *names) {

@@ -74,6 +74,14 @@ class ConfinedFiles final : public recording::FileSystem {
     return out;
   }
 
+  Result<bool> exists(const Path& path) const override {
+    const auto names = list(path.parent_path());
+    if (!names) return tl::unexpected(names.error());
+    const std::string name = path.filename().string();
+    return std::any_of(names->begin(), names->end(),
+                       [&](const std::string& one) { return one == name || one == name + "/"; });
+  }
+
   Result<std::unique_ptr<recording::WritableFile>> create(const Path& path) override {
     return refuse_to_write(path);
   }

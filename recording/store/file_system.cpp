@@ -107,6 +107,13 @@ class PosixFileSystem final : public FileSystem {
     return trouble(path, "cannot be removed", errno);
   }
 
+  Result<bool> exists(const Path& path) const override {
+    struct stat found {};
+    if (::stat(path.c_str(), &found) == 0) return true;
+    if (errno == ENOENT || errno == ENOTDIR) return false;
+    return trouble(path, "cannot be looked at", errno);
+  }
+
   Result<void> make_folder(const Path& path) override {
     if (::mkdir(path.c_str(), 0755) == 0 || errno == EEXIST) return {};
     return trouble(path, "cannot be made", errno);
@@ -160,6 +167,16 @@ Result<void> replace_file(FileSystem& files, const Path& path, std::string_view 
   }
   if (auto done = files.rename(part, path); !done) return done;
   return files.sync_folder(path.parent_path());
+}
+
+Result<void> make_folders(FileSystem& files, const Path& path) {
+  const auto there = files.exists(path);
+  if (!there) return tl::make_unexpected(there.error());
+  if (*there) return {};
+  const Path above = path.has_parent_path() ? path.parent_path() : Path(".");
+  if (auto done = make_folders(files, above); !done) return done;
+  if (auto done = files.make_folder(path); !done) return done;
+  return files.sync_folder(above);
 }
 
 Result<bool> contains(const FileSystem& files, const Path& folder, std::string_view name) {

@@ -51,6 +51,8 @@ class FileSystem {
   }
   /// Names in a folder, sorted; those of folders end in '/'.
   virtual Result<std::vector<std::string>> list(const std::filesystem::path& folder) const = 0;
+  /// Whether there is something of this name. Error: the disk's, which is no answer.
+  virtual Result<bool> exists(const std::filesystem::path& path) const = 0;
   /// Replaces `to` when it exists.
   virtual Result<void> rename(const std::filesystem::path& from,
                               const std::filesystem::path& to) = 0;
@@ -69,6 +71,9 @@ class FileSystem {
 
 /// What read() says of a file that is longer than it may be.
 Error too_large(const std::filesystem::path& path, std::uint64_t limit);
+
+/// Makes the folder and those above it that are missing; their names survive a power cut.
+Result<void> make_folders(FileSystem& files, const std::filesystem::path& path);
 
 /// The disk. One object for the whole process, stateless.
 FileSystem& posix_file_system();

@@ -60,6 +60,11 @@ Result<std::vector<std::string>> WatchedFiles::list(const Path& folder) const {
   return files_.list(folder);
 }
 
+Result<bool> WatchedFiles::exists(const Path& path) const {
+  const Watch watch(*this, "stat", path);
+  return files_.exists(path);
+}
+
 Result<void> WatchedFiles::rename(const Path& from, const Path& to) {
   const Watch watch(*this, "rename", to);
   return files_.rename(from, to);

@@ -27,6 +27,7 @@ class WatchedFiles final : public FileSystem {
 
   Result<std::unique_ptr<WritableFile>> create(const Path& path) override;
   Result<std::vector<std::string>> list(const Path& folder) const override;
+  Result<bool> exists(const Path& path) const override;
   Result<void> rename(const Path& from, const Path& to) override;
   Result<void> remove(const Path& path) override;
   Result<void> make_folder(const Path& path) override;

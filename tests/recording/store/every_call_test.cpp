@@ -188,7 +188,7 @@ void expect_true(FakeDisk& disk, const Outcome& outcome, bool lossless) {
 
 // Calls that change nothing.
 bool answers_only(Call kind) {
-  return kind == Call::kRead || kind == Call::kList || kind == Call::kLock;
+  return kind == Call::kRead || kind == Call::kList || kind == Call::kExists || kind == Call::kLock;
 }
 
 TEST(EveryCall, FailsOnceAndCostsNothing) {

@@ -183,6 +183,14 @@ Result<std::vector<std::string>> FakeDisk::list(const Path& path) const {
   return out;
 }
 
+Result<bool> FakeDisk::exists(const Path& path) const {
+  const std::lock_guard guard(mutex_);
+  if (fault(Call::kExists)) return trouble(path, kInputOutput);
+  const auto above = folders_.find(path.parent_path());
+  return folders_.contains(path) ||
+         (above != folders_.end() && above->second.live.contains(path.filename()));
+}
+
 Result<void> FakeDisk::rename_file(const Path& from, const Path& to) {
   if (auto good = begin(to); !good) return good;
   const auto folder = parent(from);

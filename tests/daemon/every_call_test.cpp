@@ -1,0 +1,161 @@
+// A whole campaign, from its first folder to the end, while each call of its disk fails once: it
+// comes to its end, and what it says of its recordings is true.
+
+#include <algorithm>
+#include <iostream>
+
+#include "daemon/acquire/campaign.h"
+#include "daemon/acquire/clock.h"
+#include "daemon/acquire/device_recorder.h"
+#include "recording/store/device_folder.h"
+#include "recording/store/manifest.h"
+#include "recording/store/recover.h"
+#include "recording/store/verify.h"
+#include "tests/daemon/whims.h"
+#include "tests/recording/store/fake_disk.h"
+
+namespace imunoise::acquire {
+namespace {
+
+using namespace std::chrono_literals;
+using recording::FakeDisk;
+using Call = FakeDisk::Call;
+
+const std::filesystem::path kRoot = "/bench/here";
+constexpr std::uint32_t kReplicates = 2;
+
+// Whoever waits, for the schedule or after trouble, has waited already.
+class HastyClock : public SystemClock {
+ public:
+  Time now() const override { return SystemClock::now() + skipped_; }
+  std::chrono::nanoseconds since_boot() const override {
+    return SystemClock::since_boot() + skipped_;
+  }
+  bool wait_until(Time time, const std::stop_token& stop) override {
+    skipped_ += std::max<std::chrono::nanoseconds>(time - now(), 0ns);
+    return !stop.stop_requested();
+  }
+
+ private:
+  std::chrono::nanoseconds skipped_{0};
+};
+
+class EveryCallOfACampaign : public testing::Whims {
+ protected:
+  EveryCallOfACampaign() {
+    campaign_.set_name("bench");
+    campaign_.set_folder(kRoot.string());
+    campaign_.set_replicates(kReplicates);
+    campaign_.set_length_s(0.03);
+    campaign_.set_patience_s(5.0);
+    for (const std::string name : {"a", "b"}) {
+      tell(name, "here");
+      v1::CampaignDevice& device = *campaign_.add_devices();
+      device.set_name(name);
+      device.set_driver("whims");
+      v1::CampaignOption& file = *device.add_options();
+      file.set_name("file");
+      file.set_value(word_of(name).string());
+    }
+  }
+
+  // Whether it came to its end by itself.
+  bool run(FakeDisk& disk) const {
+    HastyClock clock;
+    DeviceRecorder recorder(disk, drivers(), {});
+    CampaignSurroundings with{clock, disk, recorder};
+    std::stop_source enough;
+    int told = 0;
+    bool finished = false;
+    with.tell = [&](const v1::CampaignStatus& status) {
+      finished = status.phase() == v1::finished;
+      if (++told > 100) enough.request_stop();
+    };
+    run_campaign(campaign_, RunMode::kOnce, with, enough.get_token());
+    return finished;
+  }
+
+  v1::Campaign campaign_;
+};
+
+std::uint64_t discarded(const v1::StreamCount& count) {
+  std::uint64_t out = 0;
+  for (const v1::RefusalCount& one : count.discarded()) out += one.samples();
+  return out;
+}
+
+// Rows of a stream that are on the disk.
+std::uint64_t rows_there(const v1::VerifyReport& report, std::uint32_t replicate,
+                         const v1::StreamCount& count) {
+  std::uint64_t out = 0;
+  for (const v1::StreamIntegrity& one : report.streams()) {
+    const bool same = one.replicate() == replicate && one.device() == count.device() &&
+                      one.stream() == count.stream();
+    if (same) out += one.stored() + one.in_journal();
+  }
+  return out;
+}
+
+void expect_only_journals_aside(const FakeDisk& disk, const std::filesystem::path& folder) {
+  EXPECT_FALSE(recording::contains(disk, folder, "manifest.json.broken").value());
+  const auto folders = recording::find_device_folders(disk, folder).value();
+  for (const recording::DeviceFolder& where : folders) {
+    const auto names = recording::list_device_files(disk, where);
+    ASSERT_TRUE(names);
+    for (const std::string& name : names->broken)
+      EXPECT_NE(name.find(".journal"), std::string::npos) << where.folder << ": " << name;
+  }
+}
+
+// The number of complete replicates of a recording whose accounts are true.
+std::uint32_t audited(FakeDisk& disk, const std::filesystem::path& folder) {
+  std::uint32_t complete = 0;
+  EXPECT_TRUE(recording::recover_recording(disk, folder, recording::Recovery::kUnsettled));
+  const auto report = recording::verify_recording(disk, folder, false);
+  const auto manifest = recording::read_manifest(disk, folder);
+  EXPECT_TRUE(report && manifest && *manifest);
+  if (!report || !manifest || !*manifest) return 0;
+  EXPECT_TRUE(report->sound()) << report->DebugString();
+  for (const v1::ReplicateNote& note : (*manifest)->replicates()) {
+    if (note.state() == v1::complete) {
+      ++complete;
+      EXPECT_EQ(note.streams_size(), 2);
+    }
+    for (const v1::StreamCount& count : note.streams()) {
+      EXPECT_EQ(count.received(), count.stored() + discarded(count) + count.not_written());
+      const std::uint64_t there = rows_there(*report, note.replicate(), count);
+      EXPECT_GE(there, count.stored());
+      if (note.state() == v1::complete) {
+        EXPECT_EQ(there, count.received()) << note.DebugString();
+        EXPECT_GE(there, 2U);
+      }
+    }
+  }
+  expect_only_journals_aside(disk, folder);
+  return complete;
+}
+
+TEST_F(EveryCallOfACampaign, FailsOnceAndTheCampaignTellsTheTruth) {
+  int runs = 0;
+  for (int kind = 0; kind < FakeDisk::kKinds; ++kind) {
+    for (int nth = 1 + kind % IMUNOISE_EVERY_NTH;; nth += IMUNOISE_EVERY_NTH, ++runs) {
+      SCOPED_TRACE("kind " + std::to_string(kind) + ", call " + std::to_string(nth));
+      FakeDisk disk;
+      disk.fail_once(static_cast<Call>(kind), nth);
+      EXPECT_TRUE(run(disk));
+      if (!disk.failed()) break;  // it never comes
+      disk.heal();
+      std::uint32_t complete = 0;
+      const std::vector<std::string> recordings = disk.list(kRoot).value();
+      for (const std::string& name : recordings)
+        complete += audited(disk, kRoot / name.substr(0, name.size() - 1));
+      EXPECT_EQ(complete, kReplicates);
+      if (HasFailure()) return;
+    }
+  }
+  std::cout << runs << " calls failed once\n";
+  EXPECT_GT(runs, 100 / IMUNOISE_EVERY_NTH);
+}
+
+}  // namespace
+}  // namespace imunoise::acquire
