@@ -32,6 +32,7 @@ if(IMUNOISE_SANITIZE)
   target_compile_options(imunoise_flags INTERFACE
     -fsanitize=${IMUNOISE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(imunoise_flags INTERFACE -fsanitize=${IMUNOISE_SANITIZE})
+  target_compile_definitions(imunoise_flags INTERFACE IMUNOISE_SANITIZED)
 endif()
 if(IMUNOISE_SANITIZE MATCHES "address")
   # Eigen allocates in another way where it sees AddressSanitizer; matrices pass between rooms built with

@@ -105,14 +105,14 @@ bool WiredPort::set_baud(std::uint32_t baud) {
 }
 
 std::size_t WiredPort::read(std::span<std::uint8_t> into) {
-  const auto count = sp_nonblocking_read(port_.get(), into.data(), into.size());
+  const int count = sp_nonblocking_read(port_.get(), into.data(), into.size());
   // The library reads nothing from a port that was hung up, for ever; only other calls fail.
   if (count < 0 || (count == 0 && sp_input_waiting(port_.get()) < 0)) fail_as_gone();
   return static_cast<std::size_t>(count);
 }
 
 void WiredPort::write(drivers::Bytes bytes) {
-  const auto count = sp_blocking_write(port_.get(), bytes.data(), bytes.size(), kWriteTimeoutMs);
+  const int count = sp_blocking_write(port_.get(), bytes.data(), bytes.size(), kWriteTimeoutMs);
   if (count < 0) fail_as_gone();
   if (static_cast<std::size_t>(count) < bytes.size()) {
     fail(IMUNOISE_BAD_DEVICE, "takes no bytes; unplug the device and plug it in again");

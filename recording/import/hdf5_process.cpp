@@ -260,6 +260,7 @@ class Hdf5Process : public Hdf5Reader {
 Result<std::unique_ptr<Hdf5Reader>> open_hdf5_apart(const std::filesystem::path& path,
                                                     std::uint64_t bytes,
                                                     std::function<bool()> stopped) {
+  if constexpr (!kHdf5Apart) return Hdf5Source::open(path);
   std::error_code unknown;  // a name such as /dev/fd/3 means nothing to the child
   const std::filesystem::path real = std::filesystem::canonical(path, unknown);
   auto child =
