@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "daemon/acquire/recordings.h"
+#include "recording/store/manifest.h"
+#include "recording/store/recover.h"
 
 namespace imunoise::acquire {
 namespace {
@@ -90,6 +92,7 @@ class Run {
         record(step);
         break;
       case v1::calibrating:
+        if (auto done = close_newest(); !done) return hold_up(done.error().message);
         memory_.calibrated = true;  // what fails is told; the recording is there to try by hand
         call(with_.calibrate, "calibration");
         break;
@@ -126,6 +129,18 @@ class Run {
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
     add_news(describe(*note));
+  }
+
+  // What the last replicate left in journals, because the disk took no chunk, becomes chunks.
+  Result<void> close_newest() {
+    const auto manifest = recording::read_manifest(with_.files, newest_->folder);
+    if (!manifest) return tl::make_unexpected(manifest.error());
+    if (*manifest && (*manifest)->closed()) return {};
+    const auto lock = with_.files.lock(newest_->folder);
+    if (!lock) return tl::make_unexpected(lock.error());
+    const auto done =
+        recording::recover_recording(with_.files, newest_->folder, recording::Recovery::kUnsettled);
+    return done ? Result<void>() : tl::make_unexpected(done.error());
   }
 
   static std::string describe(const v1::ReplicateNote& note) {

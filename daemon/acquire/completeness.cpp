@@ -38,7 +38,8 @@ std::string shortfall(const DeviceCourse& course, std::optional<double> planned_
   }
   if (!planned_s) return "";
   const Fastest fastest = fastest_of(course);
-  const double expected = *planned_s * fastest.rate_hz;
+  const double expected = (*planned_s - course.from_s) * fastest.rate_hz;
+  if (expected < (course.from_s > 0.0 ? kSamples : 1.0)) return "";
   const double tail =
       std::max(std::clamp(kShare * *planned_s, kLeast, kMost), kSamples / fastest.rate_hz);
   const bool to_the_end = course.last_s && *course.last_s >= *planned_s - tail;

@@ -126,7 +126,7 @@ class Replicate {
   void read(recording::Recorder& recorder, OpenDevices& opened) {
     for (std::size_t i = 0; i < opened.devices.size(); ++i) {
       if (opened.devices[i]) {
-        start_reading(recorder, i, std::move(opened.devices[i]));
+        start_reading(recorder, i, std::move(opened.devices[i]), 0.0);
       } else if (plan_.reopening) {
         latecomers_[i] = std::make_unique<Latecomer>(
             [this, i](const std::stop_token& stop) { return open(i, stop); }, *plan_.reopening);
@@ -138,9 +138,9 @@ class Replicate {
   }
 
   // Reads device i of the plan, which is described as the last of the recorded ones that have no
-  // reader yet.
+  // reader yet. `from_s`: so long after the beginning.
   void start_reading(recording::Recorder& recorder, std::size_t i,
-                     std::unique_ptr<drivers::Device> device) {
+                     std::unique_ptr<drivers::Device> device, double from_s) {
     const std::size_t index = readers_.size();
     ReaderPlan one{index,
                    recorded_.devices[index],
@@ -155,6 +155,7 @@ class Replicate {
       one.reopening = *plan_.reopening;
     }
     readers_.push_back(std::make_unique<Reader>(recorder, std::move(one), std::move(device)));
+    from_s_.push_back(from_s);
   }
 
   // Those that have come take part from now on.
@@ -182,7 +183,8 @@ class Replicate {
     }
     recorded_.devices.push_back(std::move(described));
     if (plan_.observer != nullptr) plan_.observer->join(recorded_.devices.back());
-    start_reading(recorder, i, std::move(device));
+    start_reading(recorder, i, std::move(device),
+                  std::chrono::duration<double>(Steady::now() - began_).count());
   }
 
   std::function<void(const recording::Block&)> observer_of(std::size_t device) const {
@@ -279,8 +281,8 @@ class Replicate {
   std::string shortfall(std::size_t i, const recording::RecorderState& state,
                         bool to_the_end) const {
     const Reader& reader = *readers_[i];
-    DeviceCourse course{
-        recorded_.devices[i], state.counts[i], {}, reader.discarded(), reader.disk_failure()};
+    DeviceCourse course{recorded_.devices[i], state.counts[i],       {},
+                        reader.discarded(),   reader.disk_failure(), from_s_[i]};
     if (reader.last()) {
       course.last_s = std::chrono::duration<double>(*reader.last() - began_).count();
     }
@@ -321,6 +323,7 @@ class Replicate {
   recording::RecordingPlan recorded_;
   v1::ReplicateNote note_;  // what the manifest will say
   std::vector<std::unique_ptr<Reader>> readers_;
+  std::vector<double> from_s_;  // of each: when it began, s from the replicate's beginning
   std::string interruption_;
   Steady::time_point began_;  // when all readers had
   std::optional<LeapWatch> leaps_;

@@ -116,13 +116,16 @@ void reload(const Arguments& arguments, const drivers::Drivers& drivers, Supervi
   supervisor.reload(std::move(files));
 }
 
-// A disk that hangs holds up threads that nothing can end. They are waited for, but not for ever.
-void end_if_late(std::chrono::steady_clock::time_point stopping, const std::string& hanging,
+// A disk that hangs holds up threads that nothing can end. They are waited for, but not for ever; a
+// disk that is only slow comes to its end.
+void end_if_late(std::chrono::steady_clock::time_point stopping, const Supervisor& supervisor,
                  Log& log) {
   constexpr std::chrono::seconds kPatience{10};
   constexpr int kNotClosed = 3;
   if (std::chrono::steady_clock::now() - stopping < kPatience) return;
-  log.error(hanging);
+  const auto hanging = supervisor.hanging(kPatience);
+  if (!hanging) return;
+  log.error(*hanging);
   log.error(
       "ends without closing its recordings; samples that were acknowledged are in the "
       "journals, and the next start recovers them");
@@ -157,9 +160,8 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
       stays = false;
       if (!stopping) stopping = std::chrono::steady_clock::now();
     }
-    const auto hanging = supervisor.hanging();
-    if (hanging && stopping) end_if_late(*stopping, *hanging, log);
-    if (!hanging) manager.alive();  // systemd may start us again
+    if (stopping) end_if_late(*stopping, supervisor, log);
+    if (!supervisor.hanging()) manager.alive();  // else systemd may start us again
     supervisor.settle();
     supervisor.tell_warnings();
     memory.keep_flat();

@@ -282,9 +282,10 @@ std::map<std::string, live::Trouble> Supervisor::troubles() const {
   return out;
 }
 
-std::optional<std::string> Supervisor::hanging() const {
+std::optional<std::string> Supervisor::hanging(std::chrono::seconds at_least) const {
+  const auto before = live::Steady::now() - at_least;
   for (const auto& [name, trouble] : troubles()) {
-    if (trouble.hangs) return name + ": " + live::sentence(trouble);
+    if (trouble.hangs && trouble.since <= before) return name + ": " + live::sentence(trouble);
   }
   return std::nullopt;
 }

@@ -51,7 +51,7 @@ class Supervisor : public service::Bench {
   void tell_warnings();
   /// What hangs, so that a campaign goes no further: its name, what, where and since when. Nothing
   /// while all go on.
-  std::optional<std::string> hanging() const;
+  std::optional<std::string> hanging(std::chrono::seconds at_least = live::kHangsAfter) const;
 
   std::vector<service::BenchCampaign> campaigns() const override;
   std::vector<v1::RejectedFile> rejected() const override;

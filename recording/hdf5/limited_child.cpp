@@ -174,7 +174,10 @@ std::string LimitedChild::cause_of_death() {
   return fmt::format("it crashed, signal {}", signal);
 }
 
-void limit_memory(std::uint64_t bytes) { set_soft_limit(RLIMIT_AS, memory_now() + bytes); }
+void limit_memory(std::uint64_t bytes) {
+  const std::uint64_t now = memory_now();
+  if (now > 0) set_soft_limit(RLIMIT_AS, now + bytes);  // without /proc nobody knows
+}
 
 void limit_computing(std::uint64_t seconds) {
   rusage used = {};

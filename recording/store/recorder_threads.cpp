@@ -234,7 +234,8 @@ void Recorder::Threads::run_chunks() {
     last = journals_done_;
     for (int attempts = last ? kLastAttempts : 1; attempts > 0; --attempts) {
       failed_ = 0;
-      for (Line& line : lines_) seal_line(line, guard);
+      // By number: a device may join while the lock is open.
+      for (std::size_t i = 0; i < lines_.size(); ++i) seal_line(lines_[i], guard);
       if (failed_ == 0) break;
     }
   }

@@ -157,5 +157,34 @@ TEST_F(EveryCallOfACampaign, FailsOnceAndTheCampaignTellsTheTruth) {
   EXPECT_GT(runs, 100 / IMUNOISE_EVERY_NTH);
 }
 
+// Longer than the recorder tries at its close: what is left in journals becomes chunks before the
+// campaign goes on.
+TEST_F(EveryCallOfACampaign, FailsForAWhileAndTheRecordingIsClosed) {
+  constexpr int kWhile = 6;
+  int runs = 0;
+  for (const Call kind : {Call::kCreate, Call::kSync, Call::kRename}) {
+    for (int nth = 1;; nth += IMUNOISE_EVERY_NTH / 4 + 1, ++runs) {
+      SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)) + ", call " +
+                   std::to_string(nth));
+      FakeDisk disk;
+      for (int k = 0; k < kWhile; ++k) disk.fail_once(kind, nth + k);
+      EXPECT_TRUE(run(disk));
+      if (!disk.failed()) break;
+      disk.heal();
+      std::uint32_t complete = 0;
+      const std::vector<std::string> recordings = disk.list(kRoot).value();
+      for (const std::string& name : recordings) {
+        const std::filesystem::path folder = kRoot / name.substr(0, name.size() - 1);
+        EXPECT_TRUE(recording::read_manifest(disk, folder).value().value().closed());
+        complete += audited(disk, folder);
+      }
+      EXPECT_EQ(complete, kReplicates);
+      if (HasFailure()) return;
+    }
+  }
+  std::cout << runs << " times calls failed for a while\n";
+  EXPECT_GT(runs, 5);
+}
+
 }  // namespace
 }  // namespace imunoise::acquire

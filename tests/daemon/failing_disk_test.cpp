@@ -202,6 +202,13 @@ TEST(Shortfall, IsOfTheEndOrOfTheCount) {
   course.last_s = 460.0;
   counts[0].stored = 40;
   EXPECT_EQ(shortfall(course, 600.0), "") << "20 periods";
+  counts[0].stored = 0;
+  course.last_s.reset();
+  EXPECT_NE(shortfall(course, 600.0), "");
+  course.from_s = 500.0;
+  EXPECT_EQ(shortfall(course, 600.0), "") << "it joined too late for 20 samples";
+  course.from_s = 0.0;
+  EXPECT_EQ(shortfall(course, 5.0), "") << "its period is longer";
 }
 
 // A pipe that nobody reads is as slow as a disk can be.
