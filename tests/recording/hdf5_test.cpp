@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "recording/hdf5/attributes.h"
+#include "recording/import/hdf5_process.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {
@@ -214,8 +215,10 @@ TEST_F(Hdf5, ManyNamesForOneDatasetFillNoMemory) {
                 0);
     }
   }
-  expect_parts(error_of(path("a.h5"), at_rate(1)),
-               {"a.h5: its datasets claim more numbers than the file can hold", "--channel"});
+  if (kHdf5Apart) {  // which bounds them together
+    expect_parts(error_of(path("a.h5"), at_rate(1)),
+                 {"a.h5: its datasets claim more numbers than the file can hold", "--channel"});
+  }
   ImportOptions one = at_rate(1);
   one.channels = {"y7"};
   EXPECT_EQ(error_of(path("a.h5"), one), "no error");
