@@ -75,7 +75,7 @@ tell_cases() {
 
 # slowest COUNT: the lines "SECONDS NAME" that take longest.
 slowest() {
-  sort -rn | head -n "$1" | awk '{seconds = $1; $1 = ""; printf "  %7.1f s %s\n", seconds, $0}'
+  sort -rn | awk -v count="$1" 'NR <= count {seconds = $1; $1 = ""; printf "  %7.1f s %s\n", seconds, $0}'
 }
 
 presets=(dev)
