@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "core/process/exponential_shape.h"
-#include "core/process/recursions.h"
 
 namespace imunoise {
 namespace {
@@ -89,14 +88,9 @@ std::vector<std::vector<double>> Ar1::scan(const Scales& scales) const {
   return out;
 }
 
-MarkovRecursion::MarkovRecursion(const Ar1& process, RandomStream& rng)
-    : phi_(process.phi),
-      innovation_(std::sqrt(process.sigma2)),
-      state_(innovation_ / std::sqrt((1.0 - phi_) * (1.0 + phi_)) * rng.normal()) {}
-
-void Ar1::add_samples(RandomStream& rng, std::span<double> out) const {
-  MarkovRecursion recursion(*this, rng);
-  for (double& x : out) x += recursion.next(rng);
+Ar1::Recursion Ar1::recursion(RandomStream& rng) const {
+  const double innovation = std::sqrt(sigma2);
+  return {phi, innovation, innovation / std::sqrt((1.0 - phi) * (1.0 + phi)) * rng.normal()};
 }
 
 }  // namespace imunoise

@@ -28,7 +28,18 @@ struct Ar1 {
   SumCovariance sum_covariance() const;
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales& scales) const;
-  void add_samples(RandomStream& rng, std::span<double> out) const;
+
+  struct Recursion {
+    double phi;
+    double innovation;  ///< its standard deviation
+    double state;
+    double next(RandomStream& rng) {
+      const double now = state;
+      state = phi * state + innovation * rng.normal();
+      return now;
+    }
+  };
+  Recursion recursion(RandomStream& rng) const;
 };
 
 /// Correlation times, in samples, spread over what `scales` can show: where to look for Markov

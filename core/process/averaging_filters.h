@@ -38,8 +38,8 @@ struct AveragingFilter {
     return {{Coefficient::kRandomWalk, std::sqrt(sigma2 / rate.value)}};
   }
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
-  void add_samples(RandomStream& rng, std::span<double> out) const {
-    filter().add_samples(std::sqrt(sigma2), rng, out);
+  FiniteMemory::Recursion recursion(RandomStream& rng) const {
+    return filter().recursion(std::sqrt(sigma2), rng);
   }
 };
 

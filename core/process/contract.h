@@ -52,9 +52,16 @@ struct DerivedQuantity {
 /// Half-widths m of the scales, as numbers ≥ 1.
 using HalfWidths = Eigen::Ref<const Eigen::ArrayXd>;
 
+/// What a process carries from one sample to the next: next() gives the next sample of one
+/// realisation.
+template <class R>
+concept NoiseRecursion = std::movable<R> && requires(R r, RandomStream& rng) {
+  { r.next(rng) } -> std::same_as<double>;
+};
+
 template <class P>
 concept NoiseProcess = std::regular<P> &&
-    requires(P p, const P c, HalfWidths m, RandomStream& rng, std::span<double> out) {
+    requires(P p, const P c, HalfWidths m, RandomStream& rng) {
   { P::kInfo } -> std::convertible_to<ProcessInfo>;
   { c.parameters() } -> std::same_as<std::vector<ParameterInfo>>;  ///< the power first
   { c.values() } -> std::same_as<std::vector<double>>;             ///< in the same order
@@ -67,7 +74,7 @@ concept NoiseProcess = std::regular<P> &&
   {
     c.scan(Scales{})
     } -> std::same_as<std::vector<std::vector<double>>>;  ///< where to look for the shape
-  c.add_samples(rng, out);  ///< adds one realisation, from its stationary start
+  { c.recursion(rng) } -> NoiseRecursion;  ///< one realisation, from its stationary start
 };
 
 /// For processes without shape parameters.

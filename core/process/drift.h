@@ -28,10 +28,13 @@ struct Drift {
     return {{Coefficient::kRamp, std::sqrt(omega2) * rate.value}};
   }
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
-  void add_samples(RandomStream&, std::span<double> out) const {
-    const double omega = std::sqrt(omega2);
-    for (std::size_t t = 0; t < out.size(); ++t) out[t] += omega * static_cast<double>(t);
-  }
+
+  struct Recursion {
+    double omega;
+    double index = 0.0;
+    double next(RandomStream&) { return omega * index++; }
+  };
+  Recursion recursion(RandomStream&) const { return {std::sqrt(omega2)}; }
 };
 
 }  // namespace imunoise

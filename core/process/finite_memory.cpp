@@ -5,8 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/process/recursions.h"
-
 namespace imunoise {
 namespace {
 
@@ -66,27 +64,22 @@ SumCovariance FiniteMemory::sum_covariance() const {
   return out;
 }
 
-TapsRecursion::TapsRecursion(std::vector<double> taps, double sigma, RandomStream& rng)
+FiniteMemory::Recursion::Recursion(std::vector<double> taps, double sigma, RandomStream& rng)
     : taps_(std::move(taps)), sigma_(sigma), inputs_(2 * taps_.size()) {
   for (std::size_t i = 1; i < taps_.size(); ++i) take(sigma_ * rng.normal());
 }
 
-void TapsRecursion::take(double input) {
+void FiniteMemory::Recursion::take(double input) {
   inputs_[end_] = inputs_[end_ + taps_.size()] = input;
   end_ = (end_ + 1) % taps_.size();
 }
 
-double TapsRecursion::next(RandomStream& rng) {
+double FiniteMemory::Recursion::next(RandomStream& rng) {
   take(sigma_ * rng.normal());
   const std::size_t newest = end_ + taps_.size() - 1;
   double out = 0.0;
   for (std::size_t i = 0; i < taps_.size(); ++i) out += taps_[i] * inputs_[newest - i];
   return out;
-}
-
-void FiniteMemory::add_samples(double sigma, RandomStream& rng, std::span<double> out) const {
-  TapsRecursion recursion(taps_, sigma, rng);
-  for (double& x : out) x += recursion.next(rng);
 }
 
 }  // namespace imunoise

@@ -19,8 +19,23 @@ class FiniteMemory {
   Eigen::ArrayXd slope(HalfWidths m, std::size_t k) const;
   double spectrum(double f) const;
   SumCovariance sum_covariance() const;
-  /// Adds sigma times one realisation.
-  void add_samples(double sigma, RandomStream& rng, std::span<double> out) const;
+
+  class Recursion {
+   public:
+    double next(RandomStream& rng);
+
+   private:
+    friend FiniteMemory;
+    Recursion(std::vector<double> taps, double sigma, RandomStream& rng);
+    void take(double input);
+
+    std::vector<double> taps_;
+    double sigma_;
+    std::vector<double> inputs_;  // twice over, so that the last ones always lie side by side
+    std::size_t end_ = 0;         // behind the newest of the first half
+  };
+  /// One realisation, times sigma.
+  Recursion recursion(double sigma, RandomStream& rng) const { return {taps_, sigma, rng}; }
 
  private:
   std::vector<double> taps_;

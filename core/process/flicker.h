@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/process/contract.h"
+#include "core/process/flicker_recursion.h"
 
 namespace imunoise {
 
@@ -26,6 +27,8 @@ struct Flicker {
   SumCovariance sum_covariance() const { return {.flicker = b2}; }
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
+  FlickerRecursion recursion(RandomStream& rng) const { return {b2, rng}; }
+  /// Adds one realisation of a length that is known, exactly.
   void add_samples(RandomStream& rng, std::span<double> out) const;
 };
 

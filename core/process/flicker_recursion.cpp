@@ -14,8 +14,7 @@ constexpr int kLongest = 34;
 
 }  // namespace
 
-FlickerRecursion::FlickerRecursion(const Flicker& process, RandomStream& rng)
-    : sigma_(std::sqrt(process.b2)) {
+FlickerRecursion::FlickerRecursion(double b2, RandomStream& rng) : sigma_(std::sqrt(b2)) {
   constexpr Eigen::Index kCount = kLongest - kShortest + 1;
   Eigen::ArrayXd loss(kCount);  // 1 - x, which is all that is left of x where memory is long
   for (Eigen::Index i = 0; i < kCount; ++i) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/process/flicker.h"
+#include "core/support/random.h"
 
 namespace imunoise {
 
@@ -13,7 +13,7 @@ namespace imunoise {
 /// stationary.
 class FlickerRecursion {
  public:
-  FlickerRecursion(const Flicker& process, RandomStream& rng);
+  FlickerRecursion(double b2, RandomStream& rng);
   double next(RandomStream& rng);
 
   /// h_0 .. h_(n-1) of this bank.

@@ -52,9 +52,7 @@ struct GaussMarkov {
     for (const double time : scanned_correlation_times(scales)) out.push_back({time / rate.value});
     return out;
   }
-  void add_samples(RandomStream& rng, std::span<double> out) const {
-    discrete().add_samples(rng, out);
-  }
+  Ar1::Recursion recursion(RandomStream& rng) const { return discrete().recursion(rng); }
 };
 
 }  // namespace imunoise

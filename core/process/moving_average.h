@@ -76,8 +76,8 @@ struct MovingAverage {
     }
     return out;
   }
-  void add_samples(RandomStream& rng, std::span<double> out) const {
-    filter().add_samples(std::sqrt(sigma2), rng, out);
+  FiniteMemory::Recursion recursion(RandomStream& rng) const {
+    return filter().recursion(std::sqrt(sigma2), rng);
   }
 };
 

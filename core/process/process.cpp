@@ -56,7 +56,16 @@ std::vector<std::vector<double>> scan(const Process& process, const Scales& scal
   return std::visit([&](const auto& p) { return p.scan(scales); }, process);
 }
 void add_samples(const Process& process, RandomStream& rng, std::span<double> out) {
-  std::visit([&](const auto& p) { p.add_samples(rng, out); }, process);
+  std::visit(
+      [&](const auto& p) {
+        if constexpr (requires { p.add_samples(rng, out); }) {
+          p.add_samples(rng, out);
+        } else {
+          auto recursion = p.recursion(rng);
+          for (double& x : out) x += recursion.next(rng);
+        }
+      },
+      process);
 }
 
 int structure(const Process& process) {

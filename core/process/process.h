@@ -39,6 +39,8 @@ Eigen::ArrayXd spectrum(const Process& process, const Eigen::ArrayXd& f);
 SumCovariance sum_covariance(const Process& process);
 std::vector<DerivedQuantity> derived(const Process& process, Hertz rate);
 std::vector<std::vector<double>> scan(const Process& process, const Scales& scales);
+/// Adds one realisation, from its stationary start. A process whose add_samples() draws for a known
+/// length has that used; all others go sample by sample.
 void add_samples(const Process& process, RandomStream& rng, std::span<double> out);
 
 /// The whole number in NAME(n); 0 for processes that have none.

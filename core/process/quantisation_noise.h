@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/process/contract.h"
 
@@ -32,14 +33,18 @@ struct QuantisationNoise {
     return {{Coefficient::kQuantisation, std::sqrt(q2) / rate.value}};
   }
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
-  void add_samples(RandomStream& rng, std::span<double> out) const {
-    const double sigma = std::sqrt(q2);
-    double before = sigma * rng.normal();
-    for (double& x : out) {
+
+  struct Recursion {
+    double sigma;
+    double before;
+    double next(RandomStream& rng) {
       const double now = sigma * rng.normal();
-      x += now - before;
-      before = now;
+      return now - std::exchange(before, now);
     }
+  };
+  Recursion recursion(RandomStream& rng) const {
+    const double sigma = std::sqrt(q2);
+    return {sigma, sigma * rng.normal()};
   }
 };
 

@@ -34,11 +34,13 @@ struct RandomWalk {
     return {{Coefficient::kRateRandomWalk, std::sqrt(gamma2 * rate.value)}};
   }
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
-  void add_samples(RandomStream& rng, std::span<double> out) const {
-    const double gamma = std::sqrt(gamma2);
-    double walk = 0.0;
-    for (double& x : out) x += walk += gamma * rng.normal();
-  }
+
+  struct Recursion {
+    double gamma;
+    double level = 0.0;
+    double next(RandomStream& rng) { return level += gamma * rng.normal(); }
+  };
+  Recursion recursion(RandomStream&) const { return {std::sqrt(gamma2)}; }
 };
 
 }  // namespace imunoise

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/process/exponential_shape.h"
-#include "core/process/recursions.h"
 
 namespace imunoise {
 namespace {
@@ -96,22 +95,10 @@ std::vector<std::vector<double>> Resonance::scan(const Scales& scales) const {
   return out;
 }
 
-ResonanceRecursion::ResonanceRecursion(const Resonance& process, RandomStream& rng)
-    : a_(2.0 * process.r * std::cos(process.omega)),
-      b_(-process.r * process.r),
-      innovation_(std::sqrt(process.sigma2)) {
-  const Complex c = process.sigma2 * Amplitude(process.r, process.omega).value;
-  const double variance = c.real();
-  const double covariance = (c * std::polar(process.r, process.omega)).real();
-  older_ = std::sqrt(variance) * rng.normal();
-  // A process without power has no past.
-  const double along = variance > 0.0 ? covariance / variance : 0.0;
-  newer_ = along * older_ + std::sqrt(variance - along * covariance) * rng.normal();
-}
-
-void Resonance::add_samples(RandomStream& rng, std::span<double> out) const {
-  ResonanceRecursion recursion(*this, rng);
-  for (double& x : out) x += recursion.next(rng);
+SecondOrderRecursion Resonance::recursion(RandomStream& rng) const {
+  const Complex c = sigma2 * Amplitude(r, omega).value;
+  return {2.0 * r * std::cos(omega),         -r * r, std::sqrt(sigma2), c.real(),
+          (c * std::polar(r, omega)).real(), rng};
 }
 
 }  // namespace imunoise

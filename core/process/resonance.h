@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/process/contract.h"
+#include "core/process/second_order_recursion.h"
 
 namespace imunoise {
 
@@ -30,7 +31,7 @@ struct Resonance {
   SumCovariance sum_covariance() const;
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales& scales) const;
-  void add_samples(RandomStream& rng, std::span<double> out) const;
+  SecondOrderRecursion recursion(RandomStream& rng) const;
 };
 
 }  // namespace imunoise

@@ -22,6 +22,8 @@ class Sampler {
 
  private:
   class State;
+  template <NoiseProcess P>
+  class StateOf;
   std::unique_ptr<State> state_;
 };
 

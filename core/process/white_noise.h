@@ -27,10 +27,12 @@ struct WhiteNoise {
     return {{Coefficient::kRandomWalk, std::sqrt(sigma2 / rate.value)}};
   }
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }
-  void add_samples(RandomStream& rng, std::span<double> out) const {
-    const double sigma = std::sqrt(sigma2);
-    for (double& x : out) x += sigma * rng.normal();
-  }
+
+  struct Recursion {
+    double sigma;
+    double next(RandomStream& rng) const { return sigma * rng.normal(); }
+  };
+  Recursion recursion(RandomStream&) const { return {std::sqrt(sigma2)}; }
 };
 
 }  // namespace imunoise

@@ -6,33 +6,13 @@
 #include <numbers>
 
 #include "core/process/process.h"
+#include "core/process/sampler.h"
 #include "core/wavelet/moment_covariance.h"
 #include "core/wavelet/wavelet_variance.h"
+#include "tests/core/process/process_examples.h"
 
 namespace imunoise {
 namespace {
-
-std::vector<Process> examples() {
-  return {WhiteNoise{2.0},
-          QuantisationNoise{0.3},
-          RandomWalk{0.01},
-          Drift{1e-4},
-          Ar1{1.0, 0.2},
-          Ar1{1.0, 0.9},
-          Ar1{0.5, 0.999},
-          Ar1{1.0, -0.7},
-          Ar1{1.0, -0.99},
-          GaussMarkov{2.0, 0.5, Hertz{100}},
-          GaussMarkov{2.0, 0.01, Hertz{100}},
-          Resonance{1.0, 0.9, 1.2},
-          Resonance{1.0, 0.99, 0.05},
-          Resonance{1.0, 0.5, 3.0},
-          MovingAverage{1.0, {0.5}},
-          MovingAverage{2.0, {0.7, -0.2, 0.1}},
-          MovingAverageFilter{1.0, 5},
-          BartlettFilter{1.0, 4},
-          Flicker{0.8}};
-}
 
 std::string print(const Process& process) {
   std::string out(info(process).name);
@@ -46,7 +26,7 @@ bool deterministic(const Process& process) { return std::holds_alternative<Drift
 
 TEST(ProcessLaws, TheListIsComplete) {
   for (const Process& known : known_processes()) {
-    const auto all = examples();
+    const auto all = process_examples();
     EXPECT_TRUE(std::any_of(all.begin(), all.end(),
                             [&](const Process& p) { return p.index() == known.index(); }))
         << info(known).name << " has no example: every law below skips it";
@@ -54,7 +34,7 @@ TEST(ProcessLaws, TheListIsComplete) {
 }
 
 TEST(ProcessLaws, JacobianIsTheDerivative) {
-  for (const Process& process : examples()) {
+  for (const Process& process : process_examples()) {
     const Eigen::ArrayXXd slope = jacobian(process, kWidths);
     const std::vector<double> at = values(process);
     ASSERT_EQ(slope.cols(), static_cast<Eigen::Index>(at.size()));
@@ -84,7 +64,7 @@ TEST(ProcessLaws, JacobianIsTheDerivative) {
 
 // ν(m) = ∫ |H|² S df, |H(f)|² = sin⁴(πfm) / (m² sin²(πf)).
 TEST(ProcessLaws, VarianceIsTheSpectrumSeenThroughTheWavelet) {
-  for (const Process& process : examples()) {
+  for (const Process& process : process_examples()) {
     if (deterministic(process)) continue;
     for (const double m : {1.0, 3.0, 16.0}) {
       const int steps = 400'000;
@@ -106,7 +86,7 @@ TEST(ProcessLaws, VarianceIsTheSpectrumSeenThroughTheWavelet) {
 // through the covariance of moments of the shortest signal, where V = 2ν² exactly (one
 // coefficient).
 TEST(ProcessLaws, SumCovarianceAgreesWithTheVariance) {
-  for (const Process& process : examples()) {
+  for (const Process& process : process_examples()) {
     for (const std::int64_t m : {1, 2, 5, 16, 100}) {
       const Eigen::MatrixXd v =
           moment_covariance(sum_covariance(process), Scales({m}), static_cast<std::size_t>(2 * m));
@@ -123,7 +103,7 @@ TEST(ProcessLaws, SimulationFollowsTheVariance) {
   constexpr int kRuns = 64;
   constexpr std::size_t kSamples = 4096;
   const Scales scales({1, 2, 5, 16, 60});
-  for (const Process& process : examples()) {
+  for (const Process& process : process_examples()) {
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(scales.size()));
     for (std::uint32_t run = 0; run < kRuns; ++run) {
       RandomStream rng(20261121, {run});
@@ -137,6 +117,22 @@ TEST(ProcessLaws, SimulationFollowsTheVariance) {
       const double standard_error = std::sqrt(v(i, i) / kRuns);
       EXPECT_NEAR(sum(i) / kRuns, expected(i), 5.0 * standard_error + 1e-9 * expected(i))
           << print(process) << ", m = " << scales[static_cast<std::size_t>(i)] << ", seed 20261121";
+    }
+  }
+}
+
+// The same stream, sample by sample and all at once. Flicker noise is drawn for a known length, by
+// another way; model_sampler_test.cpp looks at its recursion.
+TEST(ProcessLaws, SampleBySampleIsTheSameNoise) {
+  for (const Process& process : process_examples()) {
+    if (std::holds_alternative<Flicker>(process)) continue;
+    RandomStream rng(42);
+    std::vector<double> at_once(500, 0.0);
+    add_samples(process, rng, at_once);
+    Sampler sampler(process, RandomStream(42));
+    for (std::size_t t = 0; t < at_once.size(); ++t) {
+      ASSERT_NEAR(sampler.next(), at_once[t], 1e-12 * (1.0 + std::abs(at_once[t])))
+          << print(process) << ", t = " << t;
     }
   }
 }

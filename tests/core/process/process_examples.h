@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "core/process/process.h"
+
+namespace imunoise {
+
+/// Every noise process, with several parameter values each: what the laws are tried on.
+inline std::vector<Process> process_examples() {
+  return {WhiteNoise{2.0},
+          QuantisationNoise{0.3},
+          RandomWalk{0.01},
+          Drift{1e-4},
+          Ar1{1.0, 0.2},
+          Ar1{1.0, 0.9},
+          Ar1{0.5, 0.999},
+          Ar1{1.0, -0.7},
+          Ar1{1.0, -0.99},
+          GaussMarkov{2.0, 0.5, Hertz{100}},
+          GaussMarkov{2.0, 0.01, Hertz{100}},
+          Resonance{1.0, 0.9, 1.2},
+          Resonance{1.0, 0.99, 0.05},
+          Resonance{1.0, 0.5, 3.0},
+          MovingAverage{1.0, {0.5}},
+          MovingAverage{2.0, {0.7, -0.2, 0.1}},
+          MovingAverageFilter{1.0, 5},
+          BartlettFilter{1.0, 4},
+          Flicker{0.8}};
+}
+
+}  // namespace imunoise
