@@ -11,8 +11,8 @@
 #include "cli/output.h"
 #include "daemon/app/status_text.h"
 #include "imunoise/v1/service.pb.h"
-#include "study/report/number.h"
-#include "study/report/text.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::cli {
 namespace {

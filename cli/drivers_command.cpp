@@ -4,7 +4,7 @@
 #include "cli/output.h"
 #include "daemon/service/driver_report.h"
 #include "study/report/json.h"
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::cli {
 namespace {

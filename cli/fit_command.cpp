@@ -4,7 +4,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
-#include "study/report/html.h"
+#include "study/report/html/fit_page.h"
 #include "study/report/json.h"
 #include "study/report/svg_plot.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/support/result.h"
-#include "study/report/terminal.h"
+#include "study/report/terminal/fit_text.h"
 
 namespace imunoise::cli {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "cli/output.h"
-#include "study/report/number.h"
+#include "study/words/number.h"
 
 namespace imunoise::cli {
 

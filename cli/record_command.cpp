@@ -12,8 +12,8 @@
 #include "drivers/host/load.h"
 #include "recording/store/layout.h"
 #include "study/report/json.h"
-#include "study/report/number.h"
-#include "study/report/text.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "cli/output.h"
-#include "study/report/batch_documents.h"
-#include "study/report/catalogue_documents.h"
-#include "study/report/document.h"
-#include "study/report/inference_documents.h"
+#include "study/report/documents/batch_documents.h"
+#include "study/report/documents/catalogue_documents.h"
+#include "study/report/documents/document.h"
+#include "study/report/documents/inference_documents.h"
 #include "study/report/json.h"
 
 namespace imunoise::cli {

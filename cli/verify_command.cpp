@@ -4,8 +4,8 @@
 #include "cli/output.h"
 #include "recording/store/verify.h"
 #include "study/report/json.h"
-#include "study/report/number.h"
-#include "study/report/text.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "cli/client/event_reader.h"
 #include "imunoise/v1/service.pb.h"
 #include "study/report/json.h"
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::cli {
 namespace {

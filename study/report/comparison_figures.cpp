@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/report/number.h"
 #include "study/report/svg_plot.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

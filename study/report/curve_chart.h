@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "study/report/document.h"
+#include "study/report/documents/document.h"
 #include "study/report/svg_plot.h"
 
 namespace imunoise::report {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "imunoise/v1/faults.pb.h"
-#include "study/report/document.h"
+#include "study/report/documents/document.h"
 
 namespace imunoise::report {
 

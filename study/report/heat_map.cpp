@@ -8,7 +8,7 @@
 #include "study/report/budget_layout.h"
 #include "study/report/svg_plot.h"
 #include "study/report/svg_writer.h"
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "imunoise/v1/catalogue.pb.h"
-#include "study/report/document.h"
+#include "study/report/documents/document.h"
 
 namespace imunoise::report {
 

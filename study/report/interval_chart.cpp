@@ -5,10 +5,10 @@
 
 #include "study/report/axis.h"
 #include "study/report/budget_layout.h"
-#include "study/report/number.h"
 #include "study/report/svg_plot.h"
 #include "study/report/svg_writer.h"
-#include "study/report/text.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/report/document.h"
+#include "study/report/documents/document.h"
 
 namespace imunoise::report {
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

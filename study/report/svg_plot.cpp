@@ -8,11 +8,11 @@
 #include "study/report/assets.h"
 #include "study/report/budget_layout.h"
 #include "study/report/label_layout.h"
-#include "study/report/number.h"
 #include "study/report/svg_axes.h"
 #include "study/report/svg_residual.h"
-#include "study/report/text.h"
 #include "study/report/verdict.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

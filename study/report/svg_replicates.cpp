@@ -5,10 +5,10 @@
 
 #include "study/report/budget_layout.h"
 #include "study/report/heat_map.h"
-#include "study/report/number.h"
 #include "study/report/svg_axes.h"
 #include "study/report/svg_plot.h"
-#include "study/report/text.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "study/report/number.h"
 #include "study/report/svg_axes.h"
 #include "study/report/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "study/report/axis.h"
-#include "study/report/number.h"
-#include "study/report/terminal_table.h"
-#include "study/report/text.h"
+#include "study/report/terminal/table.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "study/report/number.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

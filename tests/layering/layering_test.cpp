@@ -117,7 +117,7 @@ TEST(LayeringRules, AcceptWhatTheTableAllows) {
            {"recording/chunk.cpp", "core/wavelet/scales.h"},
            {"recording/chunk.cpp", "<hdf5.h>"},
            {"recording/manifest.cpp", "imunoise/v1/noise.pb.h"},
-           {"study/report/html.cpp", "imunoise/v1/noise.pb.h"},
+           {"study/report/html/fit_page.cpp", "imunoise/v1/noise.pb.h"},
            {"study/study.cpp", "recording/chunk.h"},
            {"drivers/adis/device.cpp", "core/signal/signal.h"},
            {"drivers/transport/libusb_device.cpp", "<libusb.h>"},

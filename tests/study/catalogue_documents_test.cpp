@@ -1,11 +1,11 @@
 // The documents of calibration and catalogue, on the page and in the terminal.
 
-#include "study/report/catalogue_documents.h"
+#include "study/report/documents/catalogue_documents.h"
 
 #include <gtest/gtest.h>
 
 #include "study/report/history_chart.h"
-#include "study/report/text.h"
+#include "study/words/text.h"
 #include "tests/study/markup_check.h"
 
 namespace imunoise::report {

@@ -1,13 +1,13 @@
 // The documents of the commands of analysis, on the page and in the terminal.
 
-#include "study/report/inference_documents.h"
+#include "study/report/documents/inference_documents.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <sstream>
 
-#include "study/report/text.h"
+#include "study/words/text.h"
 #include "tests/study/markup_check.h"
 
 namespace imunoise::report {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "study/report/html.h"
+#include "study/report/html/fit_page.h"
 #include "study/report/verdict.h"
 #include "tests/study/markup_check.h"
 #include "tests/study/sample_report.h"

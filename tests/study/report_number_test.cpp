@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "study/report/budget_view.h"
-#include "study/report/number.h"
-#include "study/report/text.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "study/report/terminal.h"
+#include "study/report/terminal/fit_text.h"
+#include "study/report/terminal/table.h"
 #include "study/report/terminal_canvas.h"
-#include "study/report/terminal_table.h"
-#include "study/report/text.h"
+#include "study/words/text.h"
 #include "tests/study/sample_report.h"
 
 namespace imunoise::report {

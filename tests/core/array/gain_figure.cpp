@@ -6,9 +6,9 @@
 
 #include "study/report/axis.h"
 #include "study/report/budget_layout.h"
-#include "study/report/number.h"
 #include "study/report/svg_plot.h"
 #include "study/report/svg_writer.h"
+#include "study/words/number.h"
 
 namespace imunoise::testing {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "imunoise/v1/calibration.pb.h"
 #include "imunoise/v1/catalogue.pb.h"
-#include "study/report/document.h"
-#include "study/report/number.h"
+#include "study/report/documents/document.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "study/report/covariate_chart.h"
-#include "study/report/inference_documents.h"
+#include "study/report/documents/inference_documents.h"
 #include "study/report/verdict.h"
 
 namespace imunoise::report {

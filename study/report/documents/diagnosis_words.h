@@ -1,7 +1,7 @@
 #pragma once
 
 #include "imunoise/v1/diagnosis.pb.h"
-#include "study/report/document.h"
+#include "study/report/documents/document.h"
 
 namespace imunoise::report {
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "study/report/catalogue_documents.h"
+#include "study/report/documents/catalogue_documents.h"
 
 namespace imunoise::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/report/array_tables.h"
+#include "study/report/documents/array_tables.h"
 
 namespace imunoise::report {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "imunoise/v1/array.pb.h"
-#include "study/report/document.h"
-#include "study/report/number.h"
+#include "study/report/documents/document.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 

@@ -1,4 +1,4 @@
-#include "study/report/html_tables.h"
+#include "study/report/html/fit_tables.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "study/report/assets.h"
-#include "study/report/number.h"
-#include "study/report/page_frame.h"
-#include "study/report/text.h"
+#include "study/report/html/page_frame.h"
 #include "study/report/verdict.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

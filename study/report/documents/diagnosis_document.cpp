@@ -4,8 +4,8 @@
 
 #include "study/report/comparison_figures.h"
 #include "study/report/diagnosis_figures.h"
-#include "study/report/diagnosis_words.h"
-#include "study/report/inference_documents.h"
+#include "study/report/documents/diagnosis_words.h"
+#include "study/report/documents/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
 

@@ -2,8 +2,8 @@
 
 #include <set>
 
+#include "study/report/documents/inference_documents.h"
 #include "study/report/fault_chart.h"
-#include "study/report/inference_documents.h"
 
 namespace imunoise::report {
 namespace {

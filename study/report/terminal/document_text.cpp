@@ -1,6 +1,6 @@
-#include "study/report/document.h"
-#include "study/report/terminal_lines.h"
-#include "study/report/terminal_table.h"
+#include "study/report/documents/document.h"
+#include "study/report/terminal/lines.h"
+#include "study/report/terminal/table.h"
 
 namespace imunoise::report {
 namespace {

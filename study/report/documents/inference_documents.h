@@ -7,8 +7,8 @@
 #include "imunoise/v1/inference.pb.h"
 #include "imunoise/v1/mixed.pb.h"
 #include "imunoise/v1/study.pb.h"
-#include "study/report/document.h"
-#include "study/report/number.h"
+#include "study/report/documents/document.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 

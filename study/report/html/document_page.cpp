@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "study/report/document.h"
-#include "study/report/page_frame.h"
-#include "study/report/text.h"
+#include "study/report/documents/document.h"
+#include "study/report/html/page_frame.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -1,13 +1,13 @@
-#include "study/report/html.h"
+#include "study/report/html/fit_page.h"
 
 #include <fmt/format.h>
 
 #include "study/report/assets.h"
-#include "study/report/html_tables.h"
-#include "study/report/page_frame.h"
+#include "study/report/html/fit_tables.h"
+#include "study/report/html/page_frame.h"
 #include "study/report/svg_plot.h"
-#include "study/report/text.h"
 #include "study/report/verdict.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

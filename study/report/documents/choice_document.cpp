@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "study/report/inference_documents.h"
+#include "study/report/documents/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
 

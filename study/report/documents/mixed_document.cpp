@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "study/report/array_tables.h"
-#include "study/report/inference_documents.h"
+#include "study/report/documents/array_tables.h"
+#include "study/report/documents/inference_documents.h"
 
 namespace imunoise::report {
 namespace {

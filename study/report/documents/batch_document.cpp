@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "study/report/batch_documents.h"
+#include "study/report/documents/batch_documents.h"
 
 namespace imunoise::report {
 namespace {

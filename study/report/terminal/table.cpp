@@ -1,9 +1,9 @@
-#include "study/report/terminal_table.h"
+#include "study/report/terminal/table.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "study/report/array_tables.h"
-#include "study/report/catalogue_documents.h"
-#include "study/report/diagnosis_words.h"
+#include "study/report/documents/array_tables.h"
+#include "study/report/documents/catalogue_documents.h"
+#include "study/report/documents/diagnosis_words.h"
 #include "study/report/verdict.h"
 
 namespace imunoise::report {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "study/report/catalogue_documents.h"
+#include "study/report/documents/catalogue_documents.h"
 #include "study/report/history_chart.h"
 
 namespace imunoise::report {

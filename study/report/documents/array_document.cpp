@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "study/report/array_tables.h"
 #include "study/report/cross_chart.h"
-#include "study/report/inference_documents.h"
+#include "study/report/documents/array_tables.h"
+#include "study/report/documents/inference_documents.h"
 #include "study/report/interval_chart.h"
 #include "study/report/verdict.h"
 

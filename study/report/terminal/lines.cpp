@@ -1,9 +1,9 @@
-#include "study/report/terminal_lines.h"
+#include "study/report/terminal/lines.h"
 
 #include <algorithm>
 
-#include "study/report/terminal_table.h"
-#include "study/report/text.h"
+#include "study/report/terminal/table.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {

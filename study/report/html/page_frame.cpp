@@ -1,9 +1,9 @@
-#include "study/report/page_frame.h"
+#include "study/report/html/page_frame.h"
 
 #include <fmt/format.h>
 
 #include "study/report/assets.h"
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 namespace imunoise::report {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "imunoise/v1/batch.pb.h"
-#include "study/report/document.h"
-#include "study/report/number.h"
+#include "study/report/documents/document.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 

@@ -1,15 +1,15 @@
-#include "study/report/terminal.h"
+#include "study/report/terminal/fit_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "study/report/number.h"
-#include "study/report/terminal_lines.h"
+#include "study/report/terminal/lines.h"
+#include "study/report/terminal/table.h"
 #include "study/report/terminal_plot.h"
-#include "study/report/terminal_table.h"
 #include "study/report/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

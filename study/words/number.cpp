@@ -1,4 +1,4 @@
-#include "study/report/number.h"
+#include "study/words/number.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/report/text.h"
+#include "study/words/text.h"
 
 #include <algorithm>
 #include <array>
