@@ -1,24 +1,20 @@
+#include "core/model/grammar.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <limits>
 
-#include "core/model/model.h"
 #include "core/model/trend.h"
 
 namespace imunoise {
 namespace {
 
-constexpr int kMostTerms = 12;
+constexpr std::size_t kMostTerms = 12;
 // Of a power that is not 0: its square must be a number, too.
 constexpr double kLeastPower = 1e-60;
 constexpr double kMostPower = 1e60;
-
-// What a model may say beyond its processes and their values.
-enum class Dialect { kPlain, kArray, kDynamic };
 
 std::string upper(std::string_view text) {
   std::string out(text);
@@ -27,231 +23,145 @@ std::string upper(std::string_view text) {
   return out;
 }
 
-std::string known_names() {
+const Process* process_called(std::string_view name) {
+  const auto& known = known_processes();
+  const auto found = std::find_if(known.begin(), known.end(), [&](const Process& one) {
+    return info(one).name == upper(name);
+  });
+  return found == known.end() ? nullptr : &*found;
+}
+
+std::string parameter_names(const Process& process) {
   std::string out;
-  for (const Process& process : known_processes()) {
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", info(process).name);
-  }
+  for (const ParameterInfo& p : parameters(process)) out += (out.empty() ? "" : ", ") + p.name;
   return out;
 }
 
-// Recursive descent over the text; every failure names the place.
-class Parser {
+// Makes a term of what is written; every failure names the place.
+class ProcessReader {
  public:
-  Parser(std::string_view text, Hertz rate, Dialect dialect)
-      : text_(text), rate_(rate), dialect_(dialect) {}
+  ProcessReader(std::string_view text, const Grammar& grammar) : text_(text), grammar_(grammar) {}
 
-  Result<Model> model() {
-    Model out;
-    do {
-      if (auto done = term(out); !done) return tl::unexpected(done.error());
-    } while (accept('+'));
-    skip_space();
-    if (at_ < text_.size()) return error(at_, "expected '+' and another term, or the end");
+  Result<Term> read(const WrittenTerm& written, Process process) const {
+    Term out(std::move(process));
+    for (std::size_t i = 0; i < written.arguments.size(); ++i) {
+      const Argument& one = written.arguments[i];
+      const bool number =
+          i == 0 && !one.text.empty() && std::isdigit(static_cast<unsigned char>(one.text[0])) != 0;
+      auto done = number ? size(one, out) : parameter(one, out);
+      if (!done) return tl::unexpected(done.error());
+    }
+    if (auto done = sharing(written, out); !done) return tl::unexpected(done.error());
     return out;
   }
 
  private:
-  Result<void> term(Model& model) {
-    int count = 1;
-    skip_space();
-    const std::size_t begin = at_;
-    if (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0) {
-      const Result<int> number = whole_number();
-      if (!number) return tl::unexpected(number.error());
-      count = *number;
-      if (count < 1) return error(begin, "a term is counted from 1");
-      if (!accept('*')) return error(at_, "expected '*' between the count and the name");
-    }
-    skip_space();
-    Result<Term> one = single();
-    if (!one) return tl::unexpected(one.error());
-    if (count > kMostTerms - static_cast<int>(model.terms.size())) {
-      return error(begin, fmt::format("a model has at most {} terms", kMostTerms));
-    }
-    model.terms.insert(model.terms.end(), static_cast<std::size_t>(count), *one);
-    return {};
-  }
-
-  Result<Term> single() {
-    const std::size_t begin = at_;
-    const std::string name = upper(word());
-    if (name.empty()) return error(begin, "expected the name of a process (" + known_names() + ")");
-    const auto& known = known_processes();
-    const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](const Process& p) { return info(p).name == name; });
-    if (found == known.end()) {
-      return error(begin, fmt::format("unknown process '{}' (known: {})",
-                                      text_.substr(begin, at_ - begin), known_names()));
-    }
-    Process process = *found;
-    if (auto* markov = std::get_if<GaussMarkov>(&process)) markov->rate = rate_;
-    Term out(process);
-    if (auto done = arguments(out); !done) return tl::unexpected(done.error());
-    if (auto done = sharing(out); !done) return tl::unexpected(done.error());
-    return out;
-  }
-
-  Result<void> arguments(Term& out) {
-    if (!accept('(') || accept(')')) return {};
-    bool first = true;
-    do {
-      skip_space();
-      const bool number =
-          at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0;
-      Result<void> done = first && number ? structure(out) : assignment(out);
-      if (!done) return tl::unexpected(done.error());
-      first = false;
-    } while (accept(','));
-    if (!accept(')')) return error(at_, "expected ',' or ')'");
-    return {};
-  }
-
-  Result<void> sharing(Term& term) {
-    if (!accept('[')) return {};
-    skip_space();
-    const std::size_t begin = at_;
-    if (dialect_ != Dialect::kArray)
-      return error(begin, "processes are shared only among the sensors of an array");
-    const std::string name = upper(word());
-    for (const Sharing one : {Sharing::kCorrelated, Sharing::kGroup, Sharing::kAll}) {
-      if (name == upper(word_of(one))) term.sharing = one;
-    }
-    if (term.sharing == Sharing::kOwn) {
-      return error(begin,
-                   "expected how the sensors of an array share the process: corr, group or "
-                   "all");
-    }
-    if (term.sharing == Sharing::kCorrelated && term.given[0]) {
-      return error(begin, "a correlated process has a matrix of powers, which cannot be given");
-    }
-    if (!accept(']')) return error(at_, "expected ']'");
-    return {};
-  }
-
-  Result<void> structure(Term& term) {
-    const std::size_t begin = at_;
+  Result<void> size(const Argument& written, Term& term) const {
     const ProcessInfo& about = info(term.process);
-    if (about.structure.empty()) {
-      return error(begin, fmt::format("{} takes no number: name the parameter ({})", about.name,
-                                      parameter_names(term.process)));
-    }
-    const Result<int> number = whole_number();
-    if (!number) return tl::unexpected(number.error());
-    const std::optional<Process> made = with_structure(term.process, *number);
+    if (about.structure.empty())
+      return error(written.text, fmt::format("{} takes no number: name the parameter ({})",
+                                             about.name, parameter_names(term.process)));
+    const std::optional<double> number = number_in(written.text);
+    constexpr double kLargest = 1e9;
+    if (!number || *number != std::floor(*number) || *number > kLargest)
+      return error(written.text, "expected a whole number of reasonable size");
+    const auto made = with_structure(term.process, static_cast<int>(*number));
     if (!made)
-      return error(begin, fmt::format("{} is out of range for {} ({})", *number, about.name,
-                                      about.structure));
+      return error(written.text, fmt::format("{} is out of range for {} ({})", *number, about.name,
+                                             about.structure));
     term = Term(*made);
     return {};
   }
 
-  Result<void> assignment(Term& term) {
-    skip_space();
-    const std::size_t begin = at_;
-    const std::string_view name = word();
+  Result<void> parameter(const Argument& written, Term& term) const {
     const std::vector<ParameterInfo> known = parameters(term.process);
     const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](const ParameterInfo& p) { return p.name == name; });
-    if (found == known.end()) {
-      return error(
-          begin, fmt::format("{} has no parameter '{}' (it has: {})", info(term.process).name, name,
-                             parameter_names(term.process)));
-    }
+                                    [&](const ParameterInfo& p) { return p.name == written.name; });
+    if (found == known.end())
+      return error(written.text,
+                   fmt::format("{} has no parameter '{}' (it has: {})", info(term.process).name,
+                               written.name, parameter_names(term.process)));
     const auto index = static_cast<std::size_t>(found - known.begin());
-    if (term.given[index] || term.trends[index].link != Link::kConstant) {
-      return error(begin, fmt::format("'{}' is given twice", name));
+    if (term.given[index] || term.trends[index].link != Link::kConstant)
+      return error(written.text, fmt::format("'{}' is given twice", written.name));
+    if (written.sign.empty()) {
+      return error(written.text.substr(written.text.size()), "expected '=' and a value");
     }
-    if (accept('~')) return trend(term, *found, index);
-    if (!accept('=')) return error(at_, "expected '=' and a value");
-    skip_space();
-    const std::size_t value_at = at_;
-    double value = 0.0;
-    const char* const end = text_.data() + text_.size();
-    const auto [stop, code] = std::from_chars(text_.data() + at_, end, value);
-    if (code != std::errc() || !std::isfinite(value)) return error(at_, "expected a number");
-    at_ = static_cast<std::size_t>(stop - text_.data());
+    return written.sign == "~" ? trend(written, *found, index, term)
+                               : value(written, *found, index, term);
+  }
+
+  Result<void> value(const Argument& written, const ParameterInfo& about, std::size_t index,
+                     Term& term) const {
+    const std::optional<double> number = number_in(written.value);
+    if (!number) return error(written.value, "expected a number");
     const bool power = index == 0;
-    if (power && value < 0.0) return error(value_at, fmt::format("{} cannot be negative", name));
-    if (power && value > 0.0 && !(value >= kLeastPower && value <= kMostPower))
-      return error(value_at, fmt::format("{} must be 0 or lie between {:g} and {:g}", name,
-                                         kLeastPower, kMostPower));
-    if (!power && !(value >= found->lower && value <= found->upper)) {
-      return error(value_at, fmt::format("{} must lie between {:.6g} and {:.16g}", name,
-                                         found->lower, found->upper));
-    }
+    if (power && *number < 0.0)
+      return error(written.value, fmt::format("{} cannot be negative", about.name));
+    if (power && *number > 0.0 && !(*number >= kLeastPower && *number <= kMostPower))
+      return error(written.value, fmt::format("{} must be 0 or lie between {:g} and {:g}",
+                                              about.name, kLeastPower, kMostPower));
+    if (!power && !(*number >= about.lower && *number <= about.upper))
+      return error(written.value, fmt::format("{} must lie between {:.6g} and {:.16g}", about.name,
+                                              about.lower, about.upper));
     std::vector<double> all = values(term.process);
-    all[index] = value;
+    all[index] = *number;
     set_values(term.process, all);
     term.given[index] = true;
     return {};
   }
 
-  Result<void> trend(Term& term, const ParameterInfo& about, std::size_t index) {
-    if (dialect_ != Dialect::kDynamic) {
-      return error(at_ - 1, "parameters follow a covariate only in imunoise dynamic");
-    }
-    skip_space();
-    const std::size_t begin = at_;
-    const std::string name = upper(word());
-    const std::vector<Link> possible = possible_links(about, index);
+  Result<void> trend(const Argument& written, const ParameterInfo& about, std::size_t index,
+                     Term& term) const {
+    if (!grammar_.trends)
+      return error(written.sign, "parameters follow a covariate only in imunoise dynamic");
+    const std::string name = upper(written.value);
     std::string words;
-    for (const Link link : possible) {
+    for (const Link link : possible_links(about, index)) {
       if (name.empty() || name == upper(word_of(link))) {
         term.trends[index].link = link;
         return {};
       }
       words += fmt::format("{}{}", words.empty() ? "" : " or ", word_of(link));
     }
-    return error(begin, fmt::format("{} follows a covariate as {}", about.name, words));
+    return error(written.value, fmt::format("{} follows a covariate as {}", about.name, words));
   }
 
-  static std::string parameter_names(const Process& process) {
-    std::string out;
-    for (const ParameterInfo& p : parameters(process)) out += (out.empty() ? "" : ", ") + p.name;
-    return out;
-  }
-
-  Result<int> whole_number() {
-    int value = 0;
-    const char* const end = text_.data() + text_.size();
-    const auto [stop, code] = std::from_chars(text_.data() + at_, end, value);
-    if (code != std::errc()) return error(at_, "expected a whole number of reasonable size");
-    at_ = static_cast<std::size_t>(stop - text_.data());
-    return value;
-  }
-
-  std::string_view word() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() &&
-           (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
-      ++at_;
+  Result<void> sharing(const WrittenTerm& written, Term& term) const {
+    if (!written.sharing) return {};
+    if (!grammar_.sharing)
+      return error(*written.sharing, "processes are shared only among the sensors of an array");
+    for (const Sharing one : {Sharing::kCorrelated, Sharing::kGroup, Sharing::kAll}) {
+      if (upper(*written.sharing) == upper(word_of(one))) term.sharing = one;
     }
-    return text_.substr(begin, at_ - begin);
+    if (term.sharing == Sharing::kOwn)
+      return error(*written.sharing,
+                   "expected how the sensors of an array share the process: corr, group or all");
+    if (term.sharing == Sharing::kCorrelated && term.given[0])
+      return error(*written.sharing,
+                   "a correlated process has a matrix of powers, which cannot be given");
+    return {};
   }
 
-  bool accept(char c) {
-    skip_space();
-    if (at_ >= text_.size() || text_[at_] != c) return false;
-    ++at_;
-    return true;
-  }
-
-  void skip_space() {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
-  }
-
-  tl::unexpected<Error> error(std::size_t at, const std::string& what) const {
-    std::string shown(text_);
-    for (char& c : shown) c = std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
-    return fail(fmt::format("model: {}\n  {}\n  {}^", what, shown, std::string(at, ' ')));
+  tl::unexpected<Error> error(std::string_view place, const std::string& what) const {
+    return tl::unexpected(model_error(text_, place, what));
   }
 
   std::string_view text_;
-  Hertz rate_;
-  Dialect dialect_;
-  std::size_t at_ = 0;
+  const Grammar& grammar_;
 };
+
+// A model that is processes alone.
+Result<Model> parse_processes(std::string_view text, Hertz rate, const Grammar& grammar) {
+  const auto terms = split_model(text);
+  if (!terms) return tl::unexpected(terms.error());
+  Model out;
+  for (const WrittenTerm& one : *terms) {
+    if (auto done = add_process(one, text, rate, grammar, out); !done)
+      return tl::unexpected(done.error());
+  }
+  return out;
+}
 
 std::string print_term(const Term& term, bool all) {
   std::string inside;
@@ -287,15 +197,45 @@ std::string print(const Model& model, bool all) {
 
 }  // namespace
 
-Result<Model> parse_model(std::string_view text, Hertz rate) {
-  return Parser(text, rate, Dialect::kPlain).model();
-}
-Result<Model> parse_array_model(std::string_view text, Hertz rate) {
-  return Parser(text, rate, Dialect::kArray).model();
+bool is_process(std::string_view name) { return process_called(name) != nullptr; }
+
+std::string known_process_names() {
+  std::string out;
+  for (const Process& process : known_processes())
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", info(process).name);
+  return out;
 }
 
+Result<void> add_process(const WrittenTerm& written, std::string_view text, Hertz rate,
+                         const Grammar& grammar, Model& to) {
+  const auto wrong = [&](std::string_view place, const std::string& what) {
+    return tl::unexpected(model_error(text, place, what));
+  };
+  if (written.name.empty())
+    return wrong(written.name, "expected the name of a process (" + known_process_names() + ")");
+  const Process* const known = process_called(written.name);
+  if (known == nullptr)
+    return wrong(written.name, fmt::format("unknown process '{}' (known: {})", written.name,
+                                           known_process_names()));
+  Process process = *known;
+  if (auto* markov = std::get_if<GaussMarkov>(&process)) markov->rate = rate;
+  const Result<Term> term = ProcessReader(text, grammar).read(written, std::move(process));
+  if (!term) return tl::unexpected(term.error());
+  const auto count = static_cast<std::size_t>(written.count);
+  if (count > kMostTerms - to.terms.size())
+    return wrong(written.text, fmt::format("a model has at most {} terms", kMostTerms));
+  to.terms.insert(to.terms.end(), count, *term);
+  return {};
+}
+
+Result<Model> parse_model(std::string_view text, Hertz rate) {
+  return parse_processes(text, rate, {});
+}
+Result<Model> parse_array_model(std::string_view text, Hertz rate) {
+  return parse_processes(text, rate, {.sharing = true});
+}
 Result<Model> parse_dynamic_model(std::string_view text, Hertz rate) {
-  return Parser(text, rate, Dialect::kDynamic).model();
+  return parse_processes(text, rate, {.trends = true});
 }
 
 std::string print(const Model& model) { return print(model, false); }

@@ -56,10 +56,9 @@ struct Model {
   friend bool operator==(const Model&, const Model&) = default;
 };
 
-/// Reads a model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`, `MA(2) +
-/// RW`.
-///   model := term { '+' term };  term := [ count '*' ] NAME [ '(' [ number ] { name '=' value |
-///   name '~' [ link ] } ')' ] [ '[' sharing ']' ];  sharing := corr | group | all;
+/// Reads a noise model as people write it: `2*AR1 + WN + RW`, `WN(sigma2=1e-4) + GM(tc=120)`,
+/// `MA(2) + RW` (core/model/syntax.h has the rules).
+///   item := number | name '=' value | name '~' [ link ];  sharing := corr | group | all;
 ///   link := exp | linear | logistic
 /// Parameters are per sample, in SI units; GM's tc is in seconds (hence the rate). Names ignore
 /// case. Error: what is wrong, with the text and a caret under the character.
