@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/process/ar1.h"
+#include "core/process/ar2.h"
 #include "core/process/averaging_filters.h"
 #include "core/process/contract.h"
 #include "core/process/drift.h"
@@ -23,8 +24,8 @@ template <NoiseProcess... P>
 using ProcessVariant = std::variant<P...>;
 
 using Process =
-    ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, Drift, Ar1, GaussMarkov, Resonance,
-                   MovingAverage, MovingAverageFilter, BartlettFilter, Flicker>;
+    ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, Drift, Ar1, Ar2, GaussMarkov,
+                   Resonance, MovingAverage, MovingAverageFilter, BartlettFilter, Flicker>;
 
 // The contract, on the variant.
 const ProcessInfo& info(const Process& process);
