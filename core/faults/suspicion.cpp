@@ -8,6 +8,10 @@ namespace {
 
 constexpr double kToTellApart = 3.0;  // nats
 
+void keep_stronger(Evidence& best, const Evidence& other) {
+  if (other.gain > best.gain) best = other;
+}
+
 }  // namespace
 
 Suspicion::Suspicion(std::vector<Eigen::Index> sensors, std::size_t detected, std::size_t decide)
@@ -16,11 +20,13 @@ Suspicion::Suspicion(std::vector<Eigen::Index> sensors, std::size_t detected, st
       decide_(decide),
       own_noise_(sensors_.size(), 0.0) {
   strongest_.fill(std::vector<Evidence>(sensors_.size()));
+  begun_.fill(std::vector<Evidence>(sensors_.size(), Evidence{.onset = detected_}));
 }
 
 void Suspicion::offer(FaultKind kind, std::size_t index, const Evidence& evidence) {
-  Evidence& best = strongest_[static_cast<std::size_t>(kind)][index];
-  if (evidence.gain > best.gain) best = evidence;
+  const auto row = static_cast<std::size_t>(kind);
+  keep_stronger(strongest_[row][index], evidence);
+  if (evidence.onset <= detected_) keep_stronger(begun_[row][index], evidence);
 }
 
 void Suspicion::offer_own_noise(std::size_t index, double gain) {
@@ -54,7 +60,7 @@ Fault Suspicion::verdict() const {
   const Evidence& best = strongest_[kind][worst];
   Fault out{static_cast<FaultKind>(kind),
             {},
-            best.onset,
+            begun_[kind][worst].onset,
             detected_,
             best.size,
             best.size_error,

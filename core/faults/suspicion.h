@@ -40,7 +40,8 @@ class Suspicion {
   /// `decide` is the reading after which the verdict is due.
   Suspicion(std::vector<Eigen::Index> sensors, std::size_t detected, std::size_t decide);
 
-  /// Keeps the strongest evidence for a fault of sensor `sensors[index]`.
+  /// Keeps the strongest evidence for a fault of sensor `sensors[index]`. Evidence that begins
+  /// after the alarm tells which fault it is, but not when the fault began.
   void offer(FaultKind kind, std::size_t index, const Evidence& evidence);
   /// The same for its own readings being noisier, motion included: it decides between sensors that
   /// their parity cannot tell apart.
@@ -53,7 +54,9 @@ class Suspicion {
   std::vector<Eigen::Index> sensors_;
   std::size_t detected_;
   std::size_t decide_;
-  std::array<std::vector<Evidence>, kFaultKinds> strongest_;
+  using EvidenceTable = std::array<std::vector<Evidence>, kFaultKinds>;  // kinds × sensors
+  EvidenceTable strongest_;
+  EvidenceTable begun_;  // the strongest that began by the alarm
   std::vector<double> own_noise_;
 };
 

@@ -160,6 +160,20 @@ TEST(FaultDetector, MotionOfAllSensorsIsNoFault) {
   EXPECT_TRUE(faults_in(detector, data).empty());
 }
 
+TEST(FaultDetector, NoFaultBeginsAfterItsAlarm) {
+  const ArrayModel model = coloured_model();
+  const FaultDetector designed = detector_of(model, 30.0);  // false alarms, to see many
+  int alarms = 0;
+  for (std::uint32_t run = 0; run < 12; ++run) {
+    FaultDetector detector = designed;
+    for (const Fault& fault : faults_in(detector, healthy(model, run))) {
+      ++alarms;
+      EXPECT_LE(fault.onset, fault.detected) << "run " << run;
+    }
+  }
+  EXPECT_GE(alarms, 50);
+}
+
 TEST(FaultDetector, SaysWhichModelHasNoParityNoise) {
   EXPECT_TRUE(parity_is_noisy(coloured_model()));
   EXPECT_FALSE(parity_is_noisy(array_model("RW[all] + WN[all]", 3, {1e-4, 1.0})));
