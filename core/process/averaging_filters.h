@@ -6,9 +6,15 @@
 
 namespace imunoise {
 
-/// Taps of a running mean over n samples, and of two of them in cascade (2n - 1 triangular taps).
+/// A running mean over n samples: its n taps, their autocovariance at lags 0 .. n - 1, and its gain
+/// in power at f cycles per sample, the square of the Dirichlet kernel sin(πfn)/(n sin πf).
 std::vector<double> boxcar_taps(int n);
+std::vector<double> boxcar_autocovariance(int n);
+double boxcar_gain(int n, double f);
+/// The same of two of them in cascade: 2n - 1 triangular taps.
 std::vector<double> bartlett_taps(int n);
+std::vector<double> bartlett_autocovariance(int n);
+double bartlett_gain(int n, double f);
 
 /// White noise of variance σ² through a filter of unit gain whose length is known: the device's
 /// own.
@@ -29,10 +35,10 @@ struct AveragingFilter {
   }
   std::vector<double> values() const { return {sigma2}; }
   void set_values(std::span<const double> v) { sigma2 = v[0]; }
-  FiniteMemory filter() const { return FiniteMemory(Form::taps(length)); }
+  FiniteMemory filter() const { return {Form::taps(length), Form::autocovariance(length)}; }
   Eigen::ArrayXd shape(HalfWidths m) const { return filter().variance(m); }
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double f) const { return sigma2 * filter().spectrum(f); }
+  double spectrum(double f) const { return sigma2 * Form::gain(length, f); }
   SumCovariance sum_covariance() const { return filter().sum_covariance().scaled(sigma2); }
   std::vector<DerivedQuantity> derived(Hertz rate) const {
     return {{Coefficient::kRandomWalk, std::sqrt(sigma2 / rate.value)}};
@@ -49,6 +55,8 @@ struct BoxcarForm {
       "White noise through the device's running mean over a known number of samples.",
       "samples averaged"};
   static std::vector<double> taps(int n) { return boxcar_taps(n); }
+  static std::vector<double> autocovariance(int n) { return boxcar_autocovariance(n); }
+  static double gain(int n, double f) { return boxcar_gain(n, f); }
 };
 
 struct BartlettForm {
@@ -57,6 +65,8 @@ struct BartlettForm {
       "White noise through two running means in cascade, the on-chip filter of many MEMS sensors.",
       "samples averaged in each of the two stages"};
   static std::vector<double> taps(int n) { return bartlett_taps(n); }
+  static std::vector<double> autocovariance(int n) { return bartlett_autocovariance(n); }
+  static double gain(int n, double f) { return bartlett_gain(n, f); }
 };
 
 using MovingAverageFilter = AveragingFilter<BoxcarForm>;

@@ -52,14 +52,14 @@ double FiniteMemory::spectrum(double f) const {
 SumCovariance FiniteMemory::sum_covariance() const {
   double total = gamma_[0];
   for (std::size_t h = 1; h < gamma_.size(); ++h) total += 2.0 * gamma_[h];
-  SumCovariance out{.linear = -0.5 * total};
-  for (std::size_t s = 0; s + 1 < gamma_.size(); ++s) {
-    // Γ(s) = -½ Σ_h γ(h)|s - h|; what is left of it beyond the linear part: -Σ_{h>s} γ(h)(h - s).
-    double rest = 0.0;
-    for (std::size_t h = s + 1; h < gamma_.size(); ++h) {
-      rest -= gamma_[h] * static_cast<double>(h - s);
-    }
-    out.near.push_back(rest);
+  // Γ(s) = -½ Σ_h γ(h)|s - h|; what is left of it beyond the linear part: -Σ_{h>s} γ(h)(h - s).
+  SumCovariance out{.linear = -0.5 * total, .near = std::vector<double>(gamma_.size() - 1)};
+  double beyond = 0.0;  // Σ_{h>s} γ(h)
+  double rest = 0.0;
+  for (std::size_t s = gamma_.size() - 1; s-- > 0;) {
+    beyond += gamma_[s + 1];
+    rest -= beyond;
+    out.near[s] = rest;
   }
   return out;
 }

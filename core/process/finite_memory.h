@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "core/process/contract.h"
 
 namespace imunoise {
@@ -9,7 +12,11 @@ namespace imunoise {
 class FiniteMemory {
  public:
   explicit FiniteMemory(std::vector<double> taps);
+  /// The same where the autocovariance is known: sums take n² steps for n taps.
+  FiniteMemory(std::vector<double> taps, std::vector<double> autocovariance)
+      : taps_(std::move(taps)), gamma_(std::move(autocovariance)) {}
 
+  const std::vector<double>& taps() const { return taps_; }
   /// γ(h) of the output, h = 0 .. taps - 1.
   const std::vector<double>& autocovariance() const { return gamma_; }
 

@@ -1,0 +1,33 @@
+// The closed forms of the averaging filters against sums over their taps.
+
+#include "core/process/averaging_filters.h"
+
+#include <gtest/gtest.h>
+
+namespace imunoise {
+namespace {
+
+template <class Filter>
+void expect_closed_forms(int n) {
+  SCOPED_TRACE(std::string(Filter::kInfo.name) + "(" + std::to_string(n) + ")");
+  const Filter filter{2.5, n};
+  const FiniteMemory closed = filter.filter();
+  const FiniteMemory summed(closed.taps());
+  ASSERT_EQ(closed.autocovariance().size(), summed.autocovariance().size());
+  for (std::size_t h = 0; h < closed.autocovariance().size(); ++h) {
+    EXPECT_NEAR(closed.autocovariance()[h], summed.autocovariance()[h], 1e-13 / n) << "lag " << h;
+  }
+  for (const double f : {-0.5, -0.21, 0.0, 1e-12, 1e-6, 1.0 / n, 0.7 / n, 0.25, 0.4999, 0.5}) {
+    EXPECT_NEAR(filter.spectrum(f), 2.5 * summed.spectrum(f), 1e-12) << "f = " << f;
+  }
+}
+
+TEST(AveragingFilters, ClosedFormsAreTheSums) {
+  for (const int n : {1, 2, 3, 7, 64, 500}) {
+    expect_closed_forms<MovingAverageFilter>(n);
+    expect_closed_forms<BartlettFilter>(n);
+  }
+}
+
+}  // namespace
+}  // namespace imunoise
