@@ -1,8 +1,11 @@
-// A whole campaign, from its first folder to the end, while each call of its disk fails once: it
+// A whole campaign, from its first folder to the end, while one or two calls of its disk fail: it
 // comes to its end, and what it says of its recordings is true.
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <iostream>
+#include <random>
 
 #include "daemon/acquire/campaign.h"
 #include "daemon/acquire/clock.h"
@@ -75,8 +78,24 @@ class EveryCallOfACampaign : public testing::Whims {
     return finished;
   }
 
+  // How often a campaign whose disk never fails calls it, by kind.
+  std::array<int, FakeDisk::kKinds> calls_of_a_run() const {
+    FakeDisk disk;
+    EXPECT_TRUE(run(disk));
+    std::array<int, FakeDisk::kKinds> out{};
+    for (int kind = 0; kind < FakeDisk::kKinds; ++kind)
+      out[static_cast<std::size_t>(kind)] = disk.calls(static_cast<Call>(kind));
+    return out;
+  }
+
   v1::Campaign campaign_;
 };
+
+// A number in the environment asks for more than the tests do by themselves.
+int asked(const char* variable, int otherwise) {
+  const char* const text = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
+  return text == nullptr ? otherwise : std::atoi(text);
+}
 
 std::uint64_t discarded(const v1::StreamCount& count) {
   std::uint64_t out = 0;
@@ -107,21 +126,27 @@ void expect_only_journals_aside(const FakeDisk& disk, const std::filesystem::pat
   }
 }
 
-// The number of complete replicates of a recording whose accounts are true.
-std::uint32_t audited(FakeDisk& disk, const std::filesystem::path& folder) {
-  std::uint32_t complete = 0;
+// What a recording whose accounts are true says of itself.
+struct Account {
+  std::uint32_t complete = 0;  // replicates
+  std::uint64_t not_written = 0;
+};
+
+Account audited(FakeDisk& disk, const std::filesystem::path& folder) {
+  Account out;
   EXPECT_TRUE(recording::recover_recording(disk, folder, recording::Recovery::kUnsettled));
   const auto report = recording::verify_recording(disk, folder, false);
   const auto manifest = recording::read_manifest(disk, folder);
   EXPECT_TRUE(report && manifest && *manifest);
-  if (!report || !manifest || !*manifest) return 0;
+  if (!report || !manifest || !*manifest) return out;
   EXPECT_TRUE(report->sound()) << report->DebugString();
   for (const v1::ReplicateNote& note : (*manifest)->replicates()) {
     if (note.state() == v1::complete) {
-      ++complete;
+      ++out.complete;
       EXPECT_EQ(note.streams_size(), 2);
     }
     for (const v1::StreamCount& count : note.streams()) {
+      out.not_written += count.not_written();
       EXPECT_EQ(count.received(), count.stored() + discarded(count) + count.not_written());
       const std::uint64_t there = rows_there(*report, note.replicate(), count);
       EXPECT_GE(there, count.stored());
@@ -132,7 +157,20 @@ std::uint32_t audited(FakeDisk& disk, const std::filesystem::path& folder) {
     }
   }
   expect_only_journals_aside(disk, folder);
-  return complete;
+  return out;
+}
+
+// Of a campaign at its end: samples that are on record as not written.
+std::uint64_t audited_campaign(FakeDisk& disk) {
+  Account all;
+  const std::vector<std::string> recordings = disk.list(kRoot).value();
+  for (const std::string& name : recordings) {
+    const Account one = audited(disk, kRoot / name.substr(0, name.size() - 1));
+    all.complete += one.complete;
+    all.not_written += one.not_written;
+  }
+  EXPECT_EQ(all.complete, kReplicates);
+  return all.not_written;
 }
 
 TEST_F(EveryCallOfACampaign, FailsOnceAndTheCampaignTellsTheTruth) {
@@ -145,16 +183,42 @@ TEST_F(EveryCallOfACampaign, FailsOnceAndTheCampaignTellsTheTruth) {
       EXPECT_TRUE(run(disk));
       if (!disk.failed()) break;  // it never comes
       disk.heal();
-      std::uint32_t complete = 0;
-      const std::vector<std::string> recordings = disk.list(kRoot).value();
-      for (const std::string& name : recordings)
-        complete += audited(disk, kRoot / name.substr(0, name.size() - 1));
-      EXPECT_EQ(complete, kReplicates);
+      audited_campaign(disk);
       if (HasFailure()) return;
     }
   }
   std::cout << runs << " calls failed once\n";
   EXPECT_GT(runs, 100 / IMUNOISE_EVERY_NTH);
+}
+
+// Any two calls of the campaign, each as likely as every other; half of them were carried out
+// although they return an error. IMUNOISE_PAIRS and IMUNOISE_FIRST_SEED ask for more, in parts.
+TEST_F(EveryCallOfACampaign, RandomPairsFailAndTheCampaignTellsTheTruth) {
+  const std::array<int, FakeDisk::kKinds> calls = calls_of_a_run();
+  const int first = asked("IMUNOISE_FIRST_SEED", 1);
+  const int last = first + asked("IMUNOISE_PAIRS", 160 / IMUNOISE_EVERY_NTH) - 1;
+  std::uint64_t not_written = 0;
+  for (int seed = first; seed <= last; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    FakeDisk disk;
+    std::string trace = "seed " + std::to_string(seed);
+    for (int k = 0; k < 2; ++k) {
+      const int kind = std::discrete_distribution<int>(calls.begin(), calls.end())(random);
+      const int nth =
+          std::uniform_int_distribution<int>(1, calls[static_cast<std::size_t>(kind)])(random);
+      const bool done = random() % 2 == 0;
+      disk.fail_once(static_cast<Call>(kind), nth, done);
+      trace +=
+          ", kind " + std::to_string(kind) + " call " + std::to_string(nth) + (done ? " done" : "");
+    }
+    SCOPED_TRACE(trace);
+    EXPECT_TRUE(run(disk));
+    disk.heal();
+    not_written += audited_campaign(disk);
+    if (HasFailure()) return;
+  }
+  std::cout << "seeds " << first << " to " << last << "; " << not_written
+            << " samples reported as not written\n";
 }
 
 // Longer than the recorder tries at its close: what is left in journals becomes chunks before the
@@ -171,14 +235,12 @@ TEST_F(EveryCallOfACampaign, FailsForAWhileAndTheRecordingIsClosed) {
       EXPECT_TRUE(run(disk));
       if (!disk.failed()) break;
       disk.heal();
-      std::uint32_t complete = 0;
       const std::vector<std::string> recordings = disk.list(kRoot).value();
       for (const std::string& name : recordings) {
         const std::filesystem::path folder = kRoot / name.substr(0, name.size() - 1);
         EXPECT_TRUE(recording::read_manifest(disk, folder).value().value().closed());
-        complete += audited(disk, folder);
       }
-      EXPECT_EQ(complete, kReplicates);
+      audited_campaign(disk);
       if (HasFailure()) return;
     }
   }
