@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 #include "daemon/config/quantity_text.h"
 #include "recording/store/journal.h"
@@ -25,18 +24,6 @@ std::size_t number_bytes(const std::string& dtype) {
 }
 
 }  // namespace
-
-Result<std::uint64_t> free_space(const std::filesystem::path& path) {
-  std::error_code trouble;
-  std::filesystem::path place = std::filesystem::absolute(path, trouble);
-  while (!std::filesystem::exists(place, trouble) && place.has_relative_path()) {
-    place = place.parent_path();
-  }
-  const auto space = std::filesystem::space(place, trouble);
-  if (!trouble) return std::uint64_t{space.available};
-  return fail(fmt::format("{}: how much room is left cannot be told: {}", place.string(),
-                          trouble.message()));
-}
 
 double bytes_per_second(const v1::RecordedDevice& device) {
   double out = 0.0;

@@ -3,19 +3,11 @@
 // How much room a recording takes, and how much there is.
 
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "recording/store/stream.h"
 
 namespace imunoise::acquire {
-
-/// Bytes that are free for us on the disk of a path. Error: it cannot be told.
-using FreeSpace = std::function<Result<std::uint64_t>(const std::filesystem::path&)>;
-
-/// Of the disk that holds the path, or the nearest folder above it that exists.
-Result<std::uint64_t> free_space(const std::filesystem::path& path);
 
 /// At most so many bytes a second become of a device's samples: as they stand in the journal,
 /// before chunks are made smaller. Streams without a nominal rate are left out.

@@ -109,7 +109,7 @@ class Replicate {
   // With an end in sight, everything that is to come must fit.
   Result<void> check_disk() const {
     if (!plan_.duration) return {};
-    const auto free = plan_.free_space(plan_.folder);
+    const auto free = files_.free_space(plan_.folder);
     if (!free) return tl::make_unexpected(free.error());
     const double replicates = 1.0 + plan_.replicates_to_come;
     return check_room(
@@ -238,7 +238,7 @@ class Replicate {
   }
 
   bool reserve_is_reached() {
-    const auto free = plan_.free_space(plan_.folder);
+    const auto free = files_.free_space(plan_.folder);
     if (!free || *free >= plan_.reserve_bytes) return false;
     interruption_ = "the disk's reserve was reached; make room";
     return true;
@@ -293,7 +293,7 @@ class Replicate {
 
   // Said of an error of the disk, when it may be full.
   std::string room_left() const {
-    const auto free = plan_.free_space(plan_.folder);
+    const auto free = files_.free_space(plan_.folder);
     if (!free || *free > plan_.reserve_bytes + kLittleRoom) return "";
     return fmt::format("; the disk of {} has {} free, make room", plan_.folder.string(),
                        config::print_bytes(static_cast<double>(*free)));

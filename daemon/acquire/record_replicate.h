@@ -55,7 +55,6 @@ struct ReplicatePlan {
   /// `replicates_to_come` like it fit beside it; it ends when it is reached.
   std::uint64_t reserve_bytes = 0;
   std::uint32_t replicates_to_come = 0;
-  FreeSpace free_space = acquire::free_space;
   const Clock* clock = &system_clock();
   recording::RecorderOptions recorder = {};
   std::chrono::milliseconds disk_patience{10000};  ///< As a reader's.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
-#include <system_error>
 
 #include "recording/store/layout.h"
 #include "recording/store/manifest.h"
@@ -151,6 +149,18 @@ Age age_of(const Dated& one, double most, const Clock& clock) {
   return older(clock.now() - last) ? Age::kTooOld : Age::kYoung;
 }
 
+// Its manifest goes last: what is deleted in part is deleted the next time.
+Result<void> remove_recording(recording::FileSystem& files, const fs::path& folder) {
+  const auto names = files.list(folder);
+  if (!names) return tl::make_unexpected(names.error());
+  for (const std::string& name : *names) {
+    if (!name.ends_with('/')) continue;
+    auto done = recording::remove_tree(files, folder / name.substr(0, name.size() - 1));
+    if (!done) return done;
+  }
+  return recording::remove_tree(files, folder);
+}
+
 }  // namespace
 
 std::string recording_name(Time started) {
@@ -204,7 +214,7 @@ Result<std::optional<FoundRecording>> newest_recording(const recording::FileSyst
   return std::optional(std::move(out));
 }
 
-Result<Tidied> tidy_recordings(const recording::FileSystem& files, const v1::Campaign& campaign,
+Result<Tidied> tidy_recordings(recording::FileSystem& files, const v1::Campaign& campaign,
                                const Clock& clock) {
   const v1::CampaignRetention& keep = campaign.retention();
   Tidied out;
@@ -221,11 +231,9 @@ Result<Tidied> tidy_recordings(const recording::FileSystem& files, const v1::Cam
       if (age == Age::kDoubtful) ++out.doubtful;
       continue;
     }
-    std::error_code trouble;
-    fs::remove_all(one.folder, trouble);
-    if (trouble) {
-      return fail(fmt::format("{}: is no longer to be kept, and cannot be deleted: {}",
-                              one.folder.string(), trouble.message()));
+    if (auto done = remove_recording(files, one.folder); !done) {
+      return fail(fmt::format("{}: retention deletes it, but it cannot be deleted: {}",
+                              one.folder.string(), done.error().message));
     }
     out.removed.push_back(one.folder);
   }

@@ -47,7 +47,7 @@ struct Tidied {
 /// never the newest. None is too old unless the clock is synchronised now, and was when it was
 /// recorded; what was recorded since the machine started has to be so old by the time since then,
 /// too. Error: one cannot be deleted.
-Result<Tidied> tidy_recordings(const recording::FileSystem& files, const v1::Campaign& campaign,
+Result<Tidied> tidy_recordings(recording::FileSystem& files, const v1::Campaign& campaign,
                                const Clock& clock);
 
 }  // namespace imunoise::acquire

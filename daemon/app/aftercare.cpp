@@ -45,9 +45,11 @@ Result<v1::Manifest> manifest_of(const recording::FileSystem& files,
 }
 
 // What the history says of each device that drifts.
-Result<std::string> drifts(catalogue::Catalogue& catalogue, const v1::Manifest& manifest) {
+Result<std::string> drifts(catalogue::Catalogue& catalogue, const v1::Manifest& manifest,
+                           const Progress& progress) {
   std::string out;
   for (const v1::RecordedDevice& recorded : manifest.devices()) {
+    progress.report(1.0);
     const auto device = catalogue.device(catalogue::device_id(recorded));
     if (!device) return tl::make_unexpected(device.error());
     auto parameters = catalogue.parameters(device->id());
@@ -73,7 +75,9 @@ Result<std::string> Aftercare::calibrate(const v1::Campaign& campaign,
   if (!manifest) return tl::make_unexpected(manifest.error());
   const auto before = study::read_calibration(files_, recording);
   if (before && *before && is_current(**before, *manifest, how)) return "";
-  const auto done = process::run_program(command_of(imunoise_, recording, how), progress);
+  recording::DiskCalls::Watch watch(calls_, "calibration", recording);
+  const process::Talk talk{.works = [&] { watch.progress(); }};
+  const auto done = process::run_program(command_of(imunoise_, recording, how), progress, talk);
   if (!done) return tl::make_unexpected(done.error());
   const auto made = study::read_calibration(files_, recording);
   if (!made) return tl::make_unexpected(made.error());
@@ -87,13 +91,20 @@ Result<std::string> Aftercare::publish(const v1::Campaign& campaign,
   const std::lock_guard lock(publishing_);
   const auto manifest = manifest_of(files_, recording);
   if (!manifest) return tl::make_unexpected(manifest.error());
+  recording::DiskCalls::Watch watch(calls_, "update of the catalogue", campaign.folder());
+  const Progress watched(
+      [&](double fraction) {
+        watch.progress();
+        progress.report(fraction);
+      },
+      progress.stop_token());
   auto catalogue = catalogue::Catalogue::open(catalogue::place_in(campaign.folder()));
   if (!catalogue) return tl::make_unexpected(catalogue.error());
-  const auto changes = catalogue->refresh(files_, campaign.folder(), progress);
+  const auto changes = catalogue->refresh(files_, campaign.folder(), watched);
   if (!changes) return tl::make_unexpected(changes.error());
   const std::string& repair = catalogue->repair();
   if (*changes == catalogue::Changes{0, changes->unchanged, 0}) return repair;
-  const auto drift = drifts(*catalogue, *manifest);
+  const auto drift = drifts(*catalogue, *manifest, watched);
   if (!drift || repair.empty()) return drift;
   return drift->empty() ? repair : repair + "; " + *drift;
 }

@@ -9,6 +9,7 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/campaign.pb.h"
+#include "recording/store/disk_calls.h"
 #include "recording/store/file_system.h"
 
 namespace imunoise::app {
@@ -19,8 +20,10 @@ class Aftercare {
  public:
   /// `imunoise` is the program that calibrates, in a process of its own: whatever it meets with,
   /// recording goes on.
-  Aftercare(recording::FileSystem& files, std::filesystem::path imunoise)
-      : files_(files), imunoise_(std::move(imunoise)) {}
+  /// `calls` tell what hangs: both functions are among them while they work.
+  Aftercare(recording::FileSystem& files, recording::DiskCalls& calls,
+            std::filesystem::path imunoise)
+      : files_(files), calls_(calls), imunoise_(std::move(imunoise)) {}
 
   /// Leaves calibration.json in the recording, as the campaign's [calibration] says. Error: what
   /// `imunoise calibrate` says, or the caller stopped it.
@@ -33,6 +36,7 @@ class Aftercare {
 
  private:
   recording::FileSystem& files_;
+  recording::DiskCalls& calls_;
   std::filesystem::path imunoise_;
   std::mutex calibrating_;
   std::mutex publishing_;

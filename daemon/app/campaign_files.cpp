@@ -33,6 +33,13 @@ Result<std::vector<fs::path>> files_at(const fs::path& place) {
   return out;
 }
 
+// In one form for all ways to write it.
+fs::path folder_of(const v1::Campaign& campaign) {
+  std::error_code trouble;
+  const fs::path out = fs::weakly_canonical(fs::absolute(campaign.folder(), trouble), trouble);
+  return out.has_filename() ? out : out.parent_path();  // "x/" is "x"
+}
+
 // Gives each name and each folder to one campaign.
 class Selection {
  public:
@@ -71,7 +78,8 @@ class Selection {
   void read_file(const fs::path& file, const drivers::Drivers& drivers) {
     auto read = config::read_campaign(file, drivers);
     if (read && read->problems.empty()) {
-      read_.push_back({file, std::move(read->campaign)});
+      fs::path folder = folder_of(read->campaign);
+      read_.push_back({file, std::move(read->campaign), std::move(folder)});
       return;
     }
     std::vector<std::string> problems;
@@ -96,7 +104,7 @@ class Selection {
         out.push_back(fmt::format("{}: the name '{}' is that of {} too; rename one",
                                   one.file.string(), one.campaign.name(), other.file.string()));
       }
-      if (folder_of(other.campaign) == folder_of(one.campaign)) {
+      if (other.folder == one.folder) {
         out.push_back(
             fmt::format("{}: the folder {} is that of {} too; give each a folder of its own",
                         one.file.string(), one.campaign.folder(), other.file.string()));
@@ -171,12 +179,6 @@ std::vector<std::string> problems(const CampaignFiles& files) {
   for (const v1::RejectedFile& one : files.rejected)
     out.insert(out.end(), one.problems().begin(), one.problems().end());
   return out;
-}
-
-fs::path folder_of(const v1::Campaign& campaign) {
-  std::error_code trouble;
-  const fs::path out = fs::weakly_canonical(fs::absolute(campaign.folder(), trouble), trouble);
-  return out.has_filename() ? out : out.parent_path();  // "x/" is "x"
 }
 
 std::string summary(const v1::Campaign& campaign, const drivers::Drivers& drivers) {

@@ -16,6 +16,7 @@ namespace imunoise::app {
 struct CampaignFile {
   std::filesystem::path file;
   v1::Campaign campaign;
+  std::filesystem::path folder;  ///< Where it records, in one form for all ways to write it.
 };
 
 struct CampaignFiles {
@@ -33,9 +34,6 @@ CampaignFiles read_campaigns(std::span<const std::filesystem::path> places,
 
 /// Every problem of every rejected file, with its place.
 std::vector<std::string> problems(const CampaignFiles& files);
-
-/// Where a campaign records, in one form for all ways to write it.
-std::filesystem::path folder_of(const v1::Campaign& campaign);
 
 /// What a sound campaign amounts to: "array: 4 devices, 6 replicates of 2 h, every 1 d, at most 3.2
 /// GB each time". The size is left out where only an open device knows its streams.

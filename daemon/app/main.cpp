@@ -16,6 +16,8 @@
 
 #include "daemon/app/arguments.h"
 #include "daemon/app/campaign_files.h"
+#include "daemon/app/campaign_reload.h"
+#include "daemon/app/last_resort.h"
 #include "daemon/app/log.h"
 #include "daemon/app/service_manager.h"
 #include "daemon/app/study_process.h"
@@ -65,17 +67,17 @@ int print_timer(const CampaignFiles& files) {
 
 // Clients are answered where that was asked for. What keeps the daemon from it is told; recording
 // goes on.
-std::unique_ptr<service::Service> serve(const Arguments& arguments, const drivers::Drivers& drivers,
-                                        Supervisor& bench, Log& log) {
+std::unique_ptr<service::Service> serve(const Arguments& arguments,
+                                        const service::ServiceSubjects& subjects, Log& log) {
   if (!arguments.socket && !arguments.listen) return nullptr;
   service::ServiceOptions options;
   options.listen = {arguments.socket, arguments.listen};
   options.tokens = arguments.tokens;
   options.hosts = arguments.hosts;
   options.studies = arguments.studies;
-  options.compute = compute_in_child();
+  options.compute = compute_in_child(subjects.calls);
   options.version = IMUNOISE_VERSION;
-  auto out = service::Service::start(options, {bench, drivers});
+  auto out = service::Service::start(options, subjects);
   if (!out) {
     log.error(fmt::format("nobody is answered: {}", out.error().message));
     return nullptr;
@@ -106,30 +108,13 @@ class Memory {
   int calls_ = 0;
 };
 
-void reload(const Arguments& arguments, const drivers::Drivers& drivers, Supervisor& supervisor,
-            Log& log) {
-  if (arguments.once) return log.fact("SIGHUP: with --once campaigns are read once");
-  CampaignFiles files = read_campaigns(arguments.campaigns, drivers, supervisor.in_force());
-  for (const std::string& problem : problems(files)) log.error(problem);
+// What was read again, once it was.
+void apply(std::optional<CampaignFiles> files, Supervisor& supervisor, Log& log) {
+  if (!files) return;
+  for (const std::string& problem : problems(*files)) log.error(problem);
   log.fact(fmt::format("SIGHUP: {} campaigns are in force, {} files were rejected",
-                       files.found.size(), files.rejected.size()));
-  supervisor.reload(std::move(files));
-}
-
-// A disk that hangs holds up threads that nothing can end. They are waited for, but not for ever; a
-// disk that is only slow comes to its end.
-void end_if_late(std::chrono::steady_clock::time_point stopping, const Supervisor& supervisor,
-                 Log& log) {
-  constexpr std::chrono::seconds kPatience{10};
-  constexpr int kNotClosed = 3;
-  if (std::chrono::steady_clock::now() - stopping < kPatience) return;
-  const auto hanging = supervisor.hanging(kPatience);
-  if (!hanging) return;
-  log.error(*hanging);
-  log.error(
-      "ends without closing its recordings; samples that were acknowledged are in the "
-      "journals, and the next start recovers them");
-  std::_Exit(kNotClosed);
+                       files->found.size(), files->rejected.size()));
+  supervisor.reload(std::move(*files));
 }
 
 int record(const Arguments& arguments, CampaignFiles files, const drivers::Drivers& drivers,
@@ -139,29 +124,37 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
   if (files.found.empty()) return 1;
   Memory memory;
   ServiceManager manager;
+  recording::DiskCalls calls;
   Supervisor supervisor(std::move(files), drivers,
                         arguments.once ? acquire::RunMode::kOnce : acquire::RunMode::kScheduled,
-                        log);
-  const auto service = serve(arguments, drivers, supervisor, log);
+                        calls, log);
+  LastResort last_resort(supervisor, log);
+  const auto service = serve(arguments, {supervisor, drivers, calls}, log);
+  CampaignReload reload(arguments.campaigns, drivers, calls);
   manager.ready();
   bool stays = service != nullptr && !arguments.once;  // clients may start campaigns again
-  std::optional<std::chrono::steady_clock::time_point> stopping;
+  bool stopping = false;
   std::string told;
   constexpr timespec kPatience{0, 200'000'000};
   while (stays || !supervisor.ended()) {
     const int signal = sigtimedwait(&signals, nullptr, &kPatience);
     if (signal == SIGHUP) {
-      if (!stopping) reload(arguments, drivers, supervisor, log);
+      if (arguments.once) {
+        log.fact("SIGHUP: with --once campaigns are read once");
+      } else {
+        reload.request();
+      }
     } else if (signal > 0) {
       log.fact(
           fmt::format("{}: recordings are being closed", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
       manager.stopping();
       supervisor.stop();
       stays = false;
-      if (!stopping) stopping = std::chrono::steady_clock::now();
+      stopping = true;
+      last_resort.begin();
     }
-    if (stopping) end_if_late(*stopping, supervisor, log);
-    if (!supervisor.hanging()) manager.alive();  // else systemd may start us again
+    if (!stopping) apply(reload.poll([&] { return supervisor.in_force(); }), supervisor, log);
+    if (supervisor.hanging().empty()) manager.alive();  // else systemd may start us again
     supervisor.settle();
     supervisor.tell_warnings();
     memory.keep_flat();
@@ -170,6 +163,7 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
       told = status;
     }
   }
+  last_resort.begin();
   return stopping || supervisor.rejected().empty() ? 0 : 1;
 }
 

@@ -67,9 +67,10 @@ int compute_for_parent(std::istream& in, std::ostream& out) {
   return 0;
 }
 
-service::ComputeStudy compute_in_child(std::vector<std::string> command) {
-  return [command = std::move(command)](const v1::JobOrder& order,
-                                        const Progress& progress) -> Result<v1::Study> {
+service::ComputeStudy compute_in_child(recording::DiskCalls& calls,
+                                       std::vector<std::string> command) {
+  return [&calls, command = std::move(command)](const v1::JobOrder& order,
+                                                const Progress& progress) -> Result<v1::Study> {
     Result<v1::Study> out = fail("it ended without a word");
     const auto hear = [&](std::string_view line) {
       v1::JobReport report;
@@ -78,7 +79,9 @@ service::ComputeStudy compute_in_child(std::vector<std::string> command) {
       if (report.has_error()) out = fail(report.error());
       if (report.has_result()) out = std::move(*report.mutable_result());
     };
-    const process::Talk talk{report::to_json(order, report::JsonLayout::kOneLine), hear};
+    recording::DiskCalls::Watch watch(calls, "computation on a study", order.cache());
+    const process::Talk talk{report::to_json(order, report::JsonLayout::kOneLine), hear,
+                             [&] { watch.progress(); }};
     const auto done = process::run_program(command, progress, talk);
     if (!done) return fail("the process that computed it: " + done.error().message);
     return out;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/service/study_computation.h"
+#include "recording/store/disk_calls.h"
 
 namespace imunoise::app {
 
@@ -17,7 +18,9 @@ inline constexpr const char* kComputeWord = "--compute";
 /// Runs a command for every order, which does as compute_for_parent(): as it stands, the program
 /// that runs already, whatever has been installed since. A process that crashes is an error like
 /// others.
-service::ComputeStudy compute_in_child(std::vector<std::string> command = {"/proc/self/exe",
+/// `calls` outlive it: a child that hangs is among them.
+service::ComputeStudy compute_in_child(recording::DiskCalls& calls,
+                                       std::vector<std::string> command = {"/proc/self/exe",
                                                                            kComputeWord});
 
 /// The child's side: reads a JobOrder, writes JobReports, a line each. Returns the exit status.

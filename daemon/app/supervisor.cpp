@@ -29,26 +29,21 @@ bool same(const v1::Campaign& a, const v1::Campaign& b) {
   return google::protobuf::util::MessageDifferencer::Equals(a, b);
 }
 
-bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  const auto whole = (folder / ".").lexically_normal().parent_path();
-  const auto inner = path.lexically_normal();
-  return std::mismatch(whole.begin(), whole.end(), inner.begin(), inner.end()).first == whole.end();
-}
-
 }  // namespace
 
 Supervisor::Supervisor(CampaignFiles files, const drivers::Drivers& drivers, acquire::RunMode mode,
-                       Log& log)
+                       recording::DiskCalls& calls, Log& log)
     : mode_(mode),
       log_(log),
-      files_(recording::posix_file_system()),
+      calls_(calls),
+      files_(recording::posix_file_system(), calls),
       recorder_(
           files_, drivers,
           [this](const std::string& device, std::string_view text) {
             log_.chatter(device, std::string(text));
           },
           [this](const std::string& campaign) { return &live_.of(campaign); }),
-      aftercare_(files_, beside_us("imunoise")) {
+      aftercare_(files_, calls, beside_us("imunoise")) {
   rejected_ = std::move(files.rejected);
   wanted_ = by_name(std::move(files.found));
   settle();
@@ -102,10 +97,9 @@ bool Supervisor::as_wanted(const Runs::value_type& run) const {
          same(wanted->second.campaign, run.second.state.campaign);
 }
 
-bool Supervisor::folder_is_free(const v1::Campaign& campaign) const {
-  const std::filesystem::path folder = folder_of(campaign);
+bool Supervisor::folder_is_free(const std::filesystem::path& folder) const {
   return std::none_of(runs_.begin(), runs_.end(), [&](const Runs::value_type& one) {
-    return one.second.state.running && folder_of(one.second.state.campaign) == folder;
+    return one.second.state.running && one.second.folder == folder;
   });
 }
 
@@ -123,6 +117,7 @@ void Supervisor::settle() {
       ++one;
     } else if (wanted != wanted_.end() && run.by_client) {  // who stopped it starts it again
       run.state.campaign = wanted->second.campaign;
+      run.folder = wanted->second.folder;
       run.leave = std::stop_source();
       ++one;
     } else {
@@ -131,9 +126,10 @@ void Supervisor::settle() {
     }
   }
   for (const auto& [name, file] : wanted_) {
-    if (runs_.contains(name) || !folder_is_free(file.campaign)) continue;
+    if (runs_.contains(name) || !folder_is_free(file.folder)) continue;
     Run& run = runs_[name];
     run.state.campaign = file.campaign;
+    run.folder = file.folder;
     begin_unless_left(run);
   }
 }
@@ -239,7 +235,7 @@ void Supervisor::tell_warnings() {
 }
 
 void Supervisor::tell_troubles() {
-  std::map<std::string, live::Trouble> now = troubles();
+  Troubles now = troubles();
   std::vector<std::string> changed;
   for (const auto& [name, trouble] : now) {
     const auto before = told_.find(name);
@@ -257,37 +253,23 @@ void Supervisor::tell_troubles() {
   for (const std::string& name : changed) tell(name);
 }
 
-// Calls that hang come first: nothing else is known for sure while one does.
-std::optional<live::Trouble> Supervisor::trouble_of(const v1::Campaign& campaign) const {
-  const auto now = live::Steady::now();
-  for (const recording::DiskCall& call : files_.calls()) {
-    if (!lies_in(call.path, campaign.folder())) continue;
-    if (auto found = live::trouble_of(call, now)) return found;
-  }
-  return live_.trouble(campaign.name(), now);
-}
-
-std::map<std::string, live::Trouble> Supervisor::troubles() const {
+Troubles Supervisor::troubles() const {
   std::vector<v1::Campaign> campaigns;
   {
     const std::lock_guard lock(mutex_);
-    for (const auto& [name, run] : runs_) {
-      if (run.state.running) campaigns.push_back(run.state.campaign);
-    }
+    for (const auto& [name, run] : runs_) campaigns.push_back(run.state.campaign);
   }
-  std::map<std::string, live::Trouble> out;
-  for (const v1::Campaign& one : campaigns) {
-    if (auto trouble = trouble_of(one)) out.emplace(one.name(), std::move(*trouble));
-  }
-  return out;
+  return find_troubles(campaigns, calls_.pending(), live_, live::Steady::now());
 }
 
-std::optional<std::string> Supervisor::hanging(std::chrono::seconds at_least) const {
-  const auto before = live::Steady::now() - at_least;
-  for (const auto& [name, trouble] : troubles()) {
-    if (trouble.hangs && trouble.since <= before) return name + ": " + live::sentence(trouble);
-  }
-  return std::nullopt;
+std::string Supervisor::hanging(std::chrono::seconds at_least) const {
+  return hanging_since(troubles(), live::Steady::now() - at_least);
+}
+
+std::string Supervisor::trouble() const {
+  const Troubles all = troubles();
+  const auto found = all.find(kNoCampaign);
+  return found == all.end() ? "" : live::sentence(found->second);
 }
 
 std::string Supervisor::status() const {
@@ -300,6 +282,8 @@ std::string Supervisor::status() const {
     const auto trouble = troubles.find(name);
     if (trouble != troubles.end()) out += "; " + live::sentence(trouble->second);
   }
+  if (const auto other = troubles.find(kNoCampaign); other != troubles.end())
+    out += (out.empty() ? "" : " | ") + live::sentence(other->second);
   std::string files;
   for (const v1::RejectedFile& one : rejected_) files += (files.empty() ? "" : ", ") + one.file();
   if (!files.empty()) out += (out.empty() ? "" : " | ") + ("rejected campaign files: " + files);
@@ -337,7 +321,7 @@ Result<void> Supervisor::start(const std::string& campaign, bool once) {
                     "records it now",
                     campaign));
   }
-  if (!folder_is_free(run.state.campaign))
+  if (!folder_is_free(run.folder))
     return fail(campaign + ": another campaign still records into its folder; try again later");
   before = std::move(run.thread);
   begin(run, once ? acquire::RunMode::kOnce : mode_);

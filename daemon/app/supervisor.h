@@ -5,7 +5,6 @@
 #include <atomic>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -16,6 +15,7 @@
 #include "daemon/app/aftercare.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/log.h"
+#include "daemon/app/troubles.h"
 #include "daemon/live/live_board.h"
 #include "daemon/service/bench.h"
 #include "recording/store/watched_files.h"
@@ -26,8 +26,10 @@ namespace imunoise::app {
 class Supervisor : public service::Bench {
  public:
   /// Starts them, but for those with a calendar where the mode is not kOnce: their timers do. The
-  /// drivers and the log outlive it.
-  Supervisor(CampaignFiles files, const drivers::Drivers& drivers, acquire::RunMode mode, Log& log);
+  /// drivers, the log and `calls` outlive it. What its campaigns ask of their disks is among the
+  /// calls; it tells of any of these that hangs.
+  Supervisor(CampaignFiles files, const drivers::Drivers& drivers, acquire::RunMode mode,
+             recording::DiskCalls& calls, Log& log);
   /// Stops them.
   ~Supervisor() override;
   Supervisor(const Supervisor&) = delete;
@@ -49,13 +51,13 @@ class Supervisor : public service::Bench {
   /// Logs what is of concern in the replicates that are being recorded, and what keeps campaigns
   /// from recording, once. To be called often, from one thread.
   void tell_warnings();
-  /// What hangs, so that a campaign goes no further: its name, what, where and since when. Nothing
-  /// while all go on.
-  std::optional<std::string> hanging(std::chrono::seconds at_least = live::kHangsAfter) const;
+  /// What hangs: of which campaign, what, where and since when. Empty while all go on.
+  std::string hanging(std::chrono::seconds at_least = live::kHangsAfter) const;
 
   std::vector<service::BenchCampaign> campaigns() const override;
   std::vector<v1::RejectedFile> rejected() const override;
   std::vector<v1::LiveReplicate> live() const override { return live_.state(); }
+  std::string trouble() const override;
   Result<void> start(const std::string& campaign, bool once) override;
   Result<void> stop(const std::string& campaign, const std::string& recording) override;
   void watch(Watcher changed) override;
@@ -63,15 +65,15 @@ class Supervisor : public service::Bench {
  private:
   struct Run {
     service::BenchCampaign state;
-    std::stop_source stop;   // at once
-    std::stop_source leave;  // once no replicate is recorded
-    bool by_client = false;  // a client stopped it, and may start it again
+    std::filesystem::path folder;  // as its file's
+    std::stop_source stop;         // at once
+    std::stop_source leave;        // once no replicate is recorded
+    bool by_client = false;        // a client stopped it, and may start it again
     std::jthread thread;
   };
   using Runs = std::map<std::string, Run>;
 
-  std::optional<live::Trouble> trouble_of(const v1::Campaign& campaign) const;
-  std::map<std::string, live::Trouble> troubles() const;
+  Troubles troubles() const;
   void tell_troubles();
   bool left_to_timer(const v1::Campaign& campaign) const;
   void run(const v1::Campaign& campaign, acquire::RunMode mode, const std::stop_token& stop,
@@ -81,7 +83,7 @@ class Supervisor : public service::Bench {
   void tell(const std::string& campaign);
   // With the mutex held:
   bool as_wanted(const Runs::value_type& run) const;
-  bool folder_is_free(const v1::Campaign& campaign) const;
+  bool folder_is_free(const std::filesystem::path& folder) const;
   void begin(Run& run, acquire::RunMode mode);
   void begin_unless_left(Run& run);
   void tell_changes(const std::map<std::string, CampaignFile>& wanted) const;
@@ -89,11 +91,12 @@ class Supervisor : public service::Bench {
   const acquire::RunMode mode_;
   Log& log_;
   acquire::SystemClock clock_;
+  recording::DiskCalls& calls_;
   recording::WatchedFiles files_;
   live::LiveBoard live_;
   acquire::DeviceRecorder recorder_;
   Aftercare aftercare_;
-  std::map<std::string, live::Trouble> told_;  // by campaign
+  Troubles told_;
   std::atomic<std::size_t> running_ = 0;
   std::mutex watching_;  // held while the watcher is called
   Watcher watcher_;

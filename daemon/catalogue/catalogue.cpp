@@ -53,7 +53,7 @@ Result<Catalogue> Catalogue::open(const std::string& where, std::string bench) {
 }
 
 // Another program may have read it meanwhile; false: it has.
-Result<bool> Catalogue::put(const Found& found) {
+Result<bool> Catalogue::put(const Found& found, const std::function<void()>& again) {
   bool put = false;
   auto done = database_->transaction(
       [&]() -> Result<void> {
@@ -64,7 +64,7 @@ Result<bool> Catalogue::put(const Found& found) {
         put = rows->empty() || text(rows->front().front()) != found.stamp;
         return put ? put_entry(*database_, bench_, found) : Result<void>();
       },
-      lock());
+      lock(), again);
   if (!done) return tl::unexpected(done.error());
   return put;
 }
@@ -82,19 +82,24 @@ Result<Changes> Catalogue::refresh(const recording::FileSystem& files,
   for (std::size_t i = 0; i < folders->size(); ++i) {
     const std::string& folder = (*folders)[i];
     if (progress.stopped()) return fail("stopped");
-    progress.report(static_cast<double>(i) / static_cast<double>(folders->size()));
+    const auto report = [&] {
+      progress.report(static_cast<double>(i) / static_cast<double>(folders->size()));
+    };
+    report();
     const auto before = known.extract(folder);
     if (!before.empty() && before.mapped() == stamp_of(files, root / folder)) {
       ++out.unchanged;
       continue;
     }
-    const auto put_by_us = put(read_found(files, root, folder));
+    const auto put_by_us = put(read_found(files, root, folder), report);
     if (!put_by_us) return tl::unexpected(put_by_us.error());
     ++(*put_by_us ? out.added : out.unchanged);
   }
   for (const auto& one : known) {
-    auto done =
-        database_->transaction([&] { return remove_entry(*database_, bench_, one.first); }, lock());
+    const auto report = [&] { progress.report(1.0); };
+    report();
+    auto done = database_->transaction([&] { return remove_entry(*database_, bench_, one.first); },
+                                       lock(), report);
     if (!done) return tl::unexpected(done.error());
     ++out.removed;
   }

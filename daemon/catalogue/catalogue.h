@@ -4,6 +4,7 @@
 // any time and is then made again from them.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -69,7 +70,7 @@ class Catalogue {
       : database_(std::move(sound.database)),
         repair_(std::move(sound.repair)),
         bench_(std::move(bench)) {}
-  Result<bool> put(const Found& found);
+  Result<bool> put(const Found& found, const std::function<void()>& again);
   // Programs that write about one bench do so one after the other.
   std::string lock() const { return "bench " + bench_; }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kPostgres = "postgresql://";
 constexpr std::string_view kInMemory = ":memory:";
-constexpr int kPatience = 10;       // s that a SQLite file may be locked by somebody else
+constexpr int kPatience = 3;        // s that a SQLite file may be locked by somebody else
 constexpr int kAttempts = 6;        // of a transaction that others disturb
 constexpr int kLocks = 0x696d756e;  // our advisory locks in PostgreSQL, beside those of others
 
@@ -198,7 +198,7 @@ Result<std::vector<Row>> Database::query(std::string_view statement,
 }
 
 Result<void> Database::transaction(const std::function<Result<void>()>& work,
-                                   const std::string& lock) {
+                                   const std::string& lock, const std::function<void()>& again) {
   const auto attempt = [&]() -> Result<void> {
     Transaction all(session_->soci, session_->postgres);
     if (session_->postgres && !lock.empty()) {
@@ -215,6 +215,7 @@ Result<void> Database::transaction(const std::function<Result<void>()>& work,
     auto out = session_->guarded(attempt);
     if (out || !session_->disturbed || done == kAttempts) return out;
     wait_before(done);
+    if (again) again();
   }
 }
 

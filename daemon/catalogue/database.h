@@ -35,8 +35,10 @@ class Database {
   Result<std::vector<Row>> query(std::string_view statement, const std::vector<Value>& values = {});
   /// All of the work is done, or, when it fails, nothing of it. Of all programs, one at a time is
   /// in a transaction of the same `lock`. Work that another program disturbed (a deadlock, a row
-  /// that was inserted meanwhile, a file that stays locked) is done again, a few times.
-  Result<void> transaction(const std::function<Result<void>()>& work, const std::string& lock = "");
+  /// that was inserted meanwhile, a file that stays locked) is done again, a few times; `again` is
+  /// called before.
+  Result<void> transaction(const std::function<Result<void>()>& work, const std::string& lock = "",
+                           const std::function<void()>& again = {});
 
   /// The file, where the database is one.
   const std::optional<std::filesystem::path>& file() const;

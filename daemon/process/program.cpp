@@ -14,7 +14,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
+#include <utility>
 
 #include "core/support/descriptor.h"
 #include "daemon/process/spawning.h"
@@ -64,6 +66,24 @@ Result<Descriptor> file_of(std::string_view text) {
   return out;
 }
 
+// The time that a process spent on the processor, all its threads together.
+class ProcessorTime {
+ public:
+  explicit ProcessorTime(pid_t process) { known_ = ::clock_getcpuclockid(process, &clock_) == 0; }
+  // Since the last call.
+  bool grew() {
+    timespec time{};
+    if (!known_ || ::clock_gettime(clock_, &time) != 0) return false;
+    const auto used = std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+    return std::exchange(used_, used) != used;
+  }
+
+ private:
+  clockid_t clock_{};
+  bool known_ = false;
+  std::chrono::nanoseconds used_{0};
+};
+
 // Hears a child until it has closed its ends.
 class Listener {
  public:
@@ -73,6 +93,7 @@ class Listener {
   std::string listen(int lines, int rest, pid_t child, const Progress& progress) {
     std::array<pollfd, 2> pipes = {{{lines, POLLIN, 0}, {rest, POLLIN, 0}}};
     Clock::time_point asked = Clock::time_point::max();  // to end
+    ProcessorTime processor(child);
     while (pipes[0].fd >= 0 || pipes[1].fd >= 0) {
       if (progress.stopped() && asked == Clock::time_point::max()) {
         asked = Clock::now();
@@ -82,7 +103,9 @@ class Listener {
         ::kill(child, SIGKILL);
         break;
       }
-      if (::poll(pipes.data(), pipes.size(), kLookEvery) <= 0) continue;
+      const bool said = ::poll(pipes.data(), pipes.size(), kLookEvery) > 0;
+      if (talk_.works && (processor.grew() || said)) talk_.works();
+      if (!said) continue;
       for (pollfd& pipe : pipes) {
         if (pipe.revents != 0 && !take(pipe.fd, &pipe == &pipes.front())) pipe.fd = -1;
       }

@@ -18,6 +18,9 @@ struct Talk {
   /// Takes each line of its standard output, on the caller's thread; empty: that is part of what it
   /// said, as standard errors are.
   std::function<void(std::string_view line)> hear = {};
+  /// Called several times a second, on the caller's thread, while the program works: it used the
+  /// processor since, or said something. One that waits for a disk does neither.
+  std::function<void()> works = {};
 };
 
 /// Runs a program to its end: `command` is its path and its arguments. It yields the processor and,

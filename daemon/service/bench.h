@@ -34,6 +34,8 @@ class Bench {
   virtual std::vector<BenchCampaign> campaigns() const = 0;
   /// Files of campaigns that were not taken up.
   virtual std::vector<v1::RejectedFile> rejected() const = 0;
+  /// What hangs outside of the campaigns' folders, where, since when; empty: nothing.
+  virtual std::string trouble() const = 0;
   /// What is known of the replicates that are being recorded.
   virtual std::vector<v1::LiveReplicate> live() const = 0;
   /// Error: it runs already, or is not for us to start; says the way out.

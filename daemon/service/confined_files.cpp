@@ -82,6 +82,9 @@ class ConfinedFiles final : public recording::FileSystem {
                        [&](const std::string& one) { return one == name || one == name + "/"; });
   }
 
+  Result<std::uint64_t> free_space(const Path& path) const override {
+    return fail(path.string() + ": only its contents may be read here");
+  }
   Result<std::unique_ptr<recording::WritableFile>> create(const Path& path) override {
     return refuse_to_write(path);
   }

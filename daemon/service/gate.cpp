@@ -99,6 +99,11 @@ std::optional<Response> Gate::refuse(const RequestHead& head) {
   return std::nullopt;
 }
 
+bool Gate::waits(const RequestHead& head) {
+  const auto asked = understand(head);
+  return asked && methods_.waits(asked->found.route->method->input_type());
+}
+
 Answer<Response> Gate::call(const Request& request) const {
   const auto asked = understand(request);
   if (!asked) return tl::unexpected(asked.error());

@@ -36,6 +36,7 @@ class Gate : public Handler {
 
   bool knows(const RequestHead& head) override;
   std::optional<Response> refuse(const RequestHead& head) override;
+  bool waits(const RequestHead& head) override;
   Response answer(const Request& request) override;
   Response trouble(unsigned status, const std::string& sentence) override;
 

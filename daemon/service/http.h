@@ -51,7 +51,10 @@ class Handler {
   /// On the network's thread, before the body is read: must not wait. A response refuses the
   /// request, whose body is then not read.
   virtual std::optional<Response> refuse(const RequestHead& head) = 0;
-  /// On one of several threads; may wait. Must not throw.
+  /// Whether answer() may wait for a disk or a computation. Of requests that refuse() lets pass, on
+  /// the network's thread.
+  virtual bool waits(const RequestHead& head) = 0;
+  /// On one of several threads, which are others for requests that may wait. Must not throw.
   virtual Response answer(const Request& request) = 0;
   /// The response to what is no request, is too large or too much. From any thread.
   virtual Response trouble(unsigned status, const std::string& sentence) = 0;

@@ -43,12 +43,17 @@ struct Counts {
 // What connections share. `connections` belongs to the network's thread.
 struct Shared {
   Shared(const HttpLimits& limits_, Handler& handler_)
-      : limits(limits_), handler(handler_), pool(limits_.threads) {}
+      : limits(limits_),
+        handler(handler_),
+        waiting(limits_.waiting_threads),
+        prompt(limits_.prompt_threads) {}
 
   const HttpLimits limits;
   Handler& handler;
   asio::io_context io{1};
-  asio::thread_pool pool;  // makes answers
+  // These make answers: a disk that hangs may hold up all of the first.
+  asio::thread_pool waiting;
+  asio::thread_pool prompt;
   Counts counts;
   std::map<std::string, std::size_t> of_peer;
   std::uint64_t turns = 0;  // connections that began, and responses that ended
@@ -179,7 +184,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void answer() {
     stream_.expires_never();
     request_.body = std::move(parser_->get().body());
-    asio::post(shared_.pool, [self = shared_from_this()] {
+    asio::thread_pool& pool = shared_.handler.waits(request_) ? shared_.waiting : shared_.prompt;
+    asio::post(pool, [self = shared_from_this()] {
       auto response = std::make_shared<Response>(self->shared_.handler.answer(self->request_));
       asio::post(self->shared_.io, [self, response] {
         if (self->finished_) {

@@ -45,7 +45,8 @@ class HttpServer::Implementation {
       const auto open = connections_;
       for (const auto& one : open) one->finish();
     });
-    shared_.pool.join();
+    shared_.waiting.join();
+    shared_.prompt.join();
     guard_.reset();
     if (thread_.joinable()) thread_.join();
     std::error_code ignored;

@@ -31,7 +31,8 @@ struct HttpLimits {
   std::size_t connections_of_peer = 48;         ///< The others are left for other peers.
   std::size_t strangers = 16;                   ///< Among these, until they show who they are.
   std::size_t streams = 16;                     ///< Of events, among these.
-  std::size_t threads = 4;                      ///< That answer requests.
+  std::size_t waiting_threads = 4;              ///< That answer requests which may wait for a disk,
+  std::size_t prompt_threads = 2;               ///< and all others.
 };
 
 struct Listen {

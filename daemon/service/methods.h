@@ -24,24 +24,43 @@ struct Reply {
 /// are there.
 class Methods {
  public:
-  /// `function` takes a Request and returns an Answer of a message, or of an EventQueue.
+  /// `function` takes a Request and returns an Answer of a message, or of an EventQueue. It waits
+  /// for no disk and no computation.
   template <class Request, class Function>
   void on(Function function) {
-    functions_[Request::descriptor()] =
-        [function = std::move(function)](const google::protobuf::Message& request) {
-          return reply(function(static_cast<const Request&>(request)));
-        };
+    add<Request>(std::move(function), false);
+  }
+  /// The same for one that may wait.
+  template <class Request, class Function>
+  void on_waiting(Function function) {
+    add<Request>(std::move(function), true);
   }
 
   bool has(const google::protobuf::Descriptor* request) const {
     return functions_.contains(request);
   }
+  /// Precondition: has() it.
+  bool waits(const google::protobuf::Descriptor* request) const {
+    return functions_.at(request).waits;
+  }
   /// Precondition: has() its type.
   Answer<Reply> call(const google::protobuf::Message& request) const {
-    return functions_.at(request.GetDescriptor())(request);
+    return functions_.at(request.GetDescriptor()).call(request);
   }
 
  private:
+  struct Entry {
+    std::function<Answer<Reply>(const google::protobuf::Message&)> call;
+    bool waits = false;
+  };
+  template <class Request, class Function>
+  void add(Function function, bool waits) {
+    functions_[Request::descriptor()] = {
+        [function = std::move(function)](const google::protobuf::Message& request) {
+          return reply(function(static_cast<const Request&>(request)));
+        },
+        waits};
+  }
   static Answer<Reply> reply(Answer<std::shared_ptr<EventQueue>> events) {
     if (!events) return tl::unexpected(std::move(events.error()));
     return Reply{nullptr, std::move(*events)};
@@ -52,9 +71,7 @@ class Methods {
     return Reply{std::make_unique<Message>(std::move(*message)), nullptr};
   }
 
-  std::map<const google::protobuf::Descriptor*,
-           std::function<Answer<Reply>(const google::protobuf::Message&)>>
-      functions_;
+  std::map<const google::protobuf::Descriptor*, Entry> functions_;
 };
 
 }  // namespace imunoise::service

@@ -43,22 +43,24 @@ std::vector<fs::path> folders_in(const std::map<std::string, fs::path>& roots) {
 }  // namespace
 
 Result<std::unique_ptr<Records>> Records::open(Campaigns campaigns,
-                                               std::chrono::milliseconds freshness) {
+                                               std::chrono::milliseconds freshness,
+                                               recording::DiskCalls& calls) {
   auto catalogue = catalogue::Catalogue::open(":memory:");
   if (!catalogue) return tl::unexpected(catalogue.error());
   return std::unique_ptr<Records>(
-      new Records(std::move(campaigns), std::move(*catalogue), freshness));
+      new Records(std::move(campaigns), std::move(*catalogue), freshness, calls));
 }
 
-Records::View::View(Roots of) : roots(std::move(of)), files(confined_files(folders_in(roots))) {}
+Records::View::View(Roots of, recording::DiskCalls& calls)
+    : roots(std::move(of)), confined(confined_files(folders_in(roots))), files(*confined, calls) {}
 
-std::shared_ptr<const Records::View> Records::view() const {
+std::shared_ptr<Records::View> Records::view() const {
   Roots roots;
   for (const v1::Campaign& one : campaigns_()) {
     roots[one.name()] = fs::absolute(one.folder()).lexically_normal();
   }
   const std::lock_guard lock(viewing_);
-  if (!view_ || view_->roots != roots) view_ = std::make_shared<const View>(std::move(roots));
+  if (!view_ || view_->roots != roots) view_ = std::make_shared<View>(std::move(roots), calls_);
   return view_;
 }
 
@@ -67,6 +69,13 @@ std::vector<fs::path> Records::folders() const { return folders_in(view()->roots
 Answer<void> Records::check_campaign(const std::string& campaign) const {
   if (campaign.empty() || view()->roots.contains(campaign)) return {};
   return refuse(404, fmt::format("there is no campaign '{}'", campaign));
+}
+
+// The roots themselves lie outside of what their files show.
+bool Records::is_there(const fs::path& root) const {
+  const recording::DiskCalls::Watch watch(calls_, "stat", root);
+  std::error_code unknown;
+  return fs::exists(root, unknown);
 }
 
 Answer<void> Records::refresh() {
@@ -81,10 +90,9 @@ Answer<void> Records::refresh() {
   }
   if (refreshed_ && now - *refreshed_ < freshness_) return {};
   for (const auto& [campaign, root] : current->roots) {
-    std::error_code unknown;
-    if (!fs::exists(root, unknown)) continue;  // nothing was recorded yet
+    if (!is_there(root)) continue;  // nothing was recorded yet
     catalogue_.use_bench(campaign);
-    if (const auto done = catalogue_.refresh(*current->files, root); !done)
+    if (const auto done = catalogue_.refresh(current->files, root); !done)
       return refuse(500, done.error().message);
   }
   refreshed_ = std::chrono::steady_clock::now();
@@ -159,7 +167,7 @@ Answer<fs::path> Records::path_of(const std::string& campaign, const std::string
   if (!leads_down(folder))
     return refuse(400, "folder: name a recording as /v1/recordings lists it");
   const fs::path path = root->second / folder;
-  if (const auto names = current->files->list(path); !names)
+  if (const auto names = current->files.list(path); !names)
     return refuse(404, fmt::format("campaign '{}' has no recording '{}'", campaign, folder));
   return path;
 }
@@ -168,7 +176,7 @@ Answer<v1::Manifest> Records::manifest(const std::string& campaign,
                                        const std::string& folder) const {
   const auto path = path_of(campaign, folder);
   if (!path) return tl::unexpected(path.error());
-  auto out = recording::read_manifest(*view()->files, *path);
+  auto out = recording::read_manifest(view()->files, *path);
   if (!out) return refuse(500, out.error().message);
   if (!*out)
     return refuse(404, fmt::format("campaign '{}' has no recording '{}'", campaign, folder));
@@ -179,7 +187,7 @@ Answer<v1::Calibration> Records::calibration(const std::string& campaign,
                                              const std::string& folder) const {
   const auto path = path_of(campaign, folder);
   if (!path) return tl::unexpected(path.error());
-  auto out = study::read_calibration(*view()->files, *path);
+  auto out = study::read_calibration(view()->files, *path);
   if (!out) return refuse(500, out.error().message);
   if (!*out)
     return refuse(

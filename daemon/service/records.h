@@ -16,7 +16,7 @@
 #include "daemon/service/answer.h"
 #include "imunoise/v1/campaign.pb.h"
 #include "imunoise/v1/service.pb.h"
-#include "recording/store/file_system.h"
+#include "recording/store/watched_files.h"
 
 namespace imunoise::service {
 
@@ -26,9 +26,11 @@ class Records {
  public:
   using Campaigns = std::function<std::vector<v1::Campaign>()>;
 
-  /// `campaigns` is asked each time: they may change. Error: the database's.
+  /// `campaigns` is asked each time: they may change. What hangs is among the `calls`. Error: the
+  /// database's.
   static Result<std::unique_ptr<Records>> open(Campaigns campaigns,
-                                               std::chrono::milliseconds freshness);
+                                               std::chrono::milliseconds freshness,
+                                               recording::DiskCalls& calls);
 
   /// Of one campaign, or of all (empty). Error: 404, there is no such campaign.
   Answer<v1::RecordingList> recordings(const std::string& campaign);
@@ -48,21 +50,28 @@ class Records {
  private:
   using Roots = std::map<std::string, std::filesystem::path>;  // by campaign
   struct View {
-    explicit View(Roots roots);
+    View(Roots roots, recording::DiskCalls& calls);
     const Roots roots;
-    const std::unique_ptr<recording::FileSystem> files;  // nothing leads out of the roots
+    const std::unique_ptr<recording::FileSystem> confined;  // nothing leads out of the roots
+    recording::WatchedFiles files;
   };
 
-  Records(Campaigns campaigns, catalogue::Catalogue catalogue, std::chrono::milliseconds freshness)
-      : campaigns_(std::move(campaigns)), freshness_(freshness), catalogue_(std::move(catalogue)) {}
-  std::shared_ptr<const View> view() const;  // of the campaigns as they are now
+  Records(Campaigns campaigns, catalogue::Catalogue catalogue, std::chrono::milliseconds freshness,
+          recording::DiskCalls& calls)
+      : campaigns_(std::move(campaigns)),
+        freshness_(freshness),
+        calls_(calls),
+        catalogue_(std::move(catalogue)) {}
+  std::shared_ptr<View> view() const;  // of the campaigns as they are now
   Answer<void> check_campaign(const std::string& campaign) const;
+  bool is_there(const std::filesystem::path& root) const;
   Answer<void> refresh();  // with the mutex held
 
   const Campaigns campaigns_;
   const std::chrono::milliseconds freshness_;
+  recording::DiskCalls& calls_;
   mutable std::mutex viewing_;
-  mutable std::shared_ptr<const View> view_;
+  mutable std::shared_ptr<View> view_;
   std::mutex mutex_;  // guards what follows
   catalogue::Catalogue catalogue_;
   std::shared_ptr<const View> catalogued_;  // what the catalogue is of

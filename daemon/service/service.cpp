@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "daemon/acquire/clock.h"
-#include "daemon/acquire/disk_space.h"
 #include "daemon/service/bench_methods.h"
 #include "daemon/service/campaign_state.h"
 #include "daemon/service/event_hub.h"
+#include "daemon/service/free_space.h"
 #include "daemon/service/gate.h"
 #include "daemon/service/metrics.h"
 #include "daemon/service/openapi.h"
@@ -52,8 +52,9 @@ class Service::Implementation {
                  std::unique_ptr<Records> records, GateOptions gate)
       : options_(options),
         bench_(subjects.bench),
+        free_space_(subjects.bench, subjects.calls),
         records_(std::move(records)),
-        studies_(options.studies),
+        studies_(options.studies, subjects.calls),
         routes_(*v1::Refusal::descriptor()->file()),
         jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }) {
     add_bench_methods(methods_, bench_, subjects.drivers);
@@ -99,6 +100,7 @@ class Service::Implementation {
         if (one.trouble.empty()) continue;
         held_up += (held_up.empty() ? "" : ", ") + one.campaign.name();
       }
+      if (!bench_.trouble().empty()) return refuse(503, "a disk hangs; the log tells which");
       if (!held_up.empty())
         return refuse(503, "cannot record: " + held_up + "; GET /v1/campaigns tells why");
       v1::Health out;
@@ -124,9 +126,8 @@ class Service::Implementation {
     out.uptime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     for (const BenchCampaign& one : bench_.campaigns()) {
       out.campaigns.push_back(campaign_state(one, acquire::now_ns()));
-      const auto free = acquire::free_space(one.campaign.folder());
-      if (free) out.free_bytes[one.campaign.name()] = *free;
     }
+    out.free_bytes = free_space_.known();
     out.rejected_files = bench_.rejected().size();
     out.live = bench_.live();
     out.jobs = jobs_.list();
@@ -191,6 +192,7 @@ class Service::Implementation {
   const ServiceOptions options_;
   Bench& bench_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  FreeSpace free_space_;
   EventHub hub_;
   std::unique_ptr<Records> records_;
   StudyStore studies_;
@@ -211,8 +213,8 @@ Result<std::unique_ptr<Service>> Service::start(const ServiceOptions& options,
                                                 const ServiceSubjects& subjects) {
   auto gate = gate_options(options);
   if (!gate) return tl::unexpected(gate.error());
-  auto records =
-      Records::open([&bench = subjects.bench] { return campaigns_of(bench); }, options.freshness);
+  auto records = Records::open([&bench = subjects.bench] { return campaigns_of(bench); },
+                               options.freshness, subjects.calls);
   if (!records) return tl::unexpected(records.error());
   auto out =
       std::make_unique<Implementation>(options, subjects, std::move(*records), std::move(*gate));

@@ -17,6 +17,7 @@
 #include "daemon/service/study_computation.h"
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
+#include "recording/store/disk_calls.h"
 
 namespace imunoise::service {
 
@@ -42,12 +43,13 @@ struct ServiceOptions {
 struct ServiceSubjects {
   Bench& bench;  ///< The recordings of its campaigns are shown.
   const drivers::Drivers& drivers;
+  recording::DiskCalls& calls;  ///< Its own are among them: a disk that hangs is told of there.
 };
 
 /// Serves while it lives.
 class Service {
  public:
-  /// The bench and the drivers outlive it. Error: of the listening (HttpServer), of the file of
+  /// The subjects outlive it. Error: of the listening (HttpServer), of the file of
   /// tokens, TCP without tokens.
   static Result<std::unique_ptr<Service>> start(const ServiceOptions& options,
                                                 const ServiceSubjects& subjects);

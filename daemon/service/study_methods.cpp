@@ -138,25 +138,25 @@ v1::StudyRequest add_request(const auto& request) {
 }
 
 void add_steps(Methods& methods, const std::shared_ptr<StudyMethods>& steps) {
-  methods.on<v1::OpenStudyRequest>(
+  methods.on_waiting<v1::OpenStudyRequest>(
       [steps](const v1::OpenStudyRequest& request) { return steps->open(request); });
-  methods.on<v1::SeekCandidatesRequest>([steps](const v1::SeekCandidatesRequest& request) {
+  methods.on_waiting<v1::SeekCandidatesRequest>([steps](const v1::SeekCandidatesRequest& request) {
     v1::StudyRequest asked;
     asked.mutable_candidates();
     return steps->change("candidates", request.study(), asked, true, request.wait_s());
   });
-  methods.on<v1::PreviewTermRequest>([steps](const v1::PreviewTermRequest& request) {
+  methods.on_waiting<v1::PreviewTermRequest>([steps](const v1::PreviewTermRequest& request) {
     return steps->change("preview", request.study(), add_request(request), false, request.wait_s());
   });
-  methods.on<v1::AddTermRequest>([steps](const v1::AddTermRequest& request) {
+  methods.on_waiting<v1::AddTermRequest>([steps](const v1::AddTermRequest& request) {
     return steps->change("add", request.study(), add_request(request), true, request.wait_s());
   });
-  methods.on<v1::UndoTermRequest>([steps](const v1::UndoTermRequest& request) {
+  methods.on_waiting<v1::UndoTermRequest>([steps](const v1::UndoTermRequest& request) {
     v1::StudyRequest asked;
     asked.mutable_undo();
     return steps->change("undo", request.study(), asked, true, request.wait_s());
   });
-  methods.on<v1::BranchStudyRequest>(
+  methods.on_waiting<v1::BranchStudyRequest>(
       [steps](const v1::BranchStudyRequest& request) { return steps->branch(request); });
 }
 
@@ -166,11 +166,11 @@ void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const 
                        std::uint64_t largest_recording, ComputeStudy compute) {
   add_steps(methods, std::make_shared<StudyMethods>(jobs, studies, records, largest_recording,
                                                     std::move(compute)));
-  methods.on<v1::ListStudiesRequest>(
+  methods.on_waiting<v1::ListStudiesRequest>(
       [&studies](const v1::ListStudiesRequest&) { return studies.list(); });
-  methods.on<v1::GetStudyRequest>(
+  methods.on_waiting<v1::GetStudyRequest>(
       [&studies](const v1::GetStudyRequest& request) { return studies.read(request.study()); });
-  methods.on<v1::DeleteStudyRequest>(
+  methods.on_waiting<v1::DeleteStudyRequest>(
       [&studies](const v1::DeleteStudyRequest& request) -> Answer<v1::DeletedStudy> {
         if (auto done = studies.remove(request.study()); !done) return tl::unexpected(done.error());
         return v1::DeletedStudy();

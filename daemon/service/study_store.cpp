@@ -28,24 +28,28 @@ Answer<void> check_study_name(const std::string& name) {
       400, "a study's name has 1 to 64 letters, digits, '_', '-' and '.', and begins with no '.'");
 }
 
-StudyStore::StudyStore(std::filesystem::path folder)
+StudyStore::StudyStore(std::filesystem::path folder, recording::DiskCalls& calls)
     : folder_(std::filesystem::absolute(folder).lexically_normal()),
-      files_(confined_files({folder_})) {}
+      calls_(calls),
+      confined_(confined_files({folder_})),
+      files_(*confined_, calls),
+      disk_(recording::posix_file_system(), calls) {}
 
 std::filesystem::path StudyStore::file_of(const std::string& name) const {
   return folder_ / (name + std::string(kSuffix));
 }
 
 bool StudyStore::contains(const std::string& name) const {
+  const recording::DiskCalls::Watch watch(calls_, "stat", file_of(name));
   std::error_code unknown;
   return std::filesystem::exists(std::filesystem::symlink_status(file_of(name), unknown));
 }
 
 Answer<v1::StudyList> StudyStore::list() const {
   v1::StudyList out;
-  std::error_code unknown;
-  if (!std::filesystem::exists(folder_, unknown)) return out;
-  const auto names = files_->list(folder_);
+  const auto there = disk_.exists(folder_);
+  if (!there || !*there) return out;
+  const auto names = files_.list(folder_);
   if (!names) return refuse(500, names.error().message);
   for (const std::string& file : *names) {
     if (!file.ends_with(kSuffix)) continue;
@@ -71,7 +75,7 @@ Answer<void> StudyStore::check_known(const std::string& name) const {
 
 Answer<v1::Study> StudyStore::read(const std::string& name) const {
   if (auto known = check_known(name); !known) return tl::unexpected(known.error());
-  const auto text = files_->read(file_of(name));
+  const auto text = files_.read(file_of(name));
   if (!text) return refuse(500, text.error().message);
   auto study = study::parse_study(*text);
   if (!study) return refuse(500, fmt::format("study '{}': {}", name, study.error().message));
@@ -93,17 +97,15 @@ Result<void> StudyStore::replace(const std::string& name, const v1::Study& study
 Answer<void> StudyStore::remove(const std::string& name) {
   const std::lock_guard lock(changing_);
   if (auto known = check_known(name); !known) return known;
-  recording::FileSystem& disk = recording::posix_file_system();
-  auto done = disk.remove(file_of(name));
-  if (done) done = disk.sync_folder(folder_);
+  auto done = disk_.remove(file_of(name));
+  if (done) done = disk_.sync_folder(folder_);
   if (!done) return refuse(500, done.error().message);
   return {};
 }
 
 Result<void> StudyStore::write(const std::string& name, const v1::Study& study) const {
-  recording::FileSystem& disk = recording::posix_file_system();
-  if (auto made = disk.make_folder(folder_); !made) return made;
-  return recording::replace_file(disk, file_of(name), study::study_text(study));
+  if (auto made = disk_.make_folder(folder_); !made) return made;
+  return recording::replace_file(disk_, file_of(name), study::study_text(study));
 }
 
 }  // namespace imunoise::service

@@ -9,7 +9,7 @@
 
 #include "daemon/service/answer.h"
 #include "imunoise/v1/service.pb.h"
-#include "recording/store/file_system.h"
+#include "recording/store/watched_files.h"
 
 namespace imunoise::service {
 
@@ -19,7 +19,8 @@ Answer<void> check_study_name(const std::string& name);
 /// Thread-safe.
 class StudyStore {
  public:
-  explicit StudyStore(std::filesystem::path folder);
+  /// What hangs is among the `calls`.
+  StudyStore(std::filesystem::path folder, recording::DiskCalls& calls);
 
   Answer<v1::StudyList> list() const;
   /// Error: 400 for a name that is none, 404, 500 where the file is damaged.
@@ -42,7 +43,10 @@ class StudyStore {
   std::filesystem::path file_of(const std::string& name) const;
 
   std::filesystem::path folder_;
-  std::unique_ptr<recording::FileSystem> files_;
+  recording::DiskCalls& calls_;
+  std::unique_ptr<recording::FileSystem> confined_;
+  recording::WatchedFiles files_;         // for reading: follows no link
+  mutable recording::WatchedFiles disk_;  // for writing
   std::mutex changing_;
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -104,7 +105,22 @@ class PosixFileSystem final : public FileSystem {
 
   Result<void> remove(const Path& path) override {
     if (::unlink(path.c_str()) == 0) return {};
+    if (errno == EISDIR && ::rmdir(path.c_str()) == 0) return {};
     return trouble(path, "cannot be removed", errno);
+  }
+
+  Result<std::uint64_t> free_space(const Path& path) const override {
+    Path place = path;
+    struct statvfs found {};
+    while (::statvfs(place.c_str(), &found) != 0) {
+      if (errno == EINTR) continue;
+      const Path above = place.has_parent_path() ? place.parent_path() : Path(".");
+      const bool absent = errno == ENOENT || errno == ENOTDIR;
+      if (!absent || above == place)
+        return trouble(place, "its free space cannot be determined", errno);
+      place = above;
+    }
+    return std::uint64_t{found.f_bavail} * found.f_frsize;
   }
 
   Result<bool> exists(const Path& path) const override {
@@ -177,6 +193,19 @@ Result<void> make_folders(FileSystem& files, const Path& path) {
   if (auto done = make_folders(files, above); !done) return done;
   if (auto done = files.make_folder(path); !done) return done;
   return files.sync_folder(above);
+}
+
+Result<void> remove_tree(FileSystem& files, const Path& folder) {
+  const auto names = files.list(folder);
+  if (!names) return tl::make_unexpected(names.error());
+  for (const std::string& name : *names) {
+    const bool is_folder = name.ends_with('/');
+    const Path inner = folder / (is_folder ? name.substr(0, name.size() - 1) : name);
+    auto done = files.remove(inner);  // also a link to a folder
+    if (!done && is_folder) done = remove_tree(files, inner);
+    if (!done) return done;
+  }
+  return files.remove(folder);
 }
 
 Result<bool> contains(const FileSystem& files, const Path& folder, std::string_view name) {

@@ -53,9 +53,13 @@ class FileSystem {
   virtual Result<std::vector<std::string>> list(const std::filesystem::path& folder) const = 0;
   /// Whether there is something of this name. Error: the disk's, which is no answer.
   virtual Result<bool> exists(const std::filesystem::path& path) const = 0;
+  /// Bytes that are free for us on the disk of the path, or of the nearest folder above it that
+  /// exists.
+  virtual Result<std::uint64_t> free_space(const std::filesystem::path& path) const = 0;
   /// Replaces `to` when it exists.
   virtual Result<void> rename(const std::filesystem::path& from,
                               const std::filesystem::path& to) = 0;
+  /// A file, or an empty folder.
   virtual Result<void> remove(const std::filesystem::path& path) = 0;
   /// One folder; not an error when it exists.
   virtual Result<void> make_folder(const std::filesystem::path& path) = 0;
@@ -74,6 +78,9 @@ Error too_large(const std::filesystem::path& path, std::uint64_t limit);
 
 /// Makes the folder and those above it that are missing; their names survive a power cut.
 Result<void> make_folders(FileSystem& files, const std::filesystem::path& path);
+
+/// Removes a folder and all that is in it; links are removed, not followed.
+Result<void> remove_tree(FileSystem& files, const std::filesystem::path& folder);
 
 /// The disk. One object for the whole process, stateless.
 FileSystem& posix_file_system();

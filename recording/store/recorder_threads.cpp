@@ -26,7 +26,7 @@ Result<void> check_new(const v1::RecordedDevice& device, std::set<std::string>& 
 Recorder::Threads::Threads(FileSystem& files, std::filesystem::path folder,
                            std::unique_ptr<FolderLock> lock, RecoveredRecording recovered,
                            std::uint32_t replicate, const RecorderOptions& options)
-    : files_(files),
+    : files_(files, calls_),
       folder_(std::move(folder)),
       lock_(std::move(lock)),
       manifest_(std::move(recovered.manifest)),
@@ -100,7 +100,7 @@ Result<bool> Recorder::Threads::push(std::size_t device, const Block& block,
 
 RecorderState Recorder::Threads::state() const {
   RecorderState out;
-  out.calls = files_.calls();
+  out.calls = calls_.pending();
   const std::lock_guard guard(mutex_);
   for (const Line& line : lines_) {
     out.counts.push_back(line.intake.counts());

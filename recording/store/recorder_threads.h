@@ -82,6 +82,7 @@ class Recorder::Threads {
   Result<void> check_closed(const RecorderState& state) const;
   static Result<void> check_back(const Line& line);
 
+  DiskCalls calls_;
   WatchedFiles files_;
   std::filesystem::path folder_;
   std::unique_ptr<FolderLock> lock_;

@@ -22,6 +22,7 @@ class Quiet : public service::Handler {
   std::optional<service::Response> refuse(const service::RequestHead& /*head*/) override {
     return std::nullopt;
   }
+  bool waits(const service::RequestHead& /*head*/) override { return false; }
   service::Response answer(const service::Request& /*request*/) override {
     const auto events = std::make_shared<service::EventQueue>(64, 1U << 20U);
     events->push(std::make_shared<const std::string>("event: first\ndata: 1\n\n"));

@@ -2,7 +2,9 @@
 
 #include "daemon/app/aftercare.h"
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "tests/daemon/catalogue/bench_folder.h"
 
@@ -28,7 +30,7 @@ class Cared : public testing::BenchFolder {
                            << "\n"
                            << what << "\n";
     fs::permissions(program, fs::perms::owner_all);
-    return Aftercare(files_, program);
+    return Aftercare(files_, calls_, program);
   }
   std::string asked() const {
     std::ifstream file(root_ / "asked");
@@ -47,6 +49,8 @@ class Cared : public testing::BenchFolder {
     return root_ / "prepared" / study::kCalibrationName;
   }
 
+  recording::DiskCalls calls_;
+  std::chrono::steady_clock::time_point pending_at_;
   v1::Campaign campaign_;
 };
 
@@ -88,6 +92,37 @@ TEST_F(Cared, WhatCalibrationSaysInItsTroubleIsTold) {
   const auto lazy = with("exit 0").calibrate(campaign_, root_ / "a", {});
   ASSERT_FALSE(lazy);
   EXPECT_NE(lazy.error().message.find("nothing came of it"), std::string::npos);
+}
+
+TEST_F(Cared, ACalibrationThatDoesNothingHangs) {
+  add_recording("a", 0);
+  const fs::path folder = root_ / "a";
+  Aftercare aftercare = with("exec sleep 0.6");
+  std::vector<recording::DiskCall> pending;
+  const std::jthread looks([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    pending = calls_.pending();
+    pending_at_ = std::chrono::steady_clock::now();
+  });
+  EXPECT_FALSE(aftercare.calibrate(campaign_, folder, {}));
+  ASSERT_EQ(pending.size(), 1U);
+  EXPECT_EQ(pending[0].what, "calibration");
+  EXPECT_EQ(pending[0].path, folder);
+  EXPECT_GT(pending_at_ - pending[0].since, std::chrono::milliseconds(200));
+  EXPECT_TRUE(calls_.pending().empty());
+}
+
+TEST_F(Cared, AnUpdateOfTheCatalogueIsAmongTheCalls) {
+  add_recording("a", 0);
+  Aftercare aftercare = with("exit 1");
+  std::vector<std::string> seen;
+  const Progress looks([&](double) {
+    for (const recording::DiskCall& one : calls_.pending()) seen.emplace_back(one.what);
+  });
+  ASSERT_TRUE(aftercare.publish(campaign_, root_ / "a", looks));
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.front(), "update of the catalogue");
+  EXPECT_TRUE(calls_.pending().empty());
 }
 
 TEST_F(Cared, ADeviceThatDriftsIsTold) {

@@ -33,12 +33,5 @@ TEST(DiskSpace, NeedsRoomBesideTheReserve) {
   EXPECT_NE(none.error().message.find("touched already"), std::string::npos);
 }
 
-TEST(DiskSpace, IsThatOfTheNearestFolderThatExists) {
-  const auto there = free_space(std::filesystem::temp_directory_path());
-  const auto below = free_space(std::filesystem::temp_directory_path() / "absent_a" / "absent_b");
-  ASSERT_TRUE(there.has_value() && below.has_value());
-  EXPECT_NEAR(static_cast<double>(*below), static_cast<double>(*there), 1e9);
-}
-
 }  // namespace
 }  // namespace imunoise::acquire

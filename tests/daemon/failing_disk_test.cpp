@@ -12,6 +12,7 @@
 #include "daemon/acquire/record_replicate.h"
 #include "daemon/acquire/wire_file.h"
 #include "recording/store/manifest.h"
+#include "recording/store/verify.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/fake_disk.h"
 
@@ -32,7 +33,6 @@ class FailingDisk : public testing::Whims {
     plan_.reopening = Reopening{50ms, 200ms};
     plan_.recorder.waiting_rows = 5;
     plan_.recorder.sync_every = 20ms;
-    plan_.free_space = [](const auto&) -> Result<std::uint64_t> { return 1'000'000'000'000U; };
     EXPECT_TRUE(disk_.make_folder("/bench").has_value());
   }
 
@@ -169,12 +169,39 @@ TEST_F(FailingDisk, WhatHeldUpTheReplicateBeforeIsItsReason) {
 TEST_F(FailingDisk, AnErrorOfAFullDiskSaysHowMuchIsFree) {
   plan_.disk_patience = 0ms;
   add("a");
-  plan_.free_space = [](const auto&) -> Result<std::uint64_t> { return 1'000'000U; };
+  disk_.set_capacity(20'000'000);
   const auto done = record({{100ms, [&] { disk_.fail_syncs_in("/bench/rec/replicate-1/a"); }}});
   ASSERT_FALSE(done.has_value());
-  EXPECT_NE(done.error().message.find("the disk of /bench/rec has 1 MB free, make room"),
+  EXPECT_NE(done.error().message.find("the disk of /bench/rec has 20 MB free, make room"),
             std::string::npos)
       << done.error().message;
+}
+
+TEST_F(FailingDisk, AReplicateDoesNotBeginWithoutRoom) {
+  add("a");
+  plan_.duration = 3600s;
+  plan_.replicates_to_come = 5;
+  plan_.reserve_bytes = 1'000'000;
+  // 100 rows a second of 20 bytes, six hours, and one segment.
+  constexpr std::size_t kNeeded = 6 * 3600 * 100 * 20 + (32U << 20U) + 1'000'000;
+  disk_.set_capacity(kNeeded - 1);
+  const auto done = record({});
+  ASSERT_FALSE(done.has_value());
+  EXPECT_NE(done.error().message.find("make room"), std::string::npos) << done.error().message;
+  EXPECT_FALSE(disk_.exists(plan_.folder).value());
+}
+
+TEST_F(FailingDisk, TheReserveEndsAReplicate) {
+  add("a");
+  plan_.duration = 20s;
+  plan_.reserve_bytes = 1'000'000;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto done = record({{700ms, [&] { disk_.set_capacity(1'000'000); }}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 700ms) << "not before";
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
+  expect_told(note(), "reserve");
+  EXPECT_TRUE(recording::verify_recording(disk_, plan_.folder, false)->sound());
 }
 
 TEST(Shortfall, IsOfTheEndOrOfTheCount) {

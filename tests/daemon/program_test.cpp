@@ -48,6 +48,18 @@ TEST(Program, KeepsTheLastOfMuchThatIsSaid) {
   EXPECT_TRUE(said.ends_with("\n99999\n100000")) << said;
 }
 
+TEST(Program, WorksWhenItUsesTheProcessorOrSpeaks) {
+  const auto worked = [](const std::string& script) {
+    int times = 0;
+    const Talk talk{.works = [&] { ++times; }};
+    EXPECT_TRUE(run_program({"/bin/sh", "-c", script}, {}, talk));
+    return times;
+  };
+  EXPECT_LE(worked("exec sleep 0.7"), 3) << "its beginning and its end";
+  EXPECT_GE(worked("for i in 1 2 3 4 5; do sleep 0.1; echo $i; done"), 5);
+  EXPECT_GE(worked("i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done"), 3);
+}
+
 TEST(Program, StepsBack) {
   EXPECT_EQ(error_of("sleep 0.1; test $(ps -o ni= -p $$) -eq 19"), "");
   EXPECT_EQ(error_of("sleep 0.1; test $(ps -o cls= -p $$) = B"), "");

@@ -296,38 +296,6 @@ TEST_F(RecordReplicate, StoppedItIsInterruptedAndClosed) {
   EXPECT_EQ(done->devices[0].streams[0].stored, done->devices[0].streams[0].received);
 }
 
-TEST_F(RecordReplicate, DoesNotBeginWithoutRoom) {
-  add("a");
-  plan_.duration = 3600s;
-  plan_.replicates_to_come = 5;
-  plan_.reserve_bytes = 1'000'000;
-  // 100 rows a second of 20 bytes, six hours, and one segment.
-  constexpr std::uint64_t kNeeded = 6 * 3600 * 100 * 20 + (32U << 20U) + 1'000'000;
-  plan_.free_space = [](const auto&) -> Result<std::uint64_t> { return kNeeded - 1; };
-  const auto done = record();
-  ASSERT_FALSE(done.has_value());
-  EXPECT_NE(done.error().message.find("make room"), std::string::npos) << done.error().message;
-  EXPECT_FALSE(std::filesystem::exists(plan_.folder));
-}
-
-TEST_F(RecordReplicate, TheReserveEndsIt) {
-  add("a");
-  plan_.duration = 20s;
-  plan_.reserve_bytes = 1'000'000;
-  const auto begin = std::chrono::steady_clock::now();
-  plan_.free_space = [begin](const auto&) -> Result<std::uint64_t> {
-    return std::chrono::steady_clock::now() - begin < 1500ms ? 1'000'000'000U : 999'999U;
-  };
-  const auto done = record();
-  ASSERT_TRUE(done.has_value()) << done.error().message;
-  EXPECT_GE(std::chrono::steady_clock::now() - begin, 1500ms) << "not before";
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
-  EXPECT_EQ(note_on_disk().state(), v1::interrupted);
-  EXPECT_NE(note_on_disk().reason().find("reserve"), std::string::npos);
-  EXPECT_TRUE(
-      recording::verify_recording(recording::posix_file_system(), plan_.folder, false)->sound());
-}
-
 TEST_F(RecordReplicate, NotesOfOtherReplicatesStay) {
   add("a");
   plan_.duration = 300ms;

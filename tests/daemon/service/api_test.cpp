@@ -228,6 +228,8 @@ TEST_F(Api, MetricsAreWhatPrometheusReads) {
   bench_.tell(recording_status());
   get_json("/v1/campaigns");
   refusal("/nowhere", 404);
+  const std::string room = "imunoise_disk_free_bytes{campaign=\"other\"} ";
+  ASSERT_TRUE(comes_to_be_told("/metrics", room));
   const RawResponse response = testing::get(local_, "/metrics");
   EXPECT_NE(response.head.find("text/plain; version=0.0.4"), std::string::npos);
   std::istringstream lines(response.body);
@@ -239,11 +241,10 @@ TEST_F(Api, MetricsAreWhatPrometheusReads) {
   }
   for (const char* const line :
        {"imunoise_info{version=\"1.2.3\"} 1\n", "imunoise_http_responses_total{status=\"404\"} 1\n",
-        "imunoise_http_responses_total{status=\"200\"} 1\n", "imunoise_http_accepted_total 3\n",
         "imunoise_campaign_phase{campaign=\"array\",phase=\"recording\"} 1\n",
         "imunoise_campaign_phase{campaign=\"array\",phase=\"waiting\"} 0\n",
         "imunoise_campaign_left_seconds{campaign=\"array\"} 100\n",
-        "imunoise_jobs{state=\"queued\"} 0\n", "imunoise_disk_free_bytes{campaign=\"other\"} "})
+        "imunoise_jobs{state=\"queued\"} 0\n", room.c_str()})
     EXPECT_NE(response.body.find(line), std::string::npos) << line << response.body;
 }
 

@@ -22,6 +22,7 @@ class FakeBench : public service::Bench {
     const std::lock_guard lock(mutex_);
     return live_;
   }
+  std::string trouble() const override { return ""; }
   Result<void> start(const std::string& campaign, bool once) override {
     const std::lock_guard lock(mutex_);
     asked_ += "start " + campaign + (once ? " once\n" : "\n");

@@ -36,9 +36,13 @@ class Echo : public Handler {
     if (head.target == "/refused") return Response{403, "text/plain", "refused"};
     return std::nullopt;
   }
+  bool waits(const RequestHead& head) override {
+    return head.target == "/slow" || head.target == "/hanging";
+  }
   Response answer(const Request& request) override {
     ++answered;
     if (request.target == "/slow") std::this_thread::sleep_for(300ms);
+    if (request.target == "/hanging") let_go.wait(false);
     if (request.target == "/large") return {200, "text/plain", std::string(64U << 20U, 'x')};
     if (request.target != "/events")
       return {200, "text/plain", request.method + " " + request.target + " " + request.body};
@@ -51,6 +55,7 @@ class Echo : public Handler {
   }
 
   std::atomic<int> answered = 0;
+  std::atomic<bool> let_go = false;
   std::shared_ptr<EventQueue> events;
 };
 
@@ -93,6 +98,22 @@ TEST_F(Server, AnswersSeveralRequestsOfOneConnection) {
   EXPECT_EQ(client.receive().body, "GET /d ");
   EXPECT_TRUE(client.closed());
   EXPECT_EQ(server_->counters().accepted, 1U);
+}
+
+TEST_F(Server, ADiskThatHangsHoldsUpNoOtherRequest) {
+  start();
+  std::vector<std::unique_ptr<RawClient>> held;
+  for (std::size_t i = 0; i < 2 * limits_.waiting_threads; ++i) {
+    held.push_back(std::make_unique<RawClient>(where_));
+    held.back()->send(testing::request_text("GET", "/hanging"));
+  }
+  const auto deadline = Clock::now() + 5s;
+  while (echo_.answered < static_cast<int>(limits_.waiting_threads) && Clock::now() < deadline)
+    std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(get_text("/healthz"), "GET /healthz ");
+  echo_.let_go = true;
+  echo_.let_go.notify_all();
+  for (const auto& one : held) EXPECT_EQ(one->receive().status, 200);
 }
 
 TEST_F(Server, TakesChunkedBodies) {

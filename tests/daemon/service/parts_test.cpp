@@ -274,7 +274,8 @@ TEST_F(Requests, FindTheirRoutes) {
 // Whatever a job that read it before then makes of it.
 TEST(StudyStore, ADeletedStudyDoesNotComeBack) {
   const testing::TemporaryFolder folder;
-  StudyStore studies(folder.path() / "studies");
+  recording::DiskCalls calls;
+  StudyStore studies(folder.path() / "studies", calls);
   ASSERT_TRUE(studies.create("s", {}).has_value());
   EXPECT_EQ(studies.create("s", {}).error().message, "there is one of this name");
   EXPECT_TRUE(studies.replace("s", {}).has_value());

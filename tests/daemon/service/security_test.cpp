@@ -66,7 +66,7 @@ TEST_F(Security, NoTokenChangesNothing) {
 
 TEST_F(Security, TcpWithoutTokensIsNotServed) {
   options_.tokens.reset();
-  auto started = service::Service::start(options_, {bench_, drivers_});
+  auto started = service::Service::start(options_, {bench_, drivers_, calls_});
   ASSERT_FALSE(started.has_value());
   EXPECT_NE(started.error().message.find("--tokens"), std::string::npos);
   EXPECT_FALSE(fs::exists(*options_.listen.socket));

@@ -46,7 +46,7 @@ class Served : public ::testing::Test {
   }
 
   void serve() {
-    auto started = service::Service::start(options_, {bench_, drivers_});
+    auto started = service::Service::start(options_, {bench_, drivers_, calls_});
     ASSERT_TRUE(started.has_value()) << started.error().message;
     service_ = std::move(*started);
     local_ = {*options_.listen.socket, 0};
@@ -100,6 +100,15 @@ class Served : public ::testing::Test {
                                     {"channel", "gyro_x"},
                                     {"model", "WN"}});
   }
+  // A response holds these words, soon.
+  bool comes_to_be_told(const std::string& target, const std::string& words) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (get(local_, target).body.find(words) == std::string::npos) {
+      if (std::chrono::steady_clock::now() > deadline) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+  }
   // The error of a response of this status.
   std::string refusal(const std::string& target, int status) const {
     return get_json(target, status)["error"];
@@ -110,6 +119,7 @@ class Served : public ::testing::Test {
   const TemporaryFolder folder_;
   FakeBench bench_;
   drivers::Drivers drivers_;
+  recording::DiskCalls calls_;
   service::ServiceOptions options_;
   std::unique_ptr<service::Service> service_;
   Where local_;

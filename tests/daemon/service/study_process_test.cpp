@@ -30,7 +30,7 @@ class StudyProcess : public testing::Served {
   }
   // The job that opens a study over the API.
   json opened(std::vector<std::string> command) {
-    options_.compute = app::compute_in_child(std::move(command));
+    options_.compute = app::compute_in_child(calls_, std::move(command));
     serve();
     return post_json("/v1/studies", {{"study", "s"},
                                      {"campaign", "array"},
@@ -44,7 +44,8 @@ class StudyProcess : public testing::Served {
 TEST_F(StudyProcess, ComesToTheSameAsHere) {
   record("monday");
   std::atomic<int> told = 0;
-  const auto there = app::compute_in_child(kProgram)(opening(), Progress([&](double) { ++told; }));
+  const auto there =
+      app::compute_in_child(calls_, kProgram)(opening(), Progress([&](double) { ++told; }));
   const auto here = service::compute_here(opening(), {});
   ASSERT_TRUE(there.has_value()) << there.error().message;
   ASSERT_TRUE(here.has_value()) << here.error().message;
@@ -53,7 +54,7 @@ TEST_F(StudyProcess, ComesToTheSameAsHere) {
 
   v1::JobOrder wrong = opening();
   wrong.mutable_request()->mutable_open()->set_channel("gyro_w");
-  EXPECT_EQ(app::compute_in_child(kProgram)(wrong, {}).error().message,
+  EXPECT_EQ(app::compute_in_child(calls_, kProgram)(wrong, {}).error().message,
             service::compute_here(wrong, {}).error().message);
 }
 
@@ -61,7 +62,7 @@ TEST_F(StudyProcess, ReadsNothingOutsideItsFolders) {
   record("monday");
   v1::JobOrder order = opening();
   order.set_folders(0, (folder_.path() / "data/other").string());
-  EXPECT_FALSE(app::compute_in_child(kProgram)(order, {}).has_value());
+  EXPECT_FALSE(app::compute_in_child(calls_, kProgram)(order, {}).has_value());
   const auto cache = folder_.path() / "cache";
   EXPECT_FALSE(std::filesystem::exists(cache));
 
@@ -72,9 +73,9 @@ TEST_F(StudyProcess, ReadsNothingOutsideItsFolders) {
   EXPECT_FALSE(std::filesystem::is_empty(cache));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "data/array/monday/.imunoise"));
   adding.mutable_request()->mutable_add()->set_term("RW");
-  EXPECT_TRUE(app::compute_in_child(kProgram)(adding, {}).has_value());
+  EXPECT_TRUE(app::compute_in_child(calls_, kProgram)(adding, {}).has_value());
   adding.set_folders(0, (folder_.path() / "data/other").string());
-  EXPECT_FALSE(app::compute_in_child(kProgram)(adding, {}).has_value());
+  EXPECT_FALSE(app::compute_in_child(calls_, kProgram)(adding, {}).has_value());
 }
 
 TEST_F(StudyProcess, EndsWhenItIsAsked) {
@@ -88,7 +89,7 @@ TEST_F(StudyProcess, EndsWhenItIsAsked) {
     stop.request_stop();
   });
   const auto begin = std::chrono::steady_clock::now();
-  const auto done = app::compute_in_child(kProgram)(order, Progress({}, stop.get_token()));
+  const auto done = app::compute_in_child(calls_, kProgram)(order, Progress({}, stop.get_token()));
   ASSERT_FALSE(done.has_value());
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
 }

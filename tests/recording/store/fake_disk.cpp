@@ -191,6 +191,12 @@ Result<bool> FakeDisk::exists(const Path& path) const {
          (above != folders_.end() && above->second.live.contains(path.filename()));
 }
 
+Result<std::uint64_t> FakeDisk::free_space(const Path& path) const {
+  const std::lock_guard guard(mutex_);
+  if (fault(Call::kFreeSpace)) return trouble(path, kInputOutput);
+  return capacity_ - std::min(capacity_, used());
+}
+
 Result<void> FakeDisk::rename_file(const Path& from, const Path& to) {
   if (auto good = begin(to); !good) return good;
   const auto folder = parent(from);
@@ -208,10 +214,14 @@ Result<void> FakeDisk::rename_file(const Path& from, const Path& to) {
 
 Result<void> FakeDisk::remove_file(const Path& path) {
   if (auto good = begin(path); !good) return good;
+  const auto itself = folders_.find(path);
+  if (itself != folders_.end() && !itself->second.live.empty())
+    return trouble(path, "Directory not empty");
   const auto folder = parent(path);
   if (!folder || (*folder)->live.erase(path.filename()) == 0) {
     return trouble(path, "No such file or directory");
   }
+  if (itself != folders_.end()) folders_.erase(itself);
   (*folder)->since.push_back({{path.filename(), std::nullopt}});
   return {};
 }

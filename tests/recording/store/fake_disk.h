@@ -25,6 +25,7 @@ class FakeDisk final : public FileSystem {
   Result<std::unique_ptr<WritableFile>> create(const Path& path) override;
   Result<std::vector<std::string>> list(const Path& folder) const override;
   Result<bool> exists(const Path& path) const override;
+  Result<std::uint64_t> free_space(const Path& path) const override;
   Result<void> rename(const Path& from, const Path& to) override;
   Result<void> remove(const Path& path) override;
   Result<void> make_folder(const Path& path) override;
@@ -64,8 +65,9 @@ class FakeDisk final : public FileSystem {
     kMakeFolder,
     kSyncFolder,
     kLock,
+    kFreeSpace,
   };
-  static constexpr int kKinds = 11;
+  static constexpr int kKinds = 12;
   /// The `nth` call of this kind from now on, from 1, fails once: EIO. A write that fails leaves
   /// half of its bytes. `done`: the disk has done it all the same, only the answer is an error
   /// (reads and lists give nothing in any case).
