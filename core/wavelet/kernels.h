@@ -26,6 +26,12 @@ struct Kernels {
   std::uint64_t (*squares_int)(const std::int32_t* a, const std::int32_t* b, const std::int32_t* c,
                                std::size_t n);
 
+  // out[i] = (unit (a[i] - 2 b[i] + c[i]))², i < n. Returns their sum.
+  double (*squared_coefficients)(const double* a, const double* b, const double* c, double unit,
+                                 std::size_t n, double* out);
+  // With q = max(0, 1 - outer·w[i]), i < n: Σ w q⁴, and Σ w q³ (q - 4 outer·w) behind `slope`.
+  double (*biweight_sum)(const double* w, double outer, std::size_t n, double* slope);
+
   // Prefix sums out[i] = start + Σ_{u<i} (x[u] - origin), 0 ≤ i < n ≤ kBlock, n ≥ 1.
   void (*prefix_double)(const double* x, double origin, double start, double* out, std::size_t n);
   void (*prefix_int16)(const std::int16_t* x, std::int32_t origin, std::int32_t start,

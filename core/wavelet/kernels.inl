@@ -51,6 +51,62 @@ std::uint64_t squares_int(const std::int32_t* a, const std::int32_t* b, const st
   return sum;
 }
 
+double squared_coefficients(const double* a, const double* b, const double* c, double unit,
+                            std::size_t n, double* out) {
+  constexpr std::size_t kLanes = 16;
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays)
+  double sum[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double middle = b[i + lane];
+      const double w = ((a[i + lane] - middle) + (c[i + lane] - middle)) * unit;
+      out[i + lane] = w * w;
+      sum[lane] += w * w;
+    }
+  }
+  double total = 0.0;
+  for (const double lane : sum) total += lane;
+  for (; i < n; ++i) {
+    const double w = ((a[i] - b[i]) + (c[i] - b[i])) * unit;
+    out[i] = w * w;
+    total += w * w;
+  }
+  return total;
+}
+
+double biweight_sum(const double* w, double outer, std::size_t n, double* slope) {
+  constexpr std::size_t kLanes = 8;
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays)
+  double values[kLanes] = {};
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays)
+  double slopes[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double x = w[i + lane];
+      const double inside = 1.0 - x * outer;
+      const double q = inside > 0.0 ? inside : 0.0;
+      const double wq3 = x * q * q * q;
+      values[lane] += wq3 * q;
+      slopes[lane] += wq3 * (q - 4.0 * outer * x);
+    }
+  }
+  double value = 0.0;
+  *slope = 0.0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    value += values[lane];
+    *slope += slopes[lane];
+  }
+  for (; i < n; ++i) {
+    const double inside = 1.0 - w[i] * outer;
+    const double q = inside > 0.0 ? inside : 0.0;
+    value += w[i] * q * q * q * q;
+    *slope += w[i] * q * q * q * (q - 4.0 * outer * w[i]);
+  }
+  return value;
+}
+
 // Both forms write inclusive sums one place on: out[i + 1] = out[i] + x[i].
 void prefix_double(const double* x, double origin, double start, double* out, std::size_t n) {
   out[0] = start;

@@ -8,8 +8,9 @@ namespace {
 }  // namespace
 
 const Kernels* avx2_kernels() {
-  static constexpr Kernels kTable{squares_double, squares_int,  prefix_double, prefix_int16,
-                                  prefix_int32,   extent_int16, extent_int32,  "AVX2"};
+  static constexpr Kernels kTable{squares_double, squares_int,  squared_coefficients, biweight_sum,
+                                  prefix_double,  prefix_int16, prefix_int32,         extent_int16,
+                                  extent_int32,   "AVX2"};
   return __builtin_cpu_supports("avx2") != 0 ? &kTable : nullptr;
 }
 #else

@@ -6,8 +6,9 @@ namespace {
 }  // namespace
 
 const Kernels& baseline_kernels() {
-  static constexpr Kernels kTable{squares_double, squares_int,  prefix_double, prefix_int16,
-                                  prefix_int32,   extent_int16, extent_int32,  "baseline"};
+  static constexpr Kernels kTable{squares_double, squares_int,  squared_coefficients, biweight_sum,
+                                  prefix_double,  prefix_int16, prefix_int32,         extent_int16,
+                                  extent_int32,   "baseline"};
   return kTable;
 }
 

@@ -1,13 +1,17 @@
 #include "core/wavelet/robust_variance.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/support/parallel.h"
+#include "core/support/roots.h"
+#include "core/wavelet/kernels.h"
 
 namespace imunoise {
 namespace {
@@ -30,63 +34,74 @@ constexpr Biweight biweight(RobustEfficiency efficiency) {
   return {0.9, 6.622235003202644, 0.7684379848790425};
 }
 
-// mean χ(W/√ν) - E χ. Zero at the estimate; negative for ν too large.
-double balance(std::span<const double> squares, double variance, const Biweight& form) {
-  const double inner = 1.0 / variance;
-  const double outer = 1.0 / (variance * form.cut * form.cut);
-  double sum = 0.0;
-  for (const double w2 : squares) {
-    const double rest = std::max(0.0, 1.0 - w2 * outer);
-    const double rest2 = rest * rest;
-    sum += w2 * inner * rest2 * rest2;
+// mean χ(W/√ν) - E χ at one ν, and its derivative by ln ν. Zero at the estimate; negative for ν too
+// large.
+struct Balance {
+  double value;
+  double slope;
+};
+
+// At several ν in one pass over the squared coefficients, a block in the processor's cache at a
+// time.
+template <std::size_t N>
+std::array<Balance, N> balance(std::span<const double> squares,
+                               const std::array<double, N>& variances, const Biweight& form) {
+  const Kernels& use = kernels();
+  std::array<Balance, N> out{};
+  for (std::size_t from = 0; from < squares.size(); from += kBlock) {
+    const std::size_t count = std::min(kBlock, squares.size() - from);
+    for (std::size_t k = 0; k < N; ++k) {
+      double slope = 0.0;
+      out[k].value += use.biweight_sum(squares.data() + from,
+                                       1.0 / (variances[k] * form.cut * form.cut), count, &slope);
+      out[k].slope -= slope;
+    }
   }
-  return sum / static_cast<double>(squares.size()) - form.expectation;
+  for (std::size_t k = 0; k < N; ++k) {
+    const double each = 1.0 / (variances[k] * static_cast<double>(squares.size()));
+    out[k].value = out[k].value * each - form.expectation;
+    out[k].slope *= each;
+  }
+  return out;
 }
 
-double solve(std::span<const double> squares, const Biweight& form) {
-  double sum = 0.0;
-  for (const double w2 : squares) sum += w2;
-  double high = 4.0 * sum / static_cast<double>(squares.size());
-  if (high == 0.0) return 0.0;
-  // Go down until the balance turns positive. Data that are mostly zero never do: take what comes
-  // nearest.
+// The root between `low`, where the balance is not negative, and low / step, where it is.
+double root_in_step(std::span<const double> squares, double low, double step, double at_low,
+                    double at_high, const Biweight& form) {
+  const double width = -std::log(step);
+  const auto at = [&](double log_ratio) {
+    const Balance here = balance(squares, std::array{low * std::exp(log_ratio)}, form)[0];
+    return std::pair(here.value, here.slope);
+  };
+  const double secant = width * at_low / (at_low - at_high);
+  return low * std::exp(root_by_newton(at, secant, 0.0, width));
+}
+
+// The largest root, given the mean of the squares: no root is beyond mean / E χ, since χ(r) ≤ r².
+// Goes down from there in steps until the balance turns positive. Data that are mostly zero never
+// do: what comes nearest is taken.
+double solve(std::span<const double> squares, double mean, const Biweight& form) {
+  if (!(mean > 0.0)) return 0.0;
   constexpr double kStep = 0.8;
-  double low = high;
-  double nearest = high;
-  double best = balance(squares, high, form);
-  for (int step = 0; step < 150 && best < 0.0; ++step) {
-    high = low;
-    low *= kStep;
-    const double value = balance(squares, low, form);
-    if (value > best) {
-      best = value;
-      nearest = low;
+  constexpr std::size_t kTogether = 4;
+  constexpr int kPasses = 36;
+  double next = mean / form.expectation;
+  double nearest = next;
+  double best = -form.expectation;
+  double above = best;  // the balance one step above
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::array<double, kTogether> tried{};
+    for (double& at : tried) at = std::exchange(next, next * kStep);
+    const auto found = balance(squares, tried, form);
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      if (found[k].value >= 0.0)
+        return root_in_step(squares, tried[k], kStep, found[k].value, above, form);
+      if (found[k].value > best) nearest = tried[k];
+      best = std::max(best, found[k].value);
+      above = found[k].value;
     }
   }
-  if (best < 0.0) return nearest;
-  low = nearest;
-  double at_low = best;
-  double at_high = balance(squares, high, form);
-  int side = 0;
-  for (int step = 0; step < 200 && high - low > 1e-14 * high;
-       ++step) {  // regula falsi, Illinois form
-    const double middle =
-        std::clamp((low * at_high - high * at_low) / (at_high - at_low), low, high);
-    const double value = balance(squares, middle, form);
-    if (value == 0.0) return middle;
-    if (value > 0.0) {
-      low = middle;
-      at_low = value;
-      if (side == 1) at_high *= 0.5;
-      side = 1;
-    } else {
-      high = middle;
-      at_high = value;
-      if (side == -1) at_low *= 0.5;
-      side = -1;
-    }
-  }
-  return 0.5 * (low + high);
+  return nearest;
 }
 
 }  // namespace
@@ -124,11 +139,11 @@ WaveletVariance robust_wavelet_variance(const Signal& signal, const Scales& scal
     const auto m = static_cast<std::size_t>(scales[i]);
     std::vector<double> squares(signal.size() - 2 * m + 1);
     const double unit = signal.scale() / (2.0 * static_cast<double>(m));
-    for (std::size_t t = 0; t < squares.size(); ++t) {
-      const double w = ((prefix[t + 2 * m] - prefix[t + m]) - (prefix[t + m] - prefix[t])) * unit;
-      squares[t] = w * w;
-    }
-    out.variance(static_cast<Eigen::Index>(i)) = solve(squares, form);
+    const double sum =
+        kernels().squared_coefficients(prefix.data(), prefix.data() + m, prefix.data() + 2 * m,
+                                       unit, squares.size(), squares.data());
+    out.variance(static_cast<Eigen::Index>(i)) =
+        solve(squares, sum / static_cast<double>(squares.size()), form);
     progress.report(static_cast<double>(++done) / static_cast<double>(scales.size()));
   });
   set_chi_square_interval(out);
