@@ -138,6 +138,7 @@ struct EmulateArguments {
 struct DriversArguments {
   std::vector<std::filesystem::path> folders;  ///< searched before all others
   bool json = false;
+  bool names_only = false;
 };
 
 /// How the bytes of a capture are to be read.

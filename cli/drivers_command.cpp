@@ -9,7 +9,7 @@
 namespace imunoise::cli {
 namespace {
 
-// What may be given: "number, s, 0 to 10, default 0.01".
+// Type, unit, range and default: "number, s, 0 to 10, default 0.01".
 std::string allowed(const v1::DriverOption& option) {
   std::string out = v1::OptionType_Name(option.type());
   if (!option.unit().empty()) out += ", " + option.unit();
@@ -23,7 +23,7 @@ std::string allowed(const v1::DriverOption& option) {
   }
   if (option.has_default_value()) out += ", default " + option.default_value();
   if (option.required()) out += ", required";
-  if (option.repeated()) out += ", may be repeated";
+  if (option.repeated()) out += ", repeatable";
   return out;
 }
 
@@ -51,7 +51,7 @@ std::string report_text(const v1::DriversReport& report) {
     out += "\n";
   }
   for (const v1::RefusedDriver& plugin : report.refused()) {
-    out += fmt::format("refused: {}: {}\n", plugin.file(), report::clean_text(plugin.reason()));
+    out += fmt::format("not loaded: {}: {}\n", plugin.file(), report::clean_text(plugin.reason()));
   }
   if (report.drivers().empty()) out += "no drivers found\n";
   return out + fmt::format("searched: {}\n", fmt::join(report.folders(), ", "));
@@ -62,6 +62,10 @@ std::string report_text(const v1::DriversReport& report) {
 int run(const DriversArguments& arguments) {
   const v1::DriversReport report =
       service::driver_report(drivers::load_drivers(drivers::driver_folders(arguments.folders)));
+  if (arguments.names_only) {
+    for (const v1::Driver& driver : report.drivers()) print(driver.name() + "\n");
+    return 0;
+  }
   print(arguments.json ? report::to_json(report) : report_text(report));
   return 0;
 }

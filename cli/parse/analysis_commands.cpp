@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,27 +14,28 @@ Examples:
   imunoise fit long.npy --split-into 6 --rate 200 --unit "m/s^2" --report acc.html
   imunoise fit run?.csv --model "WN + RES + RW" --weights diag --json > fit.json
 
-Models are sums of: WN white noise, QN quantisation noise, RW random walk, DR drift, AR1 and GM Markov
-noise, RES resonance, MA(q), MAVG(n) and BARTLETT(n) filters, FN flicker noise. A value in brackets
-stays fixed: WN(sigma2=1e-6). Values are per sample in SI units; GM's tc is in seconds.)help";
+A model is a sum of processes: WN white noise, QN quantisation noise, RW random walk, DR rate ramp,
+AR1 and GM Markov noise, RES resonance, MA(q), MAVG(n) and BARTLETT(n) filters, FN flicker noise.
+A value in brackets stays fixed: WN(sigma2=1e-6). Values are per sample, in SI units; tc of GM is in s.)help";
 
 constexpr const char* kWvExamples = R"help(
 Examples:
-  imunoise wv run1.h5                                    every channel, drawn and tabulated
+  imunoise wv run1.h5                                    every channel: a plot and a table
   imunoise wv run?.csv --channel gyro_x --per-octave 4 --json > wv.json
-  imunoise wv run1.h5 --robust 0.6                       unmoved by outliers)help";
+  imunoise wv run1.h5 --robust 0.6                       resists outliers)help";
 
 constexpr const char* kTestExamples = R"help(
 Examples:
   imunoise test run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"
   imunoise test run?.h5 --model "AR1 + WN" --bootstrap 999 --seed 1 --report test.html
 
-Two questions: does the model's shape fit every replicate, and do its parameters differ between them?)help";
+The test answers two questions. Does the model fit every replicate? Do its parameters differ between
+replicates?)help";
 
 constexpr const char* kSelectExamples = R"help(
 Examples:
-  imunoise select run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"     it and all its sub-models
-  imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      just these
+  imunoise select run?.h5 --channel gyro_x --model "2*AR1 + WN + RW"     this model and its sub-models
+  imunoise select run?.h5 --model "WN + RW" --model "AR1 + WN + RW"      only these two
   imunoise select run?.h5 --splits half --weights diag                   CV-WVIC as published)help";
 
 constexpr const char* kDynamicExamples = R"help(
@@ -45,11 +44,12 @@ Examples:
   imunoise dynamic 30.csv 90.csv 150.csv --covariate rate --model "QN(q2~exp) + WN(sigma2~linear)"
   imunoise dynamic soak.h5 --covariate temperature --bins 10 --model "AR1(phi~) + WN(sigma2~)"
 
-What follows the covariate c is marked in the model by ~ and, if it is not the first of these, the way:
-  a power     sigma2~exp     exp(a + b*c)               sigma2~linear   a + b*c, nowhere negative
-  a time      tc~exp         exp(a + b*c)
-  other       phi~logistic   logistic(a + b*c) between the bounds of the parameter
-Everything else is the same everywhere. A model without ~ stands for one whose powers all follow as exp.)help";
+Mark a parameter that depends on the covariate c with ~ and, optionally, the form of the dependence:
+  power        sigma2~exp (default): exp(a + b*c)      sigma2~linear: a + b*c, never negative
+  time         tc~exp: exp(a + b*c)
+  other        phi~logistic: logistic(a + b*c) between the bounds of the parameter
+
+All other parameters are constant. In a model without ~, every power depends on c with the form exp.)help";
 
 study::Estimator estimator_from(const std::string& text) {
   if (text == "agmwm") return study::Estimator::kAGmwm;
@@ -57,7 +57,7 @@ study::Estimator estimator_from(const std::string& text) {
 }
 
 ParsedCommand wv_command(CLI::App& program) {
-  CLI::App* const wv = program.add_subcommand("wv", "Wavelet variance of recordings");
+  CLI::App* const wv = program.add_subcommand("wv", "Measure the wavelet variance of recordings");
   wv->footer(kWvExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   add_input(*wv, raw->input);
@@ -84,12 +84,13 @@ ParsedCommand fit_command(CLI::App& program) {
   add_report(*fit, *raw);
   add_model(*fit, *raw);
   add_weights(*fit, *raw);
-  fit->add_option("--estimator", *estimator,
-                  "mugmwm: one model for all replicates; agmwm: average of one each; whittle: "
-                  "mugmwm, then the maximum of the likelihood")
+  fit->add_option(
+         "--estimator", *estimator,
+         "Estimator: one fit to all replicates (mugmwm), mean of one fit per replicate (agmwm), "
+         "or the maximum of the Whittle likelihood, started from mugmwm (whittle)")
       ->check(CLI::IsMember({"mugmwm", "agmwm", "whittle"}))
       ->capture_default_str();
-  fit->add_option("--svg", *svg, "Write the noise budget as a picture for papers")
+  fit->add_option("--svg", *svg, "SVG picture of the noise budget to write, for papers")
       ->type_name("OUT.svg");
   return {fit, [raw, estimator, svg] {
             FitArguments out;
@@ -107,7 +108,8 @@ ParsedCommand fit_command(CLI::App& program) {
 }
 
 ParsedCommand test_command(CLI::App& program) {
-  CLI::App* const test = program.add_subcommand("test", "Are replicates near-stationary?");
+  CLI::App* const test =
+      program.add_subcommand("test", "Test whether replicates are near-stationary");
   test->footer(kTestExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto bootstrap = std::make_shared<BootstrapOptions>();
@@ -116,10 +118,15 @@ ParsedCommand test_command(CLI::App& program) {
   add_json(*test, *raw);
   add_report(*test, *raw);
   add_model(*test, *raw);
-  test->add_option("--bootstrap", bootstrap->sets,
-                   "Sets of a parametric bootstrap: 19 at least, better 999")
-      ->check(CLI::Range(0, 1'000'000));
-  test->add_option("--seed", bootstrap->seed, "Seed of the bootstrap")->capture_default_str();
+  test->add_option(
+          "--bootstrap", bootstrap->sets,
+          "Number of bootstrap sets, at least 19, better 999; 0 uses asymptotic p-values only")
+      ->type_name("COUNT")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  test->add_option("--seed", bootstrap->seed, "Random seed of the bootstrap")
+      ->type_name("SEED")
+      ->capture_default_str();
   return {test, [raw, bootstrap] {
             TestArguments out{input_from(raw->input), {}, show_from(*raw)};
             out.test.model = model_from(*raw);
@@ -130,7 +137,8 @@ ParsedCommand test_command(CLI::App& program) {
 }
 
 ParsedCommand select_command(CLI::App& program) {
-  CLI::App* const select = program.add_subcommand("select", "Which model predicts best?");
+  CLI::App* const select =
+      program.add_subcommand("select", "Choose the model with the smallest held-out error");
   select->footer(kSelectExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto models = std::make_shared<std::vector<std::string>>();
@@ -141,13 +149,14 @@ ParsedCommand select_command(CLI::App& program) {
   add_report(*select, *raw);
   add_weights(*select, *raw);
   select
-      ->add_option("--model", *models,
-                   fmt::format("One: it and its sub-models; several: these (default: {})",
-                               study::kDefaultModel))
+      ->add_option(
+          "--model", *models,
+          "Model to try; give one to compare it with its sub-models, or several to compare "
+          "only these")
+      ->type_name("MODEL")
+      ->default_str(std::string(study::kDefaultModel))
       ->allow_extra_args(false);
-  select
-      ->add_option("--splits", *splits,
-                   "Held out: each replicate once, or every choice of half of them")
+  select->add_option("--splits", *splits, "Replicates held out in turn: each one, or every half")
       ->check(CLI::IsMember({"leave-one-out", "half"}))
       ->capture_default_str();
   return {select, [raw, models, splits] {
@@ -160,14 +169,14 @@ ParsedCommand select_command(CLI::App& program) {
           }};
 }
 
-// Where the bins are: "8" is how many, "30,90" are places.
+// "8" is a number of bins, "30,90" are their centres.
 void set_bins(const std::string& text, study::CovariateOptions& to) {
   if (text == "auto") return;
   for (const std::string& one : CLI::detail::split(text, ',')) {
     double value = 0.0;
     if (one.empty()) continue;
     if (!CLI::detail::lexical_cast(one, value) || !std::isfinite(value)) {
-      refuse("--bins", "expected auto, how many, or places such as 30,90,150");
+      refuse("--bins", "expected auto, a number of bins, or bin centres such as 30,90,150");
     }
     to.values.push_back(value);
   }
@@ -175,15 +184,15 @@ void set_bins(const std::string& text, study::CovariateOptions& to) {
   const bool place = text.find(',') != std::string::npos;
   const double count = place || to.values.empty() ? 0.0 : to.values.front();
   if (!(count >= 2.0 && count <= 1000.0 && count == std::floor(count))) {
-    refuse("--bins", "at least two, and at most 1000");
+    refuse("--bins", "expected 2 to 1000 bins");
   }
   to.count = static_cast<std::size_t>(count);
   to.values.clear();
 }
 
 ParsedCommand dynamic_command(CLI::App& program) {
-  CLI::App* const dynamic =
-      program.add_subcommand("dynamic", "How noise follows a covariate: rate, temperature, ...");
+  CLI::App* const dynamic = program.add_subcommand(
+      "dynamic", "Fit noise that depends on a covariate such as rotation rate or temperature");
   dynamic->footer(kDynamicExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto covariate = std::make_shared<study::CovariateOptions>();
@@ -194,18 +203,25 @@ ParsedCommand dynamic_command(CLI::App& program) {
   add_json(*dynamic, *raw);
   add_report(*dynamic, *raw);
   add_model(*dynamic, *raw, study::kDefaultDynamicModel);
-  dynamic->add_option("--covariate", covariate->channel, "The channel that noise may follow")
+  dynamic->add_option("--covariate", covariate->channel, "Channel that the noise may depend on")
+      ->type_name("CHANNEL")
       ->required();
-  dynamic->add_option("--covariate-unit", covariate->unit,
-                      "What its numbers are called (default: as the file says)");
   dynamic
-      ->add_option("--bins", *bins,
-                   "Where noise is measured: places such as 30,90,150; or how many bins of equal "
-                   "size; auto: where the covariate stays, else 8 bins")
+      ->add_option("--covariate-unit", covariate->unit,
+                   "Unit of the covariate, shown in the report")
+      ->type_name("UNIT")
+      ->default_str("the file's");
+  dynamic
+      ->add_option(
+          "--bins", *bins,
+          "Bins of the covariate: centres such as 30,90,150, or a number of equal bins; auto "
+          "finds plateaus of the covariate, else makes 8 bins")
+      ->type_name("BINS")
       ->capture_default_str();
   dynamic
       ->add_option("--settle", covariate->settle_s,
-                   "Seconds left out after the covariate arrives at a bin")
+                   "Time to discard after the covariate enters a bin (s)")
+      ->type_name("SECONDS")
       ->check(zero_or_above())
       ->capture_default_str();
   return {dynamic, [raw, covariate, bins] {

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "cli/parse/commands.h"
@@ -14,9 +12,9 @@ Examples:
   imunoise array run?.csv --optimise long --rule non-negative --report array.html
   imunoise array run?.csv --model "AR1[all] + AR1[group] + WN" --group a,b --group c,d
 
-A sensor is a channel, a file a replicate of all of them. Each sensor has processes of its own unless
-the model says: [corr] one of one shape in each sensor, correlated; [group] the same in all sensors
-of a group; [all] the same in all.)help";
+Each channel is a sensor; each file is one replicate of all sensors. By default every sensor has its own
+processes. Mark a process to share it: [corr] one per sensor, equal in shape and correlated; [group] one
+common to the sensors of a group; [all] one common to all sensors.)help";
 
 constexpr const char* kMixedExamples = R"help(
 Examples:
@@ -25,15 +23,17 @@ Examples:
   imunoise mixed sites.csv --rate 1 --regress temperature --group a,b --group c,d \
       --model "RES[all] + AR1[group] + WN" --bootstrap 999 --report mixed.html
 
-A series is a channel of one file; channels that --regress names explain the others, each by a constant
-of its own and one coefficient a regressor. The noise of the series may be shared, as in imunoise array.)help";
+Each channel of a file is a series. The channels given by --regress explain all others: every series gets
+its own constant and one coefficient per regressor. Series can share noise, as in imunoise array.)help";
+
 constexpr const char* kFaultsExamples = R"help(
 Examples:
   imunoise faults today.h5 --train static?.h5 --model "AR1 + WN + RW[corr]"
   imunoise faults run?.csv --channel gyro_a,gyro_b,gyro_c --false-alarms-per-hour 0.001 --report f.html
 
-Names the sensor that steps, sticks or grows noisy. The sensors, at least two, measure the same motion,
-as three gyros about one axis do; of two that disagree nobody can say which is wrong.)help";
+The sensors must measure the same motion, such as three gyroscopes about one axis. Use at least three: if
+two sensors disagree, the data cannot show which one is wrong.)help";
+
 WeightRule rule_from(const std::string& text) {
   if (text == "non-negative") return WeightRule::kNonnegative;
   return text == "unit-length" ? WeightRule::kUnitLength : WeightRule::kUnitGain;
@@ -48,15 +48,14 @@ std::vector<std::string> names_in(const std::string& list) {
 }
 
 void add_groups(CLI::App& command, std::vector<std::string>& groups) {
-  command
-      .add_option("--group", groups,
-                  "Sensors that share the model's [group] processes, e.g. a,b; may be repeated")
+  command.add_option("--group", groups, "Sensors that share the [group] processes, such as a,b")
+      ->type_name("NAMES")
       ->allow_extra_args(false);
 }
 
 ParsedCommand array_command(CLI::App& program) {
-  CLI::App* const array =
-      program.add_subcommand("array", "Shared noise and the best virtual sensor of an array");
+  CLI::App* const array = program.add_subcommand(
+      "array", "Find the noise that sensors share, and weights of the quietest virtual sensor");
   array->footer(kArrayExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto groups = std::make_shared<std::vector<std::string>>();
@@ -70,20 +69,22 @@ ParsedCommand array_command(CLI::App& program) {
   add_model(*array, *raw, study::kDefaultArrayModel);
   add_weights(*array, *raw);
   add_groups(*array, *groups);
-  array->add_flag("!--no-cross", options->cross, "Fit each sensor's own variances only");
+  array->add_flag("!--no-cross", options->cross,
+                  "Fit variances only, without cross-covariances between sensors");
   const auto estimator = std::make_shared<std::string>("mgmwm");
   array
       ->add_option("--estimator", *estimator,
-                   "mgmwm: from moments; whittle: then the maximum of the likelihood, for short "
-                   "recordings")
+                   "Estimator: wavelet moments (mgmwm), or the maximum of the Whittle likelihood "
+                   "started from them, for short recordings (whittle)")
       ->check(CLI::IsMember({"mgmwm", "whittle"}))
       ->capture_default_str();
   array
       ->add_option("--optimise", options->scales,
-                   "Averaging times at which the virtual sensor is to be quiet: short, long, all, "
-                   "or one weight a scale")
+                   "Averaging times at which to minimise the noise of the virtual sensor: short, "
+                   "long, all, or one weight per scale")
+      ->type_name("SCALES")
       ->capture_default_str();
-  array->add_option("--rule", *rule, "What its weights must satisfy")
+  array->add_option("--rule", *rule, "Constraint on the weights of the virtual sensor")
       ->check(CLI::IsMember({"unit-gain", "non-negative", "unit-length"}))
       ->capture_default_str();
   return {array, [raw, groups, options, rule, estimator] {
@@ -100,7 +101,8 @@ ParsedCommand array_command(CLI::App& program) {
 }
 
 ParsedCommand mixed_command(CLI::App& program) {
-  CLI::App* const mixed = program.add_subcommand("mixed", "Regression of series that share noise");
+  CLI::App* const mixed =
+      program.add_subcommand("mixed", "Regress series on covariates while they share noise");
   mixed->footer(kMixedExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto groups = std::make_shared<std::vector<std::string>>();
@@ -113,20 +115,21 @@ ParsedCommand mixed_command(CLI::App& program) {
   add_weights(*mixed, *raw);
   mixed
       ->add_option("--regress", options->regressors,
-                   "What explains the series: a channel, time, or NAME=a,b,c with one channel a "
-                   "series; may be repeated")
+                   "Regressor: a channel, time, or NAME=a,b,c with one channel per series")
+      ->type_name("REGRESSOR")
       ->allow_extra_args(false)
       ->required();
-  mixed
-      ->add_option("--group", *groups,
-                   "Series that share the model's [group] processes, e.g. a,b; may be repeated")
+  mixed->add_option("--group", *groups, "Series that share the [group] processes, such as a,b")
+      ->type_name("NAMES")
       ->allow_extra_args(false);
   mixed
       ->add_option("--bootstrap", options->regression.bootstraps,
-                   "Sets of the parametric bootstrap of the coefficients' test; 0: none")
+                   "Number of bootstrap sets for the test of the coefficients; 0 disables it")
+      ->type_name("COUNT")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  mixed->add_option("--seed", options->regression.seed, "Seed of the bootstrap")
+  mixed->add_option("--seed", options->regression.seed, "Random seed of the bootstrap")
+      ->type_name("SEED")
       ->capture_default_str();
   return {mixed, [raw, groups, options] {
             MixedArguments out{input_from(raw->input), *options, show_from(*raw)};
@@ -139,8 +142,8 @@ ParsedCommand mixed_command(CLI::App& program) {
 }
 
 ParsedCommand faults_command(CLI::App& program) {
-  CLI::App* const faults =
-      program.add_subcommand("faults", "Which sensor of an array steps, sticks or grows noisy?");
+  CLI::App* const faults = program.add_subcommand(
+      "faults", "Find the sensor of an array that steps, sticks or grows noisy");
   faults->footer(kFaultsExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto groups = std::make_shared<std::vector<std::string>>();
@@ -154,13 +157,15 @@ ParsedCommand faults_command(CLI::App& program) {
   add_weights(*faults, *raw);
   add_groups(*faults, *groups);
   faults
-      ->add_option("--train", *training,
-                   "Static recordings known to be good, to fit the model to (default: FILES)")
+      ->add_option("--train", *training, "Static recordings of healthy sensors to fit the model to")
       ->allow_extra_args(true)
-      ->type_name("FILES");
+      ->type_name("FILES")
+      ->default_str("the analysed files");
   faults
-      ->add_option("--false-alarms-per-hour", options->false_alarms_per_hour,
-                   "How often a sound array may be accused, all sensors and faults together")
+      ->add_option(
+          "--false-alarms-per-hour", options->false_alarms_per_hour,
+          "Allowed false alarms of a healthy array (per hour), over all sensors and faults")
+      ->type_name("RATE")
       ->check(CLI::Range(1e-9, 1000.0))
       ->capture_default_str();
   return {faults, [raw, groups, training, options] {

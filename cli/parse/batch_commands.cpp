@@ -17,12 +17,34 @@ Examples:
   imunoise batch status trial
   imunoise batch merge trial --report trial.html
 
-A batch is a folder of shards. run works on those without a result, as often as it is called, and merges in
-the end.)help";
+A batch is a folder of shards. imunoise batch run computes the shards without a result, then merges all results.
+Run it again after an interruption.)help";
 
-constexpr const char* kNewExamples = R"help(
---calibrate does for each recording what imunoise calibrate does, and takes its options. --simulate fits a model to each of
---sets simulated sets: what would recordings of such a length show?)help";
+constexpr const char* kBatchNewExamples = R"help(
+Examples:
+  imunoise batch new nightly --calibrate recordings/* --model "WN + AR1 + RW"
+  imunoise batch new trial --simulate "WN(sigma2=1e-6) + RW(gamma2=1e-14)" --rate 100 --samples 360000 --sets 1000
+
+Give either --calibrate or --simulate. --calibrate runs imunoise calibrate for each recording. --simulate
+simulates sets of replicates and fits a model to each set; it shows what recordings of this length can tell.)help";
+
+constexpr const char* kBatchRunExamples = R"help(
+Examples:
+  imunoise batch run trial --workers 4
+  imunoise batch run trial --engine slurm --workers 64 --sbatch=--partition=long)help";
+
+constexpr const char* kBatchShardExamples = R"help(
+Examples:
+  imunoise batch shard trial 17                          compute one shard in this process)help";
+
+constexpr const char* kBatchStatusExamples = R"help(
+Examples:
+  imunoise batch status trial
+  imunoise batch status trial --json)help";
+
+constexpr const char* kBatchMergeExamples = R"help(
+Examples:
+  imunoise batch merge trial --report trial.html)help";
 
 struct RawNew {
   RawAnalysis raw;
@@ -43,7 +65,7 @@ CLI::Option* add_field(CLI::App& app, const std::string& option, Message& messag
 }
 
 void add_calibration(CLI::App& part, RawNew& typed, CLI::Option_group& task) {
-  task.add_option("--calibrate", typed.recordings, "Folders of recordings")
+  task.add_option("--calibrate", typed.recordings, "Folders of the recordings to calibrate")
       ->check(CLI::ExistingDirectory)
       ->type_name("RECORDING");
   typed.settings.set_diagnose(true);
@@ -53,43 +75,55 @@ void add_calibration(CLI::App& part, RawNew& typed, CLI::Option_group& task) {
           [&typed](const std::vector<std::string>& names) {
             typed.settings.mutable_channels()->Assign(names.begin(), names.end());
           },
-          "A channel; repeatable (default: all angular rates and accelerations)")
+          "Names of the channels to calibrate, separated by commas")
+      ->type_name("NAMES")
+      ->default_str("all angular rates and accelerations")
       ->delimiter(',')
       ->allow_extra_args(false);
   part.add_flag_callback(
       "--no-diagnose", [&typed] { typed.settings.set_diagnose(false); },
-      "Do not seek effects that are missing");
+      "Skip the search for missing effects");
   part.add_flag_callback(
       "--array", [&typed] { typed.settings.set_array(true); },
-      "Channels of one quantity as an array, too");
+      "Analyse the channels of one quantity as an array, too");
   add_field(part, "--bootstrap", typed.settings, &v1::CalibrationSettings::set_bootstrap_sets,
-            "Sets of the bootstrap of the test between replicates")
+            "Number of bootstrap sets for the test between replicates")
+      ->type_name("COUNT")
       ->check(CLI::Range(0, 1'000'000));
 }
 
 void add_simulation(CLI::App& part, RawNew& typed, CLI::Option_group& task) {
   v1::SimulationTask& to = typed.simulate;
   task.add_option_function<std::string>(
-      "--simulate", [&to](const std::string& model) { to.set_model(model); },
-      "The true model, with all its values");
+          "--simulate", [&to](const std::string& model) { to.set_model(model); },
+          "Model to simulate, with all its values")
+      ->type_name("MODEL");
   to.set_replicates(1);
   to.set_seed(1);
-  add_field(part, "--rate", to, &v1::SimulationTask::set_rate_hz, "Sampling rate in Hz")
+  add_field(part, "--rate", to, &v1::SimulationTask::set_rate_hz, "Sampling rate (Hz)")
+      ->type_name("HZ")
       ->check(CLI::PositiveNumber);
-  add_field(part, "--samples", to, &v1::SimulationTask::set_samples, "Samples of each replicate")
+  add_field(part, "--samples", to, &v1::SimulationTask::set_samples,
+            "Number of samples per replicate")
+      ->type_name("COUNT")
       ->check(CLI::Range(std::uint64_t{16}, std::uint64_t{1} << 32U));
   add_field(part, "--replicates", to, &v1::SimulationTask::set_replicates,
-            "Replicates of each set (default: 1)")
+            "Number of replicates per set")
+      ->type_name("COUNT")
+      ->default_str("1")
       ->check(CLI::Range(1, 100'000));
-  add_field(part, "--sets", to, &v1::SimulationTask::set_sets, "How many sets")
+  add_field(part, "--sets", to, &v1::SimulationTask::set_sets, "Number of sets to simulate")
+      ->type_name("COUNT")
       ->check(CLI::Range(1, 100'000'000));
   part.add_option_function<std::uint64_t>(
-      "--seed",
-      [&typed](const std::uint64_t& seed) {
-        typed.simulate.set_seed(seed);
-        typed.settings.set_seed(seed);
-      },
-      "Seed of the simulation, or of the bootstrap (default: 1)");
+          "--seed",
+          [&typed](const std::uint64_t& seed) {
+            typed.simulate.set_seed(seed);
+            typed.settings.set_seed(seed);
+          },
+          "Random seed of the simulation, or of the bootstrap")
+      ->type_name("SEED")
+      ->default_str("1");
 }
 
 v1::Batch batch_from(const RawNew& typed) {
@@ -104,13 +138,13 @@ v1::Batch batch_from(const RawNew& typed) {
   } else {
     v1::SimulationTask& task = *out.mutable_simulate();
     task = typed.simulate;
-    if (task.rate_hz() == 0.0) refuse("--rate", "is needed with --simulate");
-    if (task.samples() == 0) refuse("--samples", "is needed with --simulate");
-    if (task.sets() == 0) refuse("--sets", "is needed with --simulate");
+    if (task.rate_hz() == 0.0) refuse("--rate", "required by --simulate");
+    if (task.samples() == 0) refuse("--samples", "required by --simulate");
+    if (task.sets() == 0) refuse("--sets", "required by --simulate");
     task.set_confidence(typed.raw.confidence);
     const auto form = study::form_of(task.model(), task.rate_hz());
     if (!form) refuse("--simulate", form.error().message);
-    if (typed.models.size() > 1) refuse("--model", "one is fitted to simulated sets");
+    if (typed.models.size() > 1) refuse("--model", "give only one with --simulate");
     task.set_fit(typed.models.empty() ? *form : typed.models.front());
   }
   out.set_shard_size(typed.shard_size > 0 ? typed.shard_size : study::default_shard_size(out));
@@ -118,45 +152,52 @@ v1::Batch batch_from(const RawNew& typed) {
 }
 
 ParsedCommand new_command(CLI::App& batch) {
-  CLI::App* const part = batch.add_subcommand("new", "Make a batch");
-  part->footer(kNewExamples);
+  CLI::App* const part = batch.add_subcommand("new", "Create a batch");
+  part->footer(kBatchNewExamples);
   const auto typed = std::make_shared<RawNew>();
-  part->add_option("FOLDER", typed->folder, "The batch's folder; made here")->required();
-  CLI::Option_group* const task = part->add_option_group("task", "What is to be done");
+  part->add_option("FOLDER", typed->folder, "Folder of the new batch")->required();
+  CLI::Option_group* const task = part->add_option_group("task", "Task");
   add_calibration(*part, *typed, *task);
   add_simulation(*part, *typed, *task);
   task->require_option(1);
   part->add_option("--model", typed->models,
-                   "To fit; with --calibrate several to choose of (default: chosen; with "
-                   "--simulate the true one's form)")
+                   "Model to fit; give several with --calibrate to choose the best of them")
+      ->type_name("MODEL")
+      ->default_str("the best of many; with --simulate the form of the true model")
       ->allow_extra_args(false);
   add_confidence(*part, typed->raw);
-  part->add_option("--shard-size", typed->shard_size,
-                   "Recordings, or sets, of one shard (default: 1, or a hundredth)")
+  part->add_option("--shard-size", typed->shard_size, "Number of recordings, or sets, per shard")
+      ->type_name("COUNT")
+      ->default_str("1 recording, or 1 % of the sets")
       ->check(CLI::Range(1, 100'000'000));
   return {part, [typed] { return BatchNewArguments{typed->folder, batch_from(*typed)}; }};
 }
 
 ParsedCommand run_command(CLI::App& batch) {
-  CLI::App* const part = batch.add_subcommand("run", "Work on the shards without a result");
+  CLI::App* const part =
+      batch.add_subcommand("run", "Compute the shards that have no result, and merge");
+  part->footer(kBatchRunExamples);
   const auto typed = std::make_shared<BatchRunArguments>();
   const auto folder = std::make_shared<std::string>();
   const auto engine = std::make_shared<std::string>("local");
   const auto raw = std::make_shared<RawAnalysis>();
-  part->add_option("FOLDER", *folder, "The batch's folder")
+  part->add_option("FOLDER", *folder, "Folder of the batch")
       ->required()
       ->check(CLI::ExistingDirectory);
-  part->add_option("--engine", *engine, "local: child processes here; slurm: job arrays")
+  part->add_option(
+          "--engine", *engine,
+          "Where to compute: child processes on this machine (local) or Slurm job arrays (slurm)")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
-  part->add_option("--workers", typed->workers,
-                   "How many at once (default: local: as many as processors; slurm: no limit)")
+  part->add_option("--workers", typed->workers, "Number of shards to compute at once")
+      ->type_name("COUNT")
+      ->default_str("one per processor; with slurm no limit")
       ->check(CLI::Range(1, 100'000));
-  part->add_option("--retries", typed->retries,
-                   "How often a shard that left no result is tried again")
+  part->add_option("--retries", typed->retries, "Number of retries of a shard that left no result")
+      ->type_name("COUNT")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  part->add_option("--sbatch", typed->sbatch, "An option for sbatch; repeatable")
+  part->add_option("--sbatch", typed->sbatch, "Option to pass to sbatch")
       ->allow_extra_args(false)
       ->type_name("OPTION");
   add_json(*part, *raw);
@@ -165,7 +206,7 @@ ParsedCommand run_command(CLI::App& batch) {
             BatchRunArguments out = *typed;
             out.folder = *folder;
             out.slurm = *engine == "slurm";
-            if (!out.slurm && !out.sbatch.empty()) refuse("--sbatch", "is for --engine slurm");
+            if (!out.slurm && !out.sbatch.empty()) refuse("--sbatch", "needs --engine slurm");
             out.show = show_from(*raw);
             return out;
           }};
@@ -173,22 +214,25 @@ ParsedCommand run_command(CLI::App& batch) {
 
 ParsedCommand shard_command(CLI::App& batch) {
   CLI::App* const part =
-      batch.add_subcommand("shard", "Work on one shard: what run lets its workers do");
+      batch.add_subcommand("shard", "Compute one shard; imunoise batch run starts this");
+  part->footer(kBatchShardExamples);
   const auto typed = std::make_shared<BatchShardArguments>();
   const auto folder = std::make_shared<std::string>();
-  part->add_option("FOLDER", *folder, "The batch's folder")
+  part->add_option("FOLDER", *folder, "Folder of the batch")
       ->required()
       ->check(CLI::ExistingDirectory);
-  part->add_option("NUMBER", typed->number, "The shard's, from 0")->required();
+  part->add_option("NUMBER", typed->number, "Number of the shard, from 0")->required();
   return {part, [typed, folder] { return BatchShardArguments{*folder, typed->number}; }};
 }
 
 template <class PartArguments>
-ParsedCommand look_command(CLI::App& batch, const char* name, const char* about) {
+ParsedCommand look_command(CLI::App& batch, const char* name, const char* about,
+                           const char* examples) {
   CLI::App* const part = batch.add_subcommand(name, about);
+  part->footer(examples);
   const auto folder = std::make_shared<std::string>();
   const auto raw = std::make_shared<RawAnalysis>();
-  part->add_option("FOLDER", *folder, "The batch's folder")
+  part->add_option("FOLDER", *folder, "Folder of the batch")
       ->required()
       ->check(CLI::ExistingDirectory);
   add_json(*part, *raw);
@@ -200,12 +244,14 @@ ParsedCommand look_command(CLI::App& batch, const char* name, const char* about)
 
 std::vector<ParsedCommand> batch_commands(CLI::App& program) {
   CLI::App* const batch =
-      program.add_subcommand("batch", "Many calibrations or simulations, here or on Slurm");
+      program.add_subcommand("batch", "Run many calibrations or simulations, here or on Slurm");
   batch->footer(kBatchExamples);
   batch->require_subcommand(1);
   return {new_command(*batch), run_command(*batch), shard_command(*batch),
-          look_command<BatchStatusArguments>(*batch, "status", "Which shards have a result"),
-          look_command<BatchMergeArguments>(*batch, "merge", "Put all results together")};
+          look_command<BatchStatusArguments>(*batch, "status", "Show which shards have a result",
+                                             kBatchStatusExamples),
+          look_command<BatchMergeArguments>(*batch, "merge", "Combine all results into one report",
+                                            kBatchMergeExamples)};
 }
 
 }  // namespace imunoise::cli

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "cli/parse/commands.h"
@@ -12,17 +10,17 @@ namespace {
 
 constexpr const char* kCalibrateExamples = R"help(
 Examples:
-  imunoise calibrate recordings/monday                   every rate and acceleration, models chosen
+  imunoise calibrate recordings/monday                   all angular rates and accelerations, best models
   imunoise calibrate recordings/monday --model "WN + AR1 + RW" --report monday.html
   imunoise calibrate recordings/monday --channel gyro_x --no-diagnose
 
-FOLDER is one recording (imunoise record). The result is also written into it, as calibration.json; a
-channel that cannot be calibrated says why and does not stop the others.)help";
+The result is also written into the recording's folder, as calibration.json. If a channel cannot be
+calibrated, the report says why, and the other channels are calibrated.)help";
 
 constexpr const char* kRecordingsExamples = R"help(
 Examples:
-  imunoise recordings bench                              what lies in the folder bench
-  imunoise recordings                                    what imunoised has recorded
+  imunoise recordings bench                              recordings in the folder bench
+  imunoise recordings                                    recordings of the running imunoised
   imunoise recordings bench --catalogue "postgresql://host=db dbname=imunoise" --bench north)help";
 
 constexpr const char* kCalibrationsExamples = R"help(
@@ -32,44 +30,51 @@ Examples:
 
 constexpr const char* kHistoryExamples = R"help(
 Examples:
-  imunoise history bench --device 0042                   everything that is known of this device
+  imunoise history bench --device 0042                   all calibrations of this device
   imunoise history bench --device imu0 --parameter N --report imu0.html
   imunoise history bench --device 0042 --channel gyro_x --parameter AR1.T
 
-Is the newest calibration compatible with those before it? The exit status is 1 when it is not.)help";
+The test compares the newest calibration with all earlier ones. The exit status is 1 if they differ.)help";
 
 ParsedCommand calibrate_command(CLI::App& program) {
-  CLI::App* const calibrate =
-      program.add_subcommand("calibrate", "Everything about the noise of one recording");
+  CLI::App* const calibrate = program.add_subcommand(
+      "calibrate", "Calibrate one recording: fit, test and diagnose all its channels");
   calibrate->footer(kCalibrateExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto folder = std::make_shared<std::string>();
   const auto options = std::make_shared<study::CalibrateOptions>();
-  calibrate->add_option("FOLDER", *folder, "A recording's folder")
+  calibrate->add_option("FOLDER", *folder, "Folder of the recording")
       ->required()
       ->check(CLI::ExistingDirectory);
   const auto array_model = std::make_shared<std::string>();
   calibrate
       ->add_option("--model", options->models,
-                   "One: it is fitted; several: the best of them by cross-validation, for each "
-                   "channel (default: the best of many)")
+                   "Model to fit; give several to choose the best for each channel by "
+                   "cross-validation")
+      ->type_name("MODEL")
+      ->default_str("the best of many")
       ->allow_extra_args(false);
   calibrate
       ->add_option("--channel", options->channels,
-                   "A channel; repeatable (default: all angular rates and accelerations)")
+                   "Names of the channels to calibrate, separated by commas")
+      ->type_name("NAMES")
+      ->default_str("all angular rates and accelerations")
       ->delimiter(',');
-  calibrate->add_flag("!--no-diagnose", options->diagnose, "Do not seek effects that are missing");
+  calibrate->add_flag("!--no-diagnose", options->diagnose, "Skip the search for missing effects");
   calibrate->add_flag("--array", options->array,
-                      "Channels of one quantity as an array, and those of one name in several "
-                      "devices, too");
-  calibrate->add_option("--array-model", *array_model,
-                        fmt::format("Of the array (default: {})", study::kDefaultArrayModel));
+                      "Analyse the channels of one quantity as an array, and channels of the same "
+                      "name across devices, too");
+  calibrate->add_option("--array-model", *array_model, "Model of the array")
+      ->type_name("MODEL")
+      ->default_str(std::string(study::kDefaultArrayModel));
   calibrate
       ->add_option("--bootstrap", options->bootstrap.sets,
-                   "Sets of the bootstrap of the test between replicates; 0: none")
+                   "Number of bootstrap sets for the test between replicates; 0 disables it")
+      ->type_name("COUNT")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  calibrate->add_option("--seed", options->bootstrap.seed, "Seed of the bootstrap")
+  calibrate->add_option("--seed", options->bootstrap.seed, "Random seed of the bootstrap")
+      ->type_name("SEED")
       ->capture_default_str();
   add_json(*calibrate, *raw);
   add_report(*calibrate, *raw);
@@ -91,17 +96,17 @@ struct RawCatalogue {
 
 void add_catalogue(CLI::App& command, RawCatalogue& raw) {
   auto* const folder =
-      command
-          .add_option("FOLDER", raw.folder,
-                      "A folder with recordings, at any depth (default: those of imunoised)")
+      command.add_option("FOLDER", raw.folder, "Folder with recordings, at any depth")
+          ->default_str("the recordings of imunoised")
           ->check(CLI::ExistingDirectory);
   command
-      .add_option(
-          "--catalogue", raw.catalogue,
-          "The index: a SQLite file, or postgresql://... (default: FOLDER/catalogue.sqlite)")
-      ->type_name("WHERE")
+      .add_option("--catalogue", raw.catalogue,
+                  "Database of the catalogue: a SQLite file or postgresql://...")
+      ->type_name("DATABASE")
+      ->default_str("FOLDER/catalogue.sqlite")
       ->needs(folder);
-  command.add_option("--bench", raw.bench, "Name of this folder in a catalogue of several")
+  command.add_option("--bench", raw.bench, "Name of this folder in a catalogue of several folders")
+      ->type_name("NAME")
       ->needs(folder);
   add_daemon(command, raw.daemon);
   add_json(command, raw.raw);
@@ -126,24 +131,34 @@ ParsedCommand list_command(CLI::App& program, const char* name, const char* abou
 }
 
 ParsedCommand history_command(CLI::App& program) {
-  CLI::App* const history =
-      program.add_subcommand("history", "A device's noise over months, with a drift alarm");
+  CLI::App* const history = program.add_subcommand(
+      "history",
+      "Show how the noise of a device changes over months, and test the newest calibration");
   history->footer(kHistoryExamples);
   const auto raw = std::make_shared<RawCatalogue>();
   const auto device = std::make_shared<std::string>();
   const auto options = std::make_shared<catalogue::HistoryOptions>();
   add_catalogue(*history, *raw);
-  history->add_option("--device", *device, "Its serial number, its name, or driver:serial")
+  history
+      ->add_option("--device", *device, "Serial number of the device, its name, or driver:serial")
+      ->type_name("NAME")
       ->required();
   history
       ->add_option("--parameter", options->parameters,
-                   "N, B, K, R, Q, sigma, T, f, zeta, AR1.T or a title; repeatable (default: all)")
+                   "Parameter to show: N, B, K, R, Q, sigma, T, f, zeta, AR1.T or a title")
+      ->type_name("NAME")
+      ->default_str("all")
       ->allow_extra_args(false);
-  history->add_option("--channel", options->channels, "A channel; repeatable (default: all)")
+  history
+      ->add_option("--channel", options->channels,
+                   "Names of the channels to show, separated by commas")
+      ->type_name("NAMES")
+      ->default_str("all")
       ->delimiter(',');
   history
       ->add_option("--level", options->level,
-                   "Chance of a false alarm at each new calibration, over all parameters shown")
+                   "False-alarm probability at each new calibration, over all parameters shown")
+      ->type_name("PROBABILITY")
       ->check(CLI::Range(1e-9, 0.5))
       ->capture_default_str();
   return {history, [raw, device, options] {
@@ -154,13 +169,14 @@ ParsedCommand history_command(CLI::App& program) {
 }  // namespace
 
 std::vector<ParsedCommand> catalogue_commands(CLI::App& program) {
-  return {calibrate_command(program),
-          list_command<RecordingsArguments>(
-              program, "recordings", "The recordings in a folder of them", kRecordingsExamples),
-          list_command<CalibrationsArguments>(program, "calibrations",
-                                              "The calibrations of the recordings in a folder",
-                                              kCalibrationsExamples),
-          history_command(program)};
+  return {
+      calibrate_command(program),
+      list_command<RecordingsArguments>(program, "recordings",
+                                        "List the recordings in a folder, or of imunoised",
+                                        kRecordingsExamples),
+      list_command<CalibrationsArguments>(
+          program, "calibrations", "List the calibrations of recordings", kCalibrationsExamples),
+      history_command(program)};
 }
 
 }  // namespace imunoise::cli

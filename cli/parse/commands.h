@@ -8,13 +8,13 @@
 
 namespace imunoise::cli {
 
-/// One command: its options, and how they become arguments once it was parsed.
+/// One command: its options, and a function that turns them into arguments after parsing.
 struct ParsedCommand {
   CLI::App* app;
   std::function<Arguments::Command()> arguments;  ///< may throw CLI::ValidationError
 };
 
-// Each adds a group of commands to the program.
+// Each adds some commands to the program.
 std::vector<ParsedCommand> analysis_commands(
     CLI::App& program);                                        ///< wv, fit, test, select, dynamic
 std::vector<ParsedCommand> array_commands(CLI::App& program);  ///< array, mixed, faults

@@ -3,21 +3,31 @@
 namespace imunoise::cli {
 namespace {
 
+constexpr const char* kDevicesExamples = R"help(
+Examples:
+  imunoise devices
+  imunoise devices --json)help";
+
+constexpr const char* kCampaignsExamples = R"help(
+Examples:
+  imunoise campaigns
+  imunoise campaigns --url http://127.0.0.1:8080 --token-file ~/.config/imunoise.token)help";
+
 constexpr const char* kStatusExamples = R"help(
 Examples:
-  imunoise status                              what each campaign does now
-  imunoise status --follow                     every change, and how long it takes still
+  imunoise status                              current campaigns and time remaining
+  imunoise status --follow                     print every change until no campaign runs
   imunoise status --url http://127.0.0.1:8080 --token-file ~/.config/imunoise.token)help";
 
 constexpr const char* kStopExamples = R"help(
 Examples:
-  imunoise stop array                                    unless it records a replicate
-  imunoise stop array --recording 2026-03-01T060000Z     interrupts this recording, too)help";
+  imunoise stop array                                    refused while a replicate is recorded
+  imunoise stop array --recording 2026-03-01T060000Z     interrupts this recording)help";
 
 constexpr const char* kStartExamples = R"help(
 Examples:
-  imunoise start array                         as its schedule says
-  imunoise start array --once                  one recording: the unfinished one, or else a new one)help";
+  imunoise start array                         follow its schedule
+  imunoise start array --once                  one recording: finish the open one, or start a new one)help";
 
 // A command with the options of all of them. `more` adds its own.
 template <class Arguments, class More>
@@ -27,7 +37,7 @@ ParsedCommand daemon_command(CLI::App& program, const char* name, const char* ab
   const auto typed = std::make_shared<Arguments>();
   const auto daemon = std::make_shared<RawDaemon>();
   add_daemon(*command, *daemon);
-  command->add_flag("--json", typed->json, "Print JSON");
+  command->add_flag("--json", typed->json, "Print the result as JSON");
   more(*command, *typed);
   return {command, [typed, daemon] {
             typed->daemon = daemon_from(*daemon);
@@ -39,13 +49,15 @@ ParsedCommand daemon_command(CLI::App& program, const char* name, const char* ab
 
 void add_daemon(CLI::App& command, RawDaemon& raw) {
   const auto& known = DaemonArguments().socket;
-  command
-      .add_option("--socket", raw.socket,
-                  "Where imunoised answers (default: " + known.string() + ")")
-      ->type_name("PATH");
-  auto* const url = command.add_option("--url", raw.url, "The same by TCP: http://127.0.0.1:8080")
+  command.add_option("--socket", raw.socket, "Unix socket of imunoised")
+      ->type_name("PATH")
+      ->default_str(known.string());
+  auto* const url = command
+                        .add_option("--url", raw.url,
+                                    "Address of imunoised over TCP, such as http://127.0.0.1:8080")
                         ->type_name("URL");
-  command.add_option("--token-file", raw.token_file, "A file with the token for it")
+  command.add_option("--token-file", raw.token_file, "File with the token for --url")
+      ->type_name("FILE")
       ->check(CLI::ExistingFile)
       ->needs(url);
 }
@@ -59,30 +71,33 @@ DaemonArguments daemon_from(const RawDaemon& raw) {
 }
 
 std::vector<ParsedCommand> daemon_commands(CLI::App& program) {
-  const auto nothing = [](CLI::App&, auto&) {};
   return {
-      daemon_command<DevicesArguments>(program, "devices", "The devices of the daemon's campaigns",
-                                       nothing),
-      daemon_command<CampaignsArguments>(program, "campaigns", "The daemon's campaigns", nothing),
+      daemon_command<DevicesArguments>(
+          program, "devices", "List the devices of imunoised",
+          [](CLI::App& command, DevicesArguments&) { command.footer(kDevicesExamples); }),
+      daemon_command<CampaignsArguments>(
+          program, "campaigns", "List the campaigns of imunoised",
+          [](CLI::App& command, CampaignsArguments&) { command.footer(kCampaignsExamples); }),
       daemon_command<StatusArguments>(
-          program, "status", "What the daemon's campaigns do",
+          program, "status", "Show current campaigns and time remaining",
           [](CLI::App& command, StatusArguments& to) {
             command.footer(kStatusExamples);
-            command.add_flag("--follow", to.follow, "Tell every change, until no campaign runs");
+            command.add_flag("--follow", to.follow, "Print every change until no campaign runs");
           }),
       daemon_command<StartArguments>(
-          program, "start", "Start a campaign that was stopped or is finished",
+          program, "start", "Start a campaign that is stopped or finished",
           [](CLI::App& command, StartArguments& to) {
             command.footer(kStartExamples);
-            command.add_option("CAMPAIGN", to.campaign)->required();
-            command.add_flag("--once", to.once, "One recording, whatever the schedule says");
+            command.add_option("CAMPAIGN", to.campaign, "Name of the campaign")->required();
+            command.add_flag("--once", to.once, "Make one recording now, whatever the schedule");
           }),
       daemon_command<StopArguments>(
           program, "stop", "Stop a campaign", [](CLI::App& command, StopArguments& to) {
             command.footer(kStopExamples);
-            command.add_option("CAMPAIGN", to.campaign)->required();
-            command.add_option("--recording", to.recording,
-                               "The recording that is to be interrupted; without it none is");
+            command.add_option("CAMPAIGN", to.campaign, "Name of the campaign")->required();
+            command.add_option("--recording", to.recording, "Name of the recording to interrupt")
+                ->type_name("NAME")
+                ->default_str("none");
           })};
 }
 

@@ -7,18 +7,22 @@ namespace imunoise::cli {
 namespace {
 
 constexpr const char* kDriversHelp = R"help(
-Drivers are files imunoise-NAME.so in the folders given here, in those of the environment variable
-IMUNOISE_DRIVER_PATH (separated by ':'), and in lib/imunoise/drivers of the installation. The first of
-a name wins.)help";
+Examples:
+  imunoise drivers                                       drivers with all their options
+  imunoise drivers --driver-path ./build/lib             also drivers in this folder
+
+imunoise looks for files imunoise-NAME.so in the folders of --driver-path, then in those of the environment
+variable IMUNOISE_DRIVER_PATH (separated by ':'), then in lib/imunoise/drivers of the installation. If two
+drivers have the same name, the first is used.)help";
 
 constexpr const char* kDecodeExamples = R"help(
 Examples:
-  imunoise decode --format xbus capture.bin              one JSON line a sample
+  imunoise decode --format xbus capture.bin              one JSON line per sample
   imunoise decode --format candump bus.log --dbc imu.dbc
   candump -L can0 | imunoise decode --format candump --preset mti600 -
   imunoise decode --format adis16405 --sens-avg 0x0204 bursts.bin --json
 
-What was refused, and why, goes to standard error; with --json it is the last line.)help";
+imunoise reports rejected messages on standard error; with --json also in the last line.)help";
 
 CaptureFormat format_from(const std::string& name) {
   if (name == "xbus") return CaptureFormat::kXbus;
@@ -26,17 +30,20 @@ CaptureFormat format_from(const std::string& name) {
 }
 
 ParsedCommand drivers_command(CLI::App& program) {
-  CLI::App* const drivers =
-      program.add_subcommand("drivers", "List drivers of devices, and why any was refused");
+  CLI::App* const drivers = program.add_subcommand(
+      "drivers", "List drivers with their options, and drivers that cannot be loaded");
   drivers->footer(kDriversHelp);
   const auto folders = std::make_shared<std::vector<std::string>>();
   const auto json = std::make_shared<bool>(false);
-  drivers->add_option("--driver-path", *folders, "A folder to search before the others; repeatable")
+  const auto names_only = std::make_shared<bool>(false);
+  drivers->add_option("--driver-path", *folders, "Folder to search for drivers first")
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER");
-  drivers->add_flag("--json", *json, "Print the result as JSON");
-  return {drivers, [folders, json] {
-            return DriversArguments{{folders->begin(), folders->end()}, *json};
+  auto* const names =
+      drivers->add_flag("--names", *names_only, "Print only the names, one per line");
+  drivers->add_flag("--json", *json, "Print the result as JSON")->excludes(names);
+  return {drivers, [folders, json, names_only] {
+            return DriversArguments{{folders->begin(), folders->end()}, *json, *names_only};
           }};
 }
 
@@ -47,24 +54,29 @@ ParsedCommand decode_command(CLI::App& program) {
     std::string dbc;
   };
   CLI::App* const decode =
-      program.add_subcommand("decode", "Print the samples in a device's bytes");
+      program.add_subcommand("decode", "Decode the captured bytes of a device into samples");
   decode->footer(kDecodeExamples);
   const auto raw = std::make_shared<Raw>();
   DecodeArguments& capture = raw->arguments;
-  decode->add_option("--format", raw->format, "How the bytes are to be read")
+  decode->add_option("--format", raw->format, "Format of the capture")
       ->required()
       ->check(CLI::IsMember({"xbus", "candump", "adis16405"}));
-  decode->add_option("FILE", capture.file, "The capture; - is standard input")->required();
-  auto* const database = decode->add_option("--dbc", raw->dbc, "candump: what the messages mean")
-                             ->check(CLI::ExistingFile);
-  decode->add_option("--preset", capture.preset, "candump: a known IMU: mti600, aceinna, mm5.10")
+  decode->add_option("FILE", capture.file, "Capture to decode; - reads standard input")->required();
+  auto* const database =
+      decode->add_option("--dbc", raw->dbc, "candump: DBC file that describes the messages")
+          ->type_name("FILE")
+          ->check(CLI::ExistingFile);
+  decode->add_option("--preset", capture.preset, "candump: known IMU: mti600, aceinna or mm5.10")
+      ->type_name("IMU")
       ->excludes(database);
   capture.sens_avg = drivers::adis16405::kDefaultSensitivityAveraging;
   capture.smpl_prd = drivers::adis16405::kDefaultSamplePeriod;
-  decode->add_option("--sens-avg", capture.sens_avg,
-                     "adis16405: register SENS_AVG (default: 0x0402, 300 deg/s)");
-  decode->add_option("--smpl-prd", capture.smpl_prd,
-                     "adis16405: register SMPL_PRD (default: 0x0001, 819.2 Hz)");
+  decode->add_option("--sens-avg", capture.sens_avg, "adis16405: value of register SENS_AVG")
+      ->type_name("NUMBER")
+      ->default_str("0x0402, 300 deg/s");
+  decode->add_option("--smpl-prd", capture.smpl_prd, "adis16405: value of register SMPL_PRD")
+      ->type_name("NUMBER")
+      ->default_str("0x0001, 819.2 Hz");
   decode->add_flag("--json", capture.json, "Print the summary as the last JSON line");
   return {decode, [raw] {
             DecodeArguments out = raw->arguments;

@@ -6,8 +6,8 @@ namespace {
 
 constexpr const char* kDiagnoseExamples = R"help(
 Examples:
-  imunoise diagnose run?.h5 --channel gyro_x --model "WN + RW"     what does this model lack?
-  imunoise diagnose run?.h5 --channel gyro_x --auto                add what is found, and go on
+  imunoise diagnose run?.h5 --channel gyro_x --model "WN + RW"     effects missing from this model
+  imunoise diagnose run?.h5 --channel gyro_x --auto                add effects until none is missing
   imunoise diagnose run?.h5 --channel gyro_x --model "WN + RW + line(f=23.4)"
   imunoise diagnose run?.h5 --channel gyro_x --witness temperature --report diagnosis.html
 
@@ -17,15 +17,18 @@ telegraph, own_powers.)help";
 
 void add_witnesses(CLI::App& command, std::vector<std::string>& witnesses) {
   command
-      .add_option("--witness", witnesses,
-                  "A channel that may be the cause, by name; no other is read (default: all)")
+      .add_option(
+          "--witness", witnesses,
+          "Names of the auxiliary channels (witnesses) to consider as causes, separated by commas")
+      ->type_name("NAMES")
+      ->default_str("all")
       ->delimiter(',')
       ->allow_extra_args(false);
 }
 
 ParsedCommand diagnose_command(CLI::App& program) {
   CLI::App* const diagnose =
-      program.add_subcommand("diagnose", "Which physical effect is missing from a model?");
+      program.add_subcommand("diagnose", "Find the physical effect that a model lacks");
   diagnose->footer(kDiagnoseExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto options = std::make_shared<study::DiagnoseOptions>();
@@ -38,12 +41,13 @@ ParsedCommand diagnose_command(CLI::App& program) {
   diagnose
       ->add_option(
           "--svg", *svg,
-          "Write noise budget and spectrum as pictures for papers: OUT_before.svg, OUT_after.svg, "
-          "OUT_spectrum_before.svg, OUT_spectrum_after.svg")
+          "SVG pictures of noise budget and spectrum to write, for papers: OUT_before.svg, "
+          "OUT_after.svg, OUT_spectrum_before.svg, OUT_spectrum_after.svg")
       ->type_name("OUT.svg");
   diagnose->add_flag("--auto", options->automatic,
-                     "Add what is found to the model and look again, until nothing is missing");
-  diagnose->add_option("--level", options->level, "Chance of a false alarm over all that is tried")
+                     "Add the best effect to the model and repeat until none is missing");
+  diagnose->add_option("--level", options->level, "False-alarm probability of the whole search")
+      ->type_name("PROBABILITY")
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
   return {diagnose, [raw, options, svg] {
@@ -58,10 +62,10 @@ ParsedCommand diagnose_command(CLI::App& program) {
 constexpr const char* kStudyExamples = R"help(
 Examples:
   imunoise study new gyro.study run?.h5 --channel gyro_x --model "WN + RW"
-  imunoise study candidates gyro.study                 what does it lack?
-  imunoise study add gyro.study "line(f=7.123)"        add it, and see the error
+  imunoise study candidates gyro.study                 effects that the model lacks
+  imunoise study add gyro.study "line(f=7.123)"        add one, and see how the error changes
   imunoise study undo gyro.study
-  imunoise study add gyro.study QN --from 0            another branch, from the first model
+  imunoise study add gyro.study QN --from 0            add to the first model instead
   imunoise study show gyro.study
   imunoise study report gyro.study ladder.html)help";
 
@@ -75,7 +79,8 @@ struct RawStudy {
 };
 
 v1::StudyRequest open_request(const RawStudy& typed) {
-  if (typed.raw.input.channels.size() > 1) refuse("--channel", "a study is about one channel");
+  if (typed.raw.input.channels.size() > 1)
+    refuse("--channel", "give one channel; a study has only one");
   static_cast<void>(input_from(typed.raw.input));  // refuses what cannot be read
   v1::StudyRequest out;
   v1::StudyRequest::Open& open = *out.mutable_open();
@@ -96,44 +101,54 @@ v1::StudyRequest open_request(const RawStudy& typed) {
 
 std::vector<ParsedCommand> study_commands(CLI::App& program) {
   CLI::App* const study =
-      program.add_subcommand("study", "Improve a model step by step, and keep every step");
+      program.add_subcommand("study", "Improve a model step by step and keep every attempt");
   study->footer(kStudyExamples);
   study->require_subcommand(1);
   std::vector<ParsedCommand> out;
   // A part of the command; `request` makes what it asks for.
-  const auto add = [&](const char* name, const char* about, const auto& options,
+  const auto add = [&](const char* name, const char* about, const std::string& examples,
+                       const auto& options,
                        const std::function<v1::StudyRequest(const RawStudy&)>& request) {
     CLI::App* const part = study->add_subcommand(name, about);
+    part->footer("Examples:\n  imunoise study " + examples);
     const auto typed = std::make_shared<RawStudy>();
-    part->add_option("STUDY", typed->file, "The study's file")->required();
+    part->add_option("STUDY", typed->file, "Study file")->required();
     options(*part, *typed);
     add_json(*part, typed->raw);
     out.push_back({part, [typed, request] {
-                     if (typed->raw.report == typed->file) refuse("OUT", "is the study's own file");
+                     if (typed->raw.report == typed->file)
+                       refuse("OUT", "is the study file itself; name another file");
                      return StudyArguments{typed->file, request(*typed), show_from(typed->raw)};
                    }});
   };
   const auto no_options = [](CLI::App&, RawStudy&) {};
   add(
-      "new", "Start a study",
+      "new", "Start a study: create its file",
+      "new gyro.study run?.h5 --channel gyro_x --model \"WN + RW\"",
       [](CLI::App& part, RawStudy& typed) {
         add_input(part, typed.raw.input);
         add_model(part, typed.raw, "chosen by cross-validation");
         add_witnesses(part, typed.witnesses);
       },
       open_request);
-  add("show", "The ladder as it stands", no_options,
+  add("show", "Show all attempts and their errors", "show gyro.study", no_options,
       [](const RawStudy&) { return v1::StudyRequest(); });
-  add("candidates", "Seek what the current model lacks", no_options, [](const RawStudy&) {
-    v1::StudyRequest request;
-    request.mutable_candidates();
-    return request;
-  });
+  add("candidates", "Find effects that the current model lacks", "candidates gyro.study",
+      no_options, [](const RawStudy&) {
+        v1::StudyRequest request;
+        request.mutable_candidates();
+        return request;
+      });
   add(
       "add", "Add a term to the current model",
+      "add gyro.study \"line(f=7.123)\"\n"
+      "  imunoise study add gyro.study QN --from 0            add to the first model instead",
       [](CLI::App& part, RawStudy& typed) {
-        part.add_option("TERM", typed.term, "In the grammar: line(f=7.123), QN")->required();
-        part.add_option("--from", typed.from, "Add to this attempt instead of the current one")
+        part.add_option("TERM", typed.term, "Process or effect, such as QN or line(f=7.123)")
+            ->required();
+        part.add_option("--from", typed.from, "Number of the attempt to add to")
+            ->type_name("NUMBER")
+            ->default_str("the current one")
             ->check(zero_or_above());
       },
       [](const RawStudy& typed) {
@@ -143,15 +158,16 @@ std::vector<ParsedCommand> study_commands(CLI::App& program) {
           request.mutable_add()->set_branch_from(static_cast<std::uint32_t>(typed.from));
         return request;
       });
-  add("undo", "Back to what the current model was added to", no_options, [](const RawStudy&) {
-    v1::StudyRequest request;
-    request.mutable_undo();
-    return request;
-  });
+  add("undo", "Return to the attempt that the current one extends", "undo gyro.study", no_options,
+      [](const RawStudy&) {
+        v1::StudyRequest request;
+        request.mutable_undo();
+        return request;
+      });
   add(
-      "report", "Write the page",
+      "report", "Write an HTML report of the study", "report gyro.study ladder.html",
       [](CLI::App& part, RawStudy& typed) {
-        part.add_option("OUT", typed.raw.report, "The page's file")->required();
+        part.add_option("OUT", typed.raw.report, "HTML file to write")->required();
       },
       [](const RawStudy&) {
         v1::StudyRequest request;

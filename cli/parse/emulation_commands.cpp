@@ -18,10 +18,10 @@ Examples:
   imunoise emulate --device can --at vcan0 --effect "fan(frequency=23, amplitude=1e-3, channel=gyro_x)"
   imunoise record trial --device "emulated device=adis16405 seed=7" --duration 10
 
-The first lines that it prints say how to record the device; it runs until Ctrl-C. An ADIS16405 is on USB, which
-only a kernel can serve: it is emulated inside imunoise record, as in the last example (so can the others be).
-Times are in s, temperatures in K, amplitudes in the SI unit of the channel; without channel= an effect
-acts on all three gyroscopes.
+imunoise prints the command that records the device, then runs until Ctrl-C. Only the kernel can offer a USB
+device, so the ADIS16405 runs inside imunoise record, as in the last example. The other devices can, too.
+Units: s, K, and the SI unit of the channel for amplitudes. Without channel=, an effect acts on all three
+gyroscopes.
 )help";
 
 std::string lines(const std::string& title, const std::vector<std::string>& all) {
@@ -37,39 +37,55 @@ ParsedCommand emulate_command(CLI::App& program) {
     double duration = 0.0;
     std::string generation = "mti-g-710";
   };
-  CLI::App* const emulate =
-      program.add_subcommand("emulate", "Serve an inertial sensor that is not there");
+  CLI::App* const emulate = program.add_subcommand("emulate", "Emulate an inertial sensor");
   emulate->footer(kEmulateHelp + lines("Effects:", emulator::describe_effects()) +
-                  lines("Faults (samples are counted from 0):", emulator::describe_faults()));
+                  lines("Faults (sample numbers start at 0):", emulator::describe_faults()));
   const auto raw = std::make_shared<Raw>();
   emulator::ServePlan& plan = raw->plan;
-  emulate->add_option("--device", plan.driver, "Whose driver shall find it: xsens or can")
+  emulate->add_option("--device", plan.driver, "Device to emulate")
       ->required()
       ->check(CLI::IsMember({"xsens", "can", "adis16405"}));
-  emulate->add_option("--at", plan.place,
-                      "xsens: path of a link to the pseudo-terminal (default: imunoise-mti in the "
-                      "temporary folder); can: an interface (vcan0) or unix:PATH (default: unix: "
-                      "and imunoise-can there)");
+  emulate
+      ->add_option(
+          "--at", plan.place,
+          "Where the device appears: for xsens the path of a link to the pseudo-terminal; for "
+          "can an interface such as vcan0, or unix:PATH")
+      ->type_name("PLACE")
+      ->default_str("/tmp/imunoise-mti; unix:/tmp/imunoise-can");
   emulate
       ->add_option("--model", plan.source.models,
-                   "Noise, as \"gyro: WN(sigma2=1e-6)\", per sample in SI; repeatable")
+                   "Noise to add, such as \"gyro: WN(sigma2=1e-6)\" (per sample, SI)")
+      ->type_name("MODEL")
       ->allow_extra_args(false);
-  emulate->add_option("--effect", plan.source.effects, "See below; repeatable")
+  emulate
+      ->add_option("--effect", plan.source.effects,
+                   "Effect to add, such as \"fan(frequency=23, amplitude=1e-3)\"; listed below")
+      ->type_name("EFFECT")
       ->allow_extra_args(false);
-  emulate->add_option("--fault", plan.faults, "See below; repeatable")->allow_extra_args(false);
-  emulate->add_option("--seed", plan.source.seed, "Of all random numbers")->capture_default_str();
+  emulate
+      ->add_option("--fault", plan.faults,
+                   "Fault to inject, such as \"loss(sample=500)\"; listed below")
+      ->type_name("FAULT")
+      ->allow_extra_args(false);
+  emulate->add_option("--seed", plan.source.seed, "Random seed")
+      ->type_name("SEED")
+      ->capture_default_str();
   emulate
       ->add_option("--rate", raw->rate,
-                   "Samples a second; an MTi's is the driver's choice, and this is what its model "
-                   "is read at")
+                   "Sampling rate (Hz); for xsens the driver sets the rate, and this one only "
+                   "converts the model")
+      ->type_name("HZ")
       ->check(CLI::Range(0.1, 10'000.0))
       ->capture_default_str();
-  emulate->add_option("--preset", plan.preset, "can: which IMU: mti600, aceinna, mm5.10")
+  emulate->add_option("--preset", plan.preset, "can: IMU to emulate: mti600, aceinna or mm5.10")
+      ->type_name("IMU")
       ->capture_default_str();
-  emulate->add_option("--generation", raw->generation, "xsens: mti-g-710, or mti-g")
+  emulate->add_option("--generation", raw->generation, "xsens: generation of the device")
       ->check(CLI::IsMember({"mti-g-710", "mti-g"}))
       ->capture_default_str();
-  emulate->add_option("--duration", raw->duration, "s; without it, until Ctrl-C")
+  emulate->add_option("--duration", raw->duration, "Time to run (s)")
+      ->type_name("SECONDS")
+      ->default_str("until Ctrl-C")
       ->check(above_zero());
   return {emulate, [raw] {
             EmulateArguments out{raw->plan, {}};

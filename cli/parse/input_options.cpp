@@ -17,12 +17,12 @@ CLI::Validator number_check(const char* name, const char* words, bool (*good)(do
 }  // namespace
 
 CLI::Validator above_zero() {
-  return number_check("POSITIVE", "a number above zero",
+  return number_check("above 0", "a number above zero",
                       [](double value) { return std::isfinite(value) && value > 0.0; });
 }
 
 CLI::Validator zero_or_above() {
-  return number_check("NONNEGATIVE", "zero or a number above it",
+  return number_check("at least 0", "zero or a number above it",
                       [](double value) { return std::isfinite(value) && value >= 0.0; });
 }
 
@@ -30,38 +30,51 @@ void add_input(CLI::App& command, RawInput& raw) {
   command
       .add_option(
           "FILES", raw.files,
-          "Recordings, one replicate each: HDF5, CSV, .npy, raw numbers with a sidecar; or the "
+          "Recordings, one replicate each: HDF5, CSV, .npy or raw numbers with a sidecar; or the "
           "folder of one recording")
       ->required();
-  command.add_option("--channel", raw.channels, "Channels to analyse, by name (default: all)")
+  command
+      .add_option("--channel", raw.channels,
+                  "Names of the channels to analyse, separated by commas")
+      ->type_name("NAMES")
+      ->default_str("all")
       ->delimiter(',')
       ->allow_extra_args(false);  // what follows the name is a file again
-  command.add_option("--rate", raw.rate, "Sampling rate in Hz, where the file does not say")
+  command.add_option("--rate", raw.rate, "Sampling rate (Hz) of files that do not state it")
+      ->type_name("HZ")
       ->check(above_zero());
-  command.add_option("--unit", raw.unit,
-                     "Unit of the channels, e.g. deg/s; wins over what the file says");
-  command.add_option("--delimiter", raw.delimiter,
-                     "Separator of a text file, one character or 'tab' (default: detected)");
+  command
+      .add_option("--unit", raw.unit, "Unit of the channels, such as deg/s; overrides the file's")
+      ->type_name("UNIT");
+  command
+      .add_option("--delimiter", raw.delimiter, "Separator of a text file: one character, or 'tab'")
+      ->type_name("CHARACTER")
+      ->default_str("detected");
   auto* const header =
-      command.add_flag("--header", raw.header, "The first row of a text file names its columns");
-  command.add_flag("--no-header", raw.no_header, "The first row of a text file holds numbers")
+      command.add_flag("--header", raw.header, "Read the first row of a text file as names");
+  command.add_flag("--no-header", raw.no_header, "Read the first row of a text file as numbers")
       ->excludes(header);
   command
-      .add_option("--split-into", raw.split_into, "Cut each file into K replicates of equal length")
+      .add_option("--split-into", raw.split_into,
+                  "Number of equal replicates to cut each file into")
       ->check(CLI::Range(1, 100000))
-      ->type_name("K");
+      ->type_name("COUNT")
+      ->capture_default_str();
 }
 
 void add_scales(CLI::App& command, RawInput& raw) {
-  command.add_option("--per-octave", raw.per_octave, "Scales an octave")
+  command.add_option("--per-octave", raw.per_octave, "Wavelet scales per octave")
       ->check(CLI::IsMember({1, 2, 4}))
       ->capture_default_str();
 }
 
 void add_measure(CLI::App& command, RawInput& raw) {
   add_scales(command, raw);
-  command.add_option("--robust", raw.robust, "Robust estimator, by its nominal efficiency")
-      ->check(CLI::IsMember({"0.6", "0.8", "0.9"}));
+  command
+      .add_option("--robust", raw.robust,
+                  "Efficiency of the robust estimator; lower values resist more outliers")
+      ->check(CLI::IsMember({"0.6", "0.8", "0.9"}))
+      ->default_str("not robust");
 }
 
 void refuse(const std::string& option, const std::string& why) {

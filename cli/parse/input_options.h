@@ -22,16 +22,15 @@ struct RawInput {
   std::string robust;
 };
 
-// Numbers of a sign, for check(). CLI11's own answer a wrong one with the largest double, written
-// out.
+// Checks of a number's sign. CLI11's own print the largest double in their message.
 CLI::Validator above_zero();
 CLI::Validator zero_or_above();
 
-/// Adds FILES and everything that says how they are read.
+/// Adds FILES and the options that say how to read them.
 void add_input(CLI::App& command, RawInput& raw);
-/// Adds how many scales their wavelet variance is measured at.
+/// Adds the number of scales of the wavelet variance.
 void add_scales(CLI::App& command, RawInput& raw);
-/// Adds everything that says how it is measured.
+/// Adds all options of the wavelet variance.
 void add_measure(CLI::App& command, RawInput& raw);
 
 // What was typed, looked up. They throw CLI::ValidationError.

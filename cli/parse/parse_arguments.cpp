@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
+#include "cli/manual/manual.h"
 #include "cli/parse/commands.h"
 
 namespace imunoise::cli {
@@ -8,41 +9,65 @@ namespace {
 
 constexpr const char* kExamples = R"help(
 Examples:
-  imunoise fit run?.h5 --channel gyro_x                  a noise model from all replicates
-  imunoise fit run?.h5 --model "2*AR1 + WN + RW" --report gyro.html --svg gyro.svg
-  imunoise select run?.h5 --model "2*AR1 + WN + RW"      which of its sub-models predicts best
-  imunoise test run?.h5 --model "AR1 + WN + RW"          do replicates differ, or does it not fit?
-  imunoise wv run1.csv --rate 100 --unit deg/s           the measured wavelet variance
-  imunoise simulate --model "WN(sigma2=1e-6) + RW(gamma2=1e-14)" --rate 100 \
-      --samples 360000 --replicates 6 --seed 1 --out run.h5
-  imunoise decode --format xbus capture.bin              what a device's bytes say
-  imunoise verify recordings/monday                      is the recording intact?
-  imunoise calibrate recordings/monday                   all of its channels at once
-  imunoise history recordings --device 0042              this device over months; does it drift?
-  imunoise status --follow                               what imunoised records, and how long still
-  imunoise batch run nightly --engine slurm              many recordings or simulations at once
-  imunoise emulate --device xsens                        a sensor to try imunoise record with
+  imunoise fit run?.h5 --channel gyro_x                  fit a noise model to all replicates
+  imunoise fit run?.h5 --model "2*AR1 + WN + RW" --report gyro.html
+  imunoise test run?.h5 --model "AR1 + WN + RW"          check the fit and compare replicates
+  imunoise diagnose run?.h5 --model "WN + RW" --auto     add the physical effects that it lacks
+  imunoise record monday --device "xsens port=/dev/ttyUSB0" --duration 3600 --replicates 6
+  imunoise calibrate monday                              fit all channels of a recording
+  imunoise history recordings --device 0042              compare calibrations over months
+  imunoise status --follow                               watch campaigns of imunoised
 
-imunoise COMMAND --help says more.)help";
+imunoise COMMAND --help lists the options of a command. A value in brackets is the default.
+
+Exit status:
+  0   there is a result, also if the model does not fit
+  1   an error, a damaged recording, or a device that changed
+  2   wrong usage)help";
+
+// Commands stand in --help, the manual and completion in this order.
+struct Group {
+  const char* title;
+  std::vector<std::vector<ParsedCommand> (*)(CLI::App&)> members;
+};
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> kGroups = {
+      {"Analyse recordings", {analysis_commands, diagnosis_commands, array_commands}},
+      {"Record, replay and simulate",
+       {recording_commands, replay_commands, device_commands, emulation_commands}},
+      {"Manage many recordings", {catalogue_commands, batch_commands}},
+      {"Control imunoised", {daemon_commands}}};
+  return kGroups;
+}
+
+std::vector<ParsedCommand> add_commands(CLI::App& program) {
+  std::vector<ParsedCommand> out;
+  for (const Group& group : groups()) {
+    for (const auto member : group.members) {
+      for (ParsedCommand& command : member(program)) out.push_back(std::move(command));
+    }
+    for (CLI::App* const command : program.get_subcommands({})) {
+      if (command->get_group() == "Subcommands") command->group(group.title);
+    }
+  }
+  return out;
+}
 
 }  // namespace
 
 std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
-  CLI::App program("imunoise: noise models of inertial sensors, from static recordings",
-                   "imunoise");
+  CLI::App program("noise models of inertial sensors from static recordings", "imunoise");
+  manual::add_manual(program, 1, IMUNOISE_VERSION);
   program.footer(kExamples);
-  program.set_version_flag("--version", IMUNOISE_VERSION);
   program.require_subcommand(1);
   program.fallthrough();
   std::size_t threads = 0;
-  program.add_option("--threads", threads, "Threads to use (results do not depend on it)")
+  program.add_option("--threads", threads, "Number of threads; results do not depend on it")
+      ->type_name("COUNT")
+      ->default_str("all processors")
       ->check(CLI::Range(1, 1024));
-  std::vector<ParsedCommand> commands;
-  for (const auto& group :
-       {analysis_commands, array_commands, diagnosis_commands, recording_commands, device_commands,
-        emulation_commands, replay_commands, catalogue_commands, batch_commands, daemon_commands}) {
-    for (ParsedCommand& command : group(program)) commands.push_back(std::move(command));
-  }
+  const std::vector<ParsedCommand> commands = add_commands(program);
   try {
     program.parse(argc, argv);
     Arguments out;

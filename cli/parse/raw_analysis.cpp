@@ -1,7 +1,5 @@
 #include "cli/parse/raw_analysis.h"
 
-#include <fmt/format.h>
-
 namespace imunoise::cli {
 
 std::optional<std::filesystem::path> output_from(const std::string& option, const std::string& text,
@@ -33,25 +31,29 @@ void add_json(CLI::App& command, RawAnalysis& raw) {
 }
 
 void add_report(CLI::App& command, RawAnalysis& raw) {
-  command.add_option("--report", raw.report, "Write one self-contained HTML page")
+  command.add_option("--report", raw.report, "HTML report to write, one self-contained page")
       ->type_name("OUT.html");
 }
 
 void add_model(CLI::App& command, RawAnalysis& raw, std::string_view unless_given) {
-  raw.model_option = command.add_option("--model", raw.model,
-                                        fmt::format("The model (default: {})", unless_given));
+  raw.model_option = command.add_option("--model", raw.model, "Sum of noise processes to fit")
+                         ->type_name("MODEL")
+                         ->default_str(std::string(unless_given));
 }
 
 void add_weights(CLI::App& command, RawAnalysis& raw) {
   command
-      .add_option("--weights", raw.weights,
-                  "full: exact covariance of the moments; diag: as the R packages")
+      .add_option(
+          "--weights", raw.weights,
+          "Weights of the fit: exact covariance of the wavelet variances (full), or only its "
+          "diagonal as in the R packages (diag)")
       ->check(CLI::IsMember({"full", "diag"}))
       ->capture_default_str();
 }
 
 void add_confidence(CLI::App& command, RawAnalysis& raw) {
-  command.add_option("--confidence", raw.confidence, "Of the intervals")
+  command.add_option("--confidence", raw.confidence, "Confidence level of the intervals")
+      ->type_name("LEVEL")
       ->check(CLI::Range(0.5, 0.9999))
       ->capture_default_str();
 }

@@ -10,7 +10,8 @@ constexpr const char* kSimulateExamples = R"help(
 Examples:
   imunoise simulate --model "WN(sigma2=1e-6) + AR1(sigma2=1e-12, phi=0.999)" \
       --rate 100 --samples 1000000 --replicates 6 --seed 42 --unit rad/s --out run.h5
-  writes run_1.h5 .. run_6.h5 (also .csv and .npy). The same seed gives the same numbers.)help";
+
+The example writes run_1.h5 to run_6.h5. The same seed gives the same numbers.)help";
 
 constexpr const char* kRecordExamples = R"help(
 Examples:
@@ -21,17 +22,17 @@ Examples:
   imunoise record trial --device "emulated device=adis16405 seed=7" --duration 10
   imunoise record monday --wire --device "xsens port=/dev/ttyUSB0" --duration 60
 
-A device is a driver and its options (imunoise drivers lists them), in quotes. Ctrl-C ends a recording in good
-order: what was recorded is kept. Without --duration it lasts until then, or until every device has ended.)help";
+Write each device as a driver and its options, in quotes; imunoise drivers lists them. Ctrl-C ends the
+recording and keeps all samples. Without --duration, imunoise records until Ctrl-C or until all devices end.)help";
 
 constexpr const char* kVerifyExamples = R"help(
 Examples:
-  imunoise verify recordings/monday                      every chunk, gap and count of a recording
+  imunoise verify recordings/monday                      check every chunk, gap and count
   imunoise verify recordings/monday --repair             after a crash or a failing disk
   imunoise verify recordings/monday/replicate-1/imu0/000012.h5 --json
 
-Repairing loses nothing: what the journal holds becomes a chunk, damaged files are renamed to .broken, a
-lost manifest is made from the chunks. The exit status is 0 when the recording is sound.)help";
+--repair loses no data: it turns journals into chunks, renames damaged files to .broken and rebuilds a missing
+manifest from the chunks. The exit status is 0 if the recording is intact.)help";
 
 ParsedCommand simulate_command(CLI::App& program) {
   struct Raw {
@@ -41,26 +42,38 @@ ParsedCommand simulate_command(CLI::App& program) {
     std::string out;
   };
   CLI::App* const simulate =
-      program.add_subcommand("simulate", "Write recordings of a known model");
+      program.add_subcommand("simulate", "Simulate recordings of a known model");
   simulate->footer(kSimulateExamples);
   const auto raw = std::make_shared<Raw>();
   SimulateArguments& simulation = raw->arguments;
-  simulate->add_option("--model", simulation.model, "The model, with all its values")->required();
-  simulate->add_option("--rate", raw->rate, "Sampling rate in Hz")->required()->check(above_zero());
-  simulate->add_option("--samples", simulation.samples, "Samples of each replicate")
+  simulate->add_option("--model", simulation.model, "Model to simulate, with all its values")
+      ->type_name("MODEL")
+      ->required();
+  simulate->add_option("--rate", raw->rate, "Sampling rate (Hz)")
+      ->type_name("HZ")
+      ->required()
+      ->check(above_zero());
+  simulate->add_option("--samples", simulation.samples, "Number of samples per replicate")
+      ->type_name("COUNT")
       ->required()
       ->check(CLI::Range(std::size_t{16}, std::size_t{1} << 32U));
   simulate->add_option("--replicates", simulation.replicates, "Number of replicates")
+      ->type_name("COUNT")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  simulate->add_option("--seed", simulation.seed, "Seed of the random numbers")
+  simulate->add_option("--seed", simulation.seed, "Random seed")
+      ->type_name("SEED")
       ->capture_default_str();
-  simulate->add_option("--unit", raw->unit, "Unit in which the values are written, e.g. deg/s")
+  simulate->add_option("--unit", raw->unit, "Unit of the values written, such as deg/s")
+      ->type_name("UNIT")
       ->capture_default_str();
   simulate->add_option("--channel", simulation.channel, "Name of the channel")
+      ->type_name("NAME")
       ->capture_default_str();
   simulate
-      ->add_option("--out", raw->out, "File to write (.h5, .csv, .npy); replicates get _1, _2, ..")
+      ->add_option("--out", raw->out,
+                   "File to write (.h5, .csv or .npy); several replicates get _1, _2, ...")
+      ->type_name("FILE")
       ->required();
   simulate->add_flag("--json", simulation.json, "Print the result as JSON");
   return {simulate, [raw] {
@@ -78,7 +91,8 @@ DeviceArguments device_from(const std::string& text) {
   for (std::string& word : CLI::detail::split_up(text)) {
     if (!word.empty()) words.push_back(std::move(word));
   }
-  if (words.empty()) refuse("--device", "name a driver, and behind it its options");
+  if (words.empty())
+    refuse("--device", "expected a driver and its options, such as \"xsens port=/dev/ttyUSB0\"");
   DeviceArguments out{words.front(), {}};
   out.options.assign(words.begin() + 1, words.end());
   return out;
@@ -93,27 +107,34 @@ ParsedCommand record_command(CLI::App& program) {
     double duration = 0.0;
     std::uint32_t replicate = 0;
   };
-  CLI::App* const record = program.add_subcommand("record", "Record devices");
+  CLI::App* const record = program.add_subcommand("record", "Record one or more devices");
   record->footer(kRecordExamples);
   const auto raw = std::make_shared<Raw>();
-  record->add_option("FOLDER", raw->folder, "The recording's folder; made when missing")
+  record->add_option("FOLDER", raw->folder, "Folder of the recording; created if missing")
       ->required();
-  record->add_option("--device", raw->devices, "A driver and its options; repeatable")
+  record
+      ->add_option("--device", raw->devices,
+                   "Driver and its options, such as \"xsens port=/dev/ttyUSB0\"")
       ->required()
       ->allow_extra_args(false)
-      ->type_name("\"DRIVER NAME=VALUE ..\"");
-  record->add_option("--duration", raw->duration, "Of each replicate, in s")->check(above_zero());
-  record->add_option("--replicates", raw->arguments.replicates, "How many, one after another")
+      ->type_name("DEVICE");
+  record->add_option("--duration", raw->duration, "Length of each replicate (s)")
+      ->type_name("SECONDS")
+      ->default_str("until Ctrl-C")
+      ->check(above_zero());
+  record->add_option("--replicates", raw->arguments.replicates, "Number of replicates")
+      ->type_name("COUNT")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  record->add_option("--replicate", raw->replicate, "Number of the first (default: the next free)")
+  record->add_option("--replicate", raw->replicate, "Number of the first replicate")
+      ->type_name("NUMBER")
+      ->default_str("the next free one")
       ->check(CLI::Range(1, 1000000));
-  record
-      ->add_option("--driver-path", raw->driver_folders,
-                   "A folder to search for drivers before the others; repeatable")
+  record->add_option("--driver-path", raw->driver_folders, "Folder to search for drivers first")
+      ->type_name("FOLDER")
       ->check(CLI::ExistingDirectory);
   record->add_flag("--wire", raw->arguments.wire,
-                   "Keep the bytes of each device too, in replicate-1/DEVICE.wire");
+                   "Keep the raw bytes of each device, too, in replicate-1/DEVICE.wire");
   record->add_flag("--json", raw->arguments.json, "Print the result as JSON");
   return {record, [raw] {
             RecordArguments out = raw->arguments;
@@ -127,21 +148,21 @@ ParsedCommand record_command(CLI::App& program) {
 }
 
 ParsedCommand verify_command(CLI::App& program) {
-  CLI::App* const verify = program.add_subcommand("verify", "Check a recording, and repair it");
+  CLI::App* const verify =
+      program.add_subcommand("verify", "Check a recording, and optionally repair it");
   verify->footer(kVerifyExamples);
   const auto arguments = std::make_shared<VerifyArguments>();
   const auto path = std::make_shared<std::string>();
-  verify->add_option("FOLDER", *path, "A recording's folder, or one chunk file of it")
+  verify->add_option("FOLDER", *path, "Folder of the recording, or one of its chunk files")
       ->required()
       ->check(CLI::ExistingPath);
-  verify->add_flag("--repair", arguments->repair, "Repair what can be repaired");
+  verify->add_flag("--repair", arguments->repair, "Repair the recording");
   verify->add_flag("--json", arguments->json, "Print the result as JSON");
   return {verify, [arguments, path] {
             VerifyArguments out = *arguments;
             out.path = *path;
             if (out.repair && !std::filesystem::is_directory(out.path)) {
-              refuse("--repair",
-                     "one chunk by itself cannot be repaired; name the recording's folder");
+              refuse("--repair", "needs the folder of the recording, not one chunk file");
             }
             return out;
           }};

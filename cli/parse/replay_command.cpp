@@ -17,8 +17,7 @@ Examples:
   imunoise replay monday/replicate-1/xsens.wire --format xbus --into again
   imunoise replay bus.log --format candump --preset mti600 --into again
 
-The device that is replayed is recorded into FOLDER. To record it together with others use imunoise record
-and the drivers replay and wire.)help";
+To replay a device together with other devices, use imunoise record with the drivers replay and wire.)help";
 
 struct Raw {
   std::vector<std::string> files;
@@ -51,31 +50,49 @@ RecordArguments arguments_of(const Raw& raw) {
 
 std::vector<ParsedCommand> replay_commands(CLI::App& program) {
   CLI::App* const replay =
-      program.add_subcommand("replay", "Record what was recorded before, from its file or bytes");
+      program.add_subcommand("replay", "Record again from a recording, a file or captured bytes");
   replay->footer(kReplayExamples);
   const auto raw = std::make_shared<Raw>();
-  replay->add_option("SOURCE", raw->files, "A recording's folder, files of others, or a capture")
+  replay->add_option("SOURCE", raw->files, "Folder of a recording, data files, or a capture")
       ->required()
       ->check(CLI::ExistingPath);
-  replay->add_option("--into", raw->into, "The new recording's folder; made when missing")
+  replay->add_option("--into", raw->into, "Folder of the new recording; created if missing")
       ->required()
       ->type_name("FOLDER");
-  replay->add_option("--speed", raw->speed, "Times real time; 0: as fast as possible")
+  replay->add_option("--speed", raw->speed, "Speed relative to real time; 0 is as fast as possible")
+      ->type_name("FACTOR")
       ->check(zero_or_above())
       ->capture_default_str();
-  replay->add_option("--device", raw->one["device"], "Of a recording: which device");
-  replay->add_option("--replicate", raw->one["replicate"], "Of a recording: which replicate");
-  replay->add_option("--channel", raw->channels, "Of files and candump: a channel; repeatable")
+  replay
+      ->add_option("--device", raw->one["device"], "Name of the device to replay from a recording")
+      ->type_name("NAME")
+      ->default_str("the only one");
+  replay
+      ->add_option("--replicate", raw->one["replicate"],
+                   "Number of the replicate to replay from a recording")
+      ->type_name("NUMBER")
+      ->default_str("the first one");
+  replay
+      ->add_option("--channel", raw->channels, "Channel to replay from data files or a candump log")
+      ->type_name("CHANNEL")
+      ->default_str("all")
       ->allow_extra_args(false);
-  replay->add_option("--rate", raw->one["rate"], "Sampling rate in Hz, where SOURCE does not say");
-  replay->add_option("--unit", raw->one["unit"], "Of files: unit of the channels");
   replay
-      ->add_option("--format", raw->one["format"], "SOURCE is a capture: xbus, candump, adis16405")
+      ->add_option("--rate", raw->one["rate"],
+                   "Sampling rate (Hz) of a source that does not state it")
+      ->type_name("HZ");
+  replay->add_option("--unit", raw->one["unit"], "Unit of the channels of data files")
+      ->type_name("UNIT");
+  replay->add_option("--format", raw->one["format"], "Format of SOURCE, if it is a capture")
       ->check(CLI::IsMember({"xbus", "candump", "adis16405"}));
-  replay->add_option("--preset", raw->one["preset"], "candump: a known IMU");
-  replay->add_option("--dbc", raw->one["dbc"], "candump: what the messages mean");
   replay
-      ->add_option("--duration", raw->duration, "s of this computer's time; without it, to the end")
+      ->add_option("--preset", raw->one["preset"], "candump: known IMU: mti600, aceinna or mm5.10")
+      ->type_name("IMU");
+  replay->add_option("--dbc", raw->one["dbc"], "candump: DBC file that describes the messages")
+      ->type_name("FILE");
+  replay->add_option("--duration", raw->duration, "Time to replay (s of this computer's clock)")
+      ->type_name("SECONDS")
+      ->default_str("to the end of the source")
       ->check(above_zero());
   replay->add_flag("--json", raw->json, "Print the result as JSON");
   return {{replay, [raw] { return arguments_of(*raw); }}};

@@ -4,21 +4,33 @@
 #include <cstdlib>
 #include <string>
 
+#include "cli/manual/manual.h"
+#include "daemon/app/manual.h"
+
 namespace imunoise::app {
 namespace {
 
 constexpr const char* kExamples = R"help(
 Examples:
-  imunoised --check-config /etc/imunoise       what is wrong with these campaigns, and where
-  imunoised config/array.toml                  record as their schedules say, until it is stopped
-  imunoised --once config/array.toml           one recording, whatever the schedule says
-  imunoised --socket api.sock config           and answer imunoise status --socket api.sock
+  imunoised --check-config /etc/imunoise       check campaign files
+  imunoised config/array.toml                  record on schedule until stopped
+  imunoised --once config/array.toml           make one recording now
+  imunoised --socket api.sock config           record, and serve imunoise status --socket api.sock
 
-A campaign is a TOML file; a folder stands for every *.toml in it. What happens is told on standard error.
-SIGTERM and Ctrl-C end recordings in good order within seconds; started again, it goes on where it was. SIGHUP
-reads the campaigns again. A file with an error is skipped, and the log says why.)help";
+A campaign is a TOML file: imunoise-campaign(5). A folder means all *.toml files in it. imunoised skips files
+with errors and logs them. The log goes to standard error.
 
-// What the options of the API come to once they are parsed.
+Signals:
+  SIGTERM, SIGINT   close recordings within seconds and exit; the next start continues them
+  SIGHUP            read the campaign files again
+
+Exit status:
+  0   stopped, or nothing left to do and no file rejected
+  1   all campaign files have errors, or nothing left to do and a file rejected
+  2   wrong usage
+  3   a disk that does not respond kept imunoised from closing its recordings)help";
+
+// Options of the API as typed.
 struct RawApi {
   std::string socket;
   std::string listen;
@@ -38,24 +50,29 @@ void add_api(CLI::App& program, RawApi& raw) {
   raw.socket = socket_of_the_service();
   program
       .add_option("--socket", raw.socket,
-                  "Answer on a Unix socket, for its owner and group (default under systemd: "
-                  "$RUNTIME_DIRECTORY/api.sock)")
-      ->type_name("PATH");
+                  "Unix socket to serve the API on, for its owner and group")
+      ->type_name("PATH")
+      ->default_str("under systemd $RUNTIME_DIRECTORY/api.sock, else none");
   auto* const listen =
-      program.add_option("--listen", raw.listen, "Answer on loopback TCP, too: 127.0.0.1:8080")
+      program
+          .add_option("--listen", raw.listen,
+                      "Loopback address to serve the API on, too, such as 127.0.0.1:8080")
           ->type_name("ADDRESS");
   auto* const tokens =
       program
-          .add_option("--tokens", raw.tokens,
-                      "Who may come by TCP: a file with lines \"viewer TOKEN\", \"operator TOKEN\"")
+          .add_option(
+              "--tokens", raw.tokens,
+              "File of tokens for --listen, with lines \"viewer TOKEN\" or \"operator TOKEN\"")
+          ->type_name("FILE")
           ->check(CLI::ExistingFile);
   listen->needs(tokens);
   tokens->needs(listen);
   program
       .add_option("--host", raw.hosts,
-                  "A name by which clients may call this machine beside localhost; repeatable")
+                  "Host name that clients may use for this machine, besides localhost")
+      ->type_name("NAME")
       ->allow_extra_args(false);
-  program.add_option("--studies", raw.studies, "Where clients' studies are kept")
+  program.add_option("--studies", raw.studies, "Folder of the studies that clients make")
       ->type_name("FOLDER")
       ->capture_default_str();
 }
@@ -71,22 +88,22 @@ void take_api(const RawApi& raw, Arguments& to) {
 }  // namespace
 
 std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
-  CLI::App program("imunoised: records campaigns of inertial sensors, unattended", "imunoised");
+  CLI::App program("record campaigns of inertial sensors, unattended", "imunoised");
+  manual::add_manual(program, 8, IMUNOISE_VERSION, described_files);
   program.footer(kExamples);
-  program.set_version_flag("--version", IMUNOISE_VERSION);
   Arguments out;
   std::vector<std::string> campaigns;
   std::vector<std::string> folders;
-  program.add_option("CONFIG", campaigns, "Campaigns: TOML files, or folders of them")->required();
+  program.add_option("CONFIG", campaigns, "Campaign files, or folders of them")->required();
   program.add_flag("--check-config", out.check_config,
-                   "Say what is wrong with the campaigns, and where; record nothing");
+                   "Check campaign files and exit; record nothing");
   program.add_flag("--print-timer", out.print_timer,
-                   "Print the timer's drop-in for a campaign with a calendar; record nothing");
-  program.add_flag("--once", out.once,
-                   "Make one recording of each campaign: the unfinished one, or else a new one");
-  program
-      .add_option("--driver-path", folders,
-                  "A folder to search for drivers before the others; repeatable")
+                   "Print the systemd timer drop-in of a campaign with a calendar and exit");
+  program.add_flag(
+      "--once", out.once,
+      "Make one recording of each campaign and exit; an open recording is finished first");
+  program.add_option("--driver-path", folders, "Folder to search for drivers first")
+      ->type_name("FOLDER")
       ->check(CLI::ExistingDirectory)
       ->allow_extra_args(false);
   RawApi api;

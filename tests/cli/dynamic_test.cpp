@@ -108,9 +108,9 @@ TEST_F(Dynamic, SaysWhatItCannotDo) {
   expect("table.csv --rate 100", "--covariate is required");
   expect("table.csv --rate 100 --covariate temperature", "no channel 'temperature'");
   expect("30.csv --rate 100 --covariate rate", "only one is a place where it stays");
-  expect("table.csv --rate 100 --covariate rate --bins 1", "at least two");
-  expect("table.csv --rate 100 --covariate rate --bins 30,", "at least two");
-  expect("table.csv --rate 100 --covariate rate --bins 30,fast", "places such as");
+  expect("table.csv --rate 100 --covariate rate --bins 1", "2 to 1000 bins");
+  expect("table.csv --rate 100 --covariate rate --bins 30,", "2 to 1000 bins");
+  expect("table.csv --rate 100 --covariate rate --bins 30,fast", "bin centres such as");
   expect("table.csv --rate 100 --covariate rate --bins 500,600", "nowhere is a place");
   expect("table.csv --rate 100 --covariate rate --model 'AR1(phi~exp)'", "phi follows a covariate");
   expect("table.csv --rate 100 --covariate rate --model 'WN(sigma2=1)'", "gives every power");

@@ -125,7 +125,7 @@ TEST_F(Record, SaysWhatItCannotDo) {
   expect("--device 'replay file=run.h5 colour=red'", "colour");
   expect("--device 'replay file'", "file");
   expect("--device 'replay file=absent.h5'", "absent.h5");
-  expect("--device ' '", "name a driver");
+  expect("--device ' '", "expected a driver and its options");
   expect("--device 'replay file=run.h5 unit=\xb0/s'", "is not UTF-8");
   EXPECT_NE(run("record mond\xe4y --device 'replay file=run.h5'").errors.find("is not UTF-8"),
             std::string::npos);

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "daemon/config/campaign_keys.h"
 
 namespace imunoise::config {
 namespace {
@@ -54,6 +58,28 @@ TEST(CampaignConfig, EveryExampleIsSound) {
     ++count;
   }
   EXPECT_GE(count, 6U) << "one for each driver, one for an array";
+}
+
+std::string contents(const std::string& path) {
+  std::ifstream file(IMUNOISE_SOURCE_DIR "/" + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A key of the manual that the reader does not know, or that the guide or the example lacks.
+TEST(CampaignConfig, TheManualHasTheKeysThatAreRead) {
+  const std::string guide = contents("docs/campaigns.md");
+  const std::string example = contents("config/emulated.toml");
+  for (const CampaignKey& key : campaign_keys()) {
+    const std::string name(key.name);
+    const std::string table =
+        key.table == "device" ? "[[device]]" : "[" + std::string(key.table) + "]";
+    const std::string text = (key.table.empty() ? "" : table + "\n") + name + " = 1979-05-27\n";
+    for (const std::string& one : problems_of(text)) {
+      EXPECT_EQ(one.find(name + ": unknown"), std::string::npos) << one;
+    }
+    EXPECT_NE(guide.find("`" + name + "`"), std::string::npos) << name;
+    EXPECT_NE(example.find(name + " ="), std::string::npos) << name;
+  }
 }
 
 TEST(CampaignConfig, EveryDriverThatRecordsHasAnExample) {

@@ -37,6 +37,12 @@ apt-get install -y -qq --no-install-recommends /packages/1.deb > /install.log 2>
 if grep -i -E 'warning|error|failed' /install.log | grep -i imunoise; then fail "a maintainer script complains"; fi
 imunoise --version
 imunoised --check-config /usr/share/doc/imunoise/examples
+for page in man1/imunoise.1 man1/imunoise-batch-run.1 man5/imunoise-campaign.5 man8/imunoised.8; do
+  gzip -t "/usr/share/man/$page.gz"
+done
+bash -n /usr/share/bash-completion/completions/imunoise
+bash -n /usr/share/bash-completion/completions/imunoised
+test -s /usr/share/zsh/vendor-completions/_imunoise
 [[ $(imunoise drivers | grep -c -E '^(adis16405|can|emulated|replay|wire|xsens)\b') == 6 ]] ||
   { imunoise drivers && fail "a driver is missing"; }
 [[ $(stat --format='%U %G %a' /var/lib/imunoise) == "imunoise imunoise 750" ]] || fail "/var/lib/imunoise"
