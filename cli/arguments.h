@@ -13,7 +13,7 @@
 #include "cli/client/daemon_client.h"
 #include "cli/show.h"
 #include "daemon/catalogue/history.h"
-#include "drivers/emulator/serve.h"
+#include "drivers/emulator/serving/serve.h"
 #include "imunoise/v1/batch.pb.h"
 #include "imunoise/v1/study.pb.h"
 #include "recording/import/import.h"

@@ -12,12 +12,12 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "drivers/adis16405/decoder.h"
-#include "drivers/adis16405/registers.h"
-#include "drivers/can/dbc.h"
-#include "drivers/can/decoder.h"
-#include "drivers/can/presets.h"
-#include "drivers/xsens/decoder.h"
+#include "drivers/adis16405/codec/decoder.h"
+#include "drivers/adis16405/codec/registers.h"
+#include "drivers/can/codec/dbc.h"
+#include "drivers/can/codec/decoder.h"
+#include "drivers/can/codec/presets.h"
+#include "drivers/xsens/codec/decoder.h"
 
 namespace imunoise::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "cli/parse/commands.h"
-#include "drivers/adis16405/registers.h"
+#include "drivers/adis16405/codec/registers.h"
 
 namespace imunoise::cli {
 namespace {

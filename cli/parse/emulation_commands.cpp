@@ -4,9 +4,9 @@
 
 #include "cli/parse/commands.h"
 #include "cli/parse/input_options.h"
-#include "drivers/can/presets.h"
-#include "drivers/emulator/effect_catalogue.h"
-#include "drivers/emulator/fault_text.h"
+#include "drivers/can/codec/presets.h"
+#include "drivers/emulator/effects/effect_catalogue.h"
+#include "drivers/emulator/faults/fault_text.h"
 
 namespace imunoise::cli {
 namespace {

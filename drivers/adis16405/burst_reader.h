@@ -8,10 +8,10 @@
 #include <deque>
 #include <vector>
 
+#include "drivers/adis16405/bridges/spi_bus.h"
 #include "drivers/adis16405/burst_rows.h"
 #include "drivers/adis16405/sensor.h"
 #include "drivers/adis16405/settings.h"
-#include "drivers/adis16405/spi_bus.h"
 #include "drivers/plugin.h"
 
 namespace imunoise::drivers::adis16405 {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/adis16405/burst.h"
+#include "drivers/adis16405/codec/burst.h"
 
 namespace imunoise::drivers::adis16405 {
 

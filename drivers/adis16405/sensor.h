@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "drivers/adis16405/bridges/spi_bus.h"
 #include "drivers/adis16405/settings.h"
-#include "drivers/adis16405/spi_bus.h"
 
 namespace imunoise::drivers::adis16405 {
 

@@ -6,7 +6,7 @@
 
 #include "core/support/result.h"
 #include "core/support/units.h"
-#include "drivers/adis16405/registers.h"
+#include "drivers/adis16405/codec/registers.h"
 
 namespace imunoise::drivers::adis16405 {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "drivers/can/frame.h"
+#include "drivers/can/codec/frame.h"
 
 namespace imunoise::can {
 

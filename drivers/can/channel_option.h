@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "core/support/result.h"
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 
 namespace imunoise::can {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "drivers/can/channel_option.h"
-#include "drivers/can/dbc.h"
-#include "drivers/can/presets.h"
+#include "drivers/can/codec/dbc.h"
+#include "drivers/can/codec/presets.h"
 #include "drivers/plugin/or_throw.h"
 
 namespace imunoise::can {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 #include "drivers/plugin.h"
 
 namespace imunoise::can {

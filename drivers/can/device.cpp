@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "drivers/can/candump.h"
+#include "drivers/can/codec/candump.h"
 #include "drivers/plugin/or_throw.h"
 
 namespace imunoise::can {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drivers/can/bus_trouble.h"
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 #include "drivers/can/frame_streams.h"
 #include "drivers/can/kernel_time.h"
 #include "drivers/plugin/device.h"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "drivers/can/channel_options.h"
+#include "drivers/can/codec/presets.h"
 #include "drivers/can/device.h"
-#include "drivers/can/presets.h"
 #include "drivers/plugin.h"
 
 namespace imunoise::can {

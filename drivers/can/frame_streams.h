@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/support/result.h"
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 #include "drivers/can/streams.h"
 #include "drivers/plugin/samples.h"
 

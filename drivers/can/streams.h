@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/support/result.h"
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 #include "drivers/description.h"
 #include "drivers/plugin/samples.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/can/frame.h"
+#include "drivers/can/codec/frame.h"
 #include "drivers/codec/bytes.h"
 
 namespace imunoise::transport {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "drivers/can/frame.h"
+#include "drivers/can/codec/frame.h"
 
 namespace imunoise::transport {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/xsens/codec/messages.h"
 #include "drivers/xsens/dialogue.h"
-#include "drivers/xsens/messages.h"
 #include "drivers/xsens/search.h"
 
 namespace imunoise::xsens {

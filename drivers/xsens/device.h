@@ -9,7 +9,7 @@
 
 #include "drivers/plugin/device.h"
 #include "drivers/transport/serial_port.h"
-#include "drivers/xsens/frame.h"
+#include "drivers/xsens/codec/frame.h"
 #include "drivers/xsens/refusal_counter.h"
 #include "drivers/xsens/rows.h"
 #include "drivers/xsens/settings.h"

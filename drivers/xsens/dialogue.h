@@ -9,8 +9,8 @@
 
 #include "drivers/plugin/wait.h"
 #include "drivers/transport/serial_port.h"
-#include "drivers/xsens/frame.h"
-#include "drivers/xsens/messages.h"
+#include "drivers/xsens/codec/frame.h"
+#include "drivers/xsens/codec/messages.h"
 
 namespace imunoise::xsens {
 

@@ -2,7 +2,7 @@
 
 #include "drivers/codec/refusal.h"
 #include "drivers/plugin/samples.h"
-#include "drivers/xsens/frame.h"
+#include "drivers/xsens/codec/frame.h"
 
 namespace imunoise::xsens {
 

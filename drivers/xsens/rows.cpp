@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "drivers/xsens/items.h"
-#include "drivers/xsens/mtdata2.h"
-#include "drivers/xsens/sample_clock.h"
+#include "drivers/xsens/codec/items.h"
+#include "drivers/xsens/codec/mtdata2.h"
+#include "drivers/xsens/codec/sample_clock.h"
 
 namespace imunoise::xsens {
 namespace {

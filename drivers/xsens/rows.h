@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drivers/plugin/samples.h"
-#include "drivers/xsens/frame.h"
+#include "drivers/xsens/codec/frame.h"
 #include "drivers/xsens/setup.h"
 
 namespace imunoise::xsens {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/plugin/device.h"
+#include "drivers/xsens/codec/messages.h"
 #include "drivers/xsens/dialogue.h"
-#include "drivers/xsens/messages.h"
 
 namespace imunoise::xsens {
 namespace {

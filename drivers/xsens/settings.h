@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "drivers/xsens/legacy.h"
-#include "drivers/xsens/number.h"
+#include "drivers/xsens/codec/legacy.h"
+#include "drivers/xsens/codec/number.h"
 
 namespace imunoise::xsens {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "drivers/plugin/device.h"
-#include "drivers/xsens/items.h"
+#include "drivers/xsens/codec/items.h"
 
 namespace imunoise::xsens {
 namespace {

@@ -5,10 +5,10 @@
 #include <variant>
 #include <vector>
 
+#include "drivers/xsens/codec/frame.h"
+#include "drivers/xsens/codec/legacy.h"
+#include "drivers/xsens/codec/messages.h"
 #include "drivers/xsens/dialogue.h"
-#include "drivers/xsens/frame.h"
-#include "drivers/xsens/legacy.h"
-#include "drivers/xsens/messages.h"
 #include "drivers/xsens/settings.h"
 
 namespace imunoise::xsens {

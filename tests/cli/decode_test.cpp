@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "drivers/xsens/messages.h"
-#include "drivers/xsens/mtdata2.h"
+#include "drivers/xsens/codec/messages.h"
+#include "drivers/xsens/codec/mtdata2.h"
 #include "tests/cli/program.h"
 
 namespace imunoise {

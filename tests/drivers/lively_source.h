@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "drivers/emulator/sample_source.h"
+#include "drivers/emulator/measurement/sample_source.h"
 
 namespace imunoise::testing {
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "drivers/adis16405/decoder.h"
-#include "drivers/adis16405/mpsse.h"
-#include "drivers/adis16405/registers.h"
+#include "drivers/adis16405/bridges/mpsse.h"
+#include "drivers/adis16405/codec/decoder.h"
+#include "drivers/adis16405/codec/registers.h"
 #include "tests/fuzz/decoders.h"
 
 using namespace imunoise::drivers;

@@ -1,8 +1,8 @@
 // Any text as lines of candump: the same samples whatever the pieces; a line that was read comes
 // back from the formatter with the same frame.
 
-#include "drivers/can/decoder.h"
-#include "drivers/can/presets.h"
+#include "drivers/can/codec/decoder.h"
+#include "drivers/can/codec/presets.h"
 #include "tests/fuzz/decoders.h"
 
 using namespace imunoise::drivers;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "drivers/can/channels.h"
-#include "drivers/can/dbc.h"
+#include "drivers/can/codec/channels.h"
+#include "drivers/can/codec/dbc.h"
 
 using namespace imunoise::drivers;
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "drivers/emulator/fault_text.h"
-#include "drivers/emulator/modelled_source.h"
+#include "drivers/emulator/effects/modelled_source.h"
+#include "drivers/emulator/faults/fault_text.h"
 
 using namespace imunoise;
 using namespace imunoise::emulator;

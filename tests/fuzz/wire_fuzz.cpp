@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "drivers/can/presets.h"
+#include "drivers/can/codec/presets.h"
 #include "drivers/replay/wire/codec.h"
 #include "tests/fuzz/memory_file.h"
 

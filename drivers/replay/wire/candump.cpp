@@ -1,4 +1,4 @@
-#include "drivers/can/candump.h"
+#include "drivers/can/codec/candump.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "drivers/adis16405/settings.h"
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 #include "drivers/plugin.h"
 
 namespace imunoise::replay {

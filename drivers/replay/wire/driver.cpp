@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "drivers/can/channel_options.h"
-#include "drivers/can/presets.h"
+#include "drivers/can/codec/presets.h"
 #include "drivers/plugin.h"
 #include "drivers/plugin/or_throw.h"
 #include "drivers/replay/wire/wire_device.h"

@@ -7,9 +7,9 @@
 
 #include "drivers/replay/wire/byte_file.h"
 #include "drivers/replay/wire/codec.h"
-#include "drivers/xsens/frame.h"
-#include "drivers/xsens/items.h"
-#include "drivers/xsens/mtdata2.h"
+#include "drivers/xsens/codec/frame.h"
+#include "drivers/xsens/codec/items.h"
+#include "drivers/xsens/codec/mtdata2.h"
 #include "drivers/xsens/refusal_counter.h"
 #include "drivers/xsens/rows.h"
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/adis16405/burst.h"
-#include "drivers/adis16405/cp2130.h"
-#include "drivers/adis16405/mpsse.h"
+#include "drivers/adis16405/bridges/cp2130.h"
+#include "drivers/adis16405/bridges/mpsse.h"
+#include "drivers/adis16405/codec/burst.h"
 #include "tests/drivers/wire.h"
 #include "tests/support/golden.h"
 

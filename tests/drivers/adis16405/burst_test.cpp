@@ -1,11 +1,11 @@
-#include "drivers/adis16405/burst.h"
+#include "drivers/adis16405/codec/burst.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "drivers/adis16405/decoder.h"
-#include "drivers/adis16405/registers.h"
+#include "drivers/adis16405/codec/decoder.h"
+#include "drivers/adis16405/codec/registers.h"
 #include "tests/drivers/wire.h"
 #include "tests/support/golden.h"
 

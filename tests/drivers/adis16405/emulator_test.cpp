@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "drivers/emulator/adis16405.h"
-#include "drivers/emulator/ft232h.h"
-#include "drivers/emulator/gaussian_source.h"
+#include "drivers/emulator/measurement/gaussian_source.h"
+#include "drivers/emulator/sensors/adis16405.h"
+#include "drivers/emulator/usb/ft232h.h"
 
 namespace imunoise::emulator {
 namespace {

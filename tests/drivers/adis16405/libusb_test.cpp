@@ -5,8 +5,8 @@
 #include <optional>
 #include <thread>
 
-#include "drivers/emulator/cp2130.h"
-#include "drivers/emulator/ft232h.h"
+#include "drivers/emulator/usb/cp2130.h"
+#include "drivers/emulator/usb/ft232h.h"
 #include "drivers/host/load.h"
 #include "tests/drivers/adis16405/rig.h"
 #include "tests/drivers/adis16405/usbfs.h"

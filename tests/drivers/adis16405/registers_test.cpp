@@ -1,4 +1,4 @@
-#include "drivers/adis16405/registers.h"
+#include "drivers/adis16405/codec/registers.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "drivers/emulator/cp2130.h"
-#include "drivers/emulator/ft232h.h"
+#include "drivers/emulator/usb/cp2130.h"
+#include "drivers/emulator/usb/ft232h.h"
 #include "drivers/host/services.h"
 #include "tests/drivers/host/pretend_driver.h"
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "drivers/adis16405/device.h"
-#include "drivers/emulator/adis16405.h"
-#include "drivers/emulator/gaussian_source.h"
-#include "drivers/emulator/usb_bus.h"
+#include "drivers/emulator/measurement/gaussian_source.h"
+#include "drivers/emulator/sensors/adis16405.h"
+#include "drivers/emulator/usb/usb_bus.h"
 #include "drivers/host/device.h"
 
 namespace imunoise::testing {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/emulator/usb_peripheral.h"
+#include "drivers/emulator/usb/usb_peripheral.h"
 
 struct usbdevfs_urb;
 

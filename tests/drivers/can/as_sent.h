@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "drivers/emulator/can_imu.h"
+#include "drivers/emulator/sensors/can_imu.h"
 #include "tests/drivers/recording_session.h"
 
 namespace imunoise::testing {

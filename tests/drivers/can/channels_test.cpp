@@ -1,12 +1,12 @@
-#include "drivers/can/channels.h"
+#include "drivers/can/codec/channels.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "drivers/can/dbc.h"
-#include "drivers/can/decoder.h"
-#include "drivers/can/presets.h"
+#include "drivers/can/codec/dbc.h"
+#include "drivers/can/codec/decoder.h"
+#include "drivers/can/codec/presets.h"
 #include "tests/drivers/wire.h"
 
 namespace imunoise::drivers {

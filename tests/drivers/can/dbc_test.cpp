@@ -1,4 +1,4 @@
-#include "drivers/can/dbc.h"
+#include "drivers/can/codec/dbc.h"
 
 #include <gtest/gtest.h>
 

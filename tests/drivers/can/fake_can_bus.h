@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/emulator/can_line.h"
+#include "drivers/emulator/lines/can_line.h"
 
 namespace imunoise::testing {
 

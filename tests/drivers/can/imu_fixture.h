@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "drivers/can/channel_option.h"
-#include "drivers/can/dbc.h"
-#include "drivers/can/presets.h"
-#include "drivers/emulator/can_imu.h"
+#include "drivers/can/codec/dbc.h"
+#include "drivers/can/codec/presets.h"
+#include "drivers/emulator/sensors/can_imu.h"
 #include "tests/drivers/can/as_sent.h"
 #include "tests/drivers/can/fake_can_bus.h"
 #include "tests/drivers/lively_source.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "drivers/can/signal.h"
+#include "drivers/can/codec/signal.h"
 
 namespace imunoise::drivers {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "drivers/can/presets.h"
+#include "drivers/can/codec/presets.h"
 #include "tests/drivers/can/as_sent.h"
 #include "tests/drivers/lively_source.h"
 #include "tests/drivers/recording_session.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <set>
 
-#include "drivers/can/candump.h"
-#include "drivers/can/dbc.h"
+#include "drivers/can/codec/candump.h"
+#include "drivers/can/codec/dbc.h"
 #include "tests/drivers/wire.h"
 #include "tests/support/golden.h"
 

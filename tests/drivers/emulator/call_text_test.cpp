@@ -1,4 +1,4 @@
-#include "drivers/emulator/call_text.h"
+#include "drivers/emulator/effects/call_text.h"
 
 #include <gtest/gtest.h>
 

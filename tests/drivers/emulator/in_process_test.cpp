@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "drivers/emulator/serve.h"
+#include "drivers/emulator/serving/serve.h"
 #include "tests/drivers/recording_session.h"
 
 namespace imunoise::testing {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/wavelet/wavelet_variance.h"
-#include "drivers/emulator/adis16405.h"
+#include "drivers/emulator/sensors/adis16405.h"
 #include "tests/drivers/emulator/still_source.h"
 
 namespace imunoise::testing {

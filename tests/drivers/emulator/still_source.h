@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/emulator/modelled_source.h"
+#include "drivers/emulator/effects/modelled_source.h"
 
 namespace imunoise::testing {
 

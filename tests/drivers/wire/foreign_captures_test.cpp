@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "drivers/xsens/items.h"
-#include "drivers/xsens/messages.h"
-#include "drivers/xsens/number.h"
+#include "drivers/xsens/codec/items.h"
+#include "drivers/xsens/codec/messages.h"
+#include "drivers/xsens/codec/number.h"
 #include "tests/drivers/wire/capture.h"
 
 namespace imunoise::testing {

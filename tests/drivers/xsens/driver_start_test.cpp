@@ -1,6 +1,6 @@
 // Finding a device, configuring it, and saying why not.
 
-#include "drivers/emulator/pty.h"
+#include "drivers/emulator/lines/pty.h"
 #include "tests/drivers/xsens/mti_fixture.h"
 
 namespace imunoise::testing {

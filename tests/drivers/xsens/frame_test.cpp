@@ -1,4 +1,4 @@
-#include "drivers/xsens/frame.h"
+#include "drivers/xsens/codec/frame.h"
 
 #include <gtest/gtest.h>
 

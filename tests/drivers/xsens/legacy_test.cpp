@@ -1,11 +1,11 @@
-#include "drivers/xsens/legacy.h"
+#include "drivers/xsens/codec/legacy.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "drivers/xsens/decoder.h"
-#include "drivers/xsens/messages.h"
+#include "drivers/xsens/codec/decoder.h"
+#include "drivers/xsens/codec/messages.h"
 #include "tests/drivers/wire.h"
 
 namespace imunoise::drivers {

@@ -1,4 +1,4 @@
-#include "drivers/xsens/messages.h"
+#include "drivers/xsens/codec/messages.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "drivers/xsens/mtdata2.h"
+#include "drivers/xsens/codec/mtdata2.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "drivers/xsens/decoder.h"
-#include "drivers/xsens/messages.h"
+#include "drivers/xsens/codec/decoder.h"
+#include "drivers/xsens/codec/messages.h"
 #include "tests/drivers/wire.h"
 
 namespace imunoise::drivers {

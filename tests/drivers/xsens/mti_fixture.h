@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/emulator/xsens_on_pty.h"
+#include "drivers/emulator/sensors/xsens_on_pty.h"
 #include "tests/drivers/lively_source.h"
 #include "tests/drivers/recording_session.h"
 

@@ -7,10 +7,10 @@
 #include <ctime>
 #include <map>
 
-#include "drivers/xsens/decoder.h"
-#include "drivers/xsens/frame.h"
-#include "drivers/xsens/legacy.h"
-#include "drivers/xsens/messages.h"
+#include "drivers/xsens/codec/decoder.h"
+#include "drivers/xsens/codec/frame.h"
+#include "drivers/xsens/codec/legacy.h"
+#include "drivers/xsens/codec/messages.h"
 #include "tests/drivers/wire.h"
 #include "tests/support/golden.h"
 

@@ -1,0 +1,78 @@
+#include "drivers/emulator/lines/pty.h"
+
+#include <asm/termbits.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace imunoise::emulator {
+namespace {
+
+int checked(int result, const char* what) {
+  if (result < 0) throw std::system_error(errno, std::generic_category(), what);
+  return result;
+}
+
+}  // namespace
+
+Pty::Pty(std::filesystem::path link) : link_(std::move(link)) {
+  device_end_ = checked(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC), "posix_openpt");
+  checked(::grantpt(device_end_), "grantpt");
+  checked(::unlockpt(device_end_), "unlockpt");
+  std::array<char, 64> name{};
+  checked(::ptsname_r(device_end_, name.data(), name.size()), "ptsname_r");
+  host_end_ = checked(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC), "open");
+  termios2 mode{};
+  checked(::ioctl(host_end_, TCGETS2, &mode), "TCGETS2");
+  mode.c_iflag = mode.c_oflag = mode.c_lflag = 0;  // bytes pass as they are
+  checked(::ioctl(host_end_, TCSETS2, &mode), "TCSETS2");
+  std::filesystem::remove(link_);
+  std::filesystem::create_symlink(name.data(), link_);
+}
+
+Pty::~Pty() {
+  std::error_code ignored;
+  std::filesystem::remove(link_, ignored);
+  ::close(host_end_);
+  ::close(device_end_);
+}
+
+std::size_t Pty::read(std::span<std::uint8_t> into, int timeout_ms) const {
+  pollfd readable = {device_end_, POLLIN, 0};
+  if (::poll(&readable, 1, timeout_ms) <= 0) return 0;
+  const ssize_t count = ::read(device_end_, into.data(), into.size());
+  return count < 0 ? 0 : static_cast<std::size_t>(count);
+}
+
+void Pty::write(drivers::Bytes bytes) const {
+  [[maybe_unused]] const ssize_t count = ::write(device_end_, bytes.data(), bytes.size());
+}
+
+void Pty::drain() const {
+  // On a busy machine the kernel hands bytes over late: nothing is unread while they wait.
+  constexpr int kQuiet = 10;
+  int quiet = 0;
+  for (int i = 0; quiet < kQuiet && i < 200; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    int unread = 0;
+    checked(::ioctl(host_end_, FIONREAD, &unread), "FIONREAD");
+    quiet = unread > 0 ? 0 : quiet + 1;
+  }
+}
+
+std::uint32_t Pty::host_baud() const {
+  termios2 mode{};
+  checked(::ioctl(device_end_, TCGETS2, &mode), "TCGETS2");
+  return mode.c_ospeed;
+}
+
+}  // namespace imunoise::emulator
