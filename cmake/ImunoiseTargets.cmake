@@ -53,7 +53,7 @@ function(imunoise_room name)
   add_library(imunoise_${name} STATIC ${ROOM_SOURCES})
   add_library(imunoise::${name} ALIAS imunoise_${name})
   target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
-  if(name MATCHES "^core_(wavelet|spectrum|estimate|inference|array|faults|dynamic|diagnosis)$")
+  if(name MATCHES "^core_(wavelet|spectrum|estimate|inference|array|faults|dynamic|effect|effects|regression|search|diagnosis)$")
     set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_MATRICES ON)  # and no bytes from outside
   endif()
 endfunction()

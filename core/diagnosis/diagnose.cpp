@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/catalogue.h"
-#include "core/diagnosis/outliers.h"
+#include "core/diagnosis/causes.h"
+#include "core/diagnosis/missing_noise.h"
 #include "core/diagnosis/shared_noise.h"
-#include "core/diagnosis/two_levels.h"
+#include "core/effects/couplings.h"
+#include "core/effects/known_effects.h"
+#include "core/search/search_view.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
@@ -24,59 +26,44 @@ void add_unique(std::vector<std::string>& to, std::string_view id, const std::st
 
 // Two effects whose evidence is alike are rivals if the one leaves little for the other to explain;
 // else both are there.
-bool rivals(const RankedEffect& one, const RankedEffect& other, double significant) {
+bool rivals(const RankedTerm& one, const RankedTerm& other, double significant) {
   if (std::abs(one.tried.gain - other.tried.gain) >= kClearGap) return false;
   if (other.familywise_p > significant || one.familywise_p > significant) return true;
   // A regressor can be added to either; two noises are each a change of the whole model.
-  const bool regressor = std::holds_alternative<EffectTerm>(other.tried.suggestion.added);
-  const RankedEffect& second = regressor ? other : one;
-  const RankedEffect& first = regressor ? one : other;
-  if (std::holds_alternative<NoiseChange>(second.tried.suggestion.added)) return true;
-  const Current with = current_of(first.tried.trial.regression, first.tried.trial.fit);
-  const double both = try_out(with, second.tried.suggestion).fit.log_likelihood;
+  const bool regressor = other.tried.term() != nullptr;
+  const RankedTerm& second = regressor ? other : one;
+  const RankedTerm& first = regressor ? one : other;
+  if (second.tried.term() == nullptr) return true;
+  const Current with = current_of(first.tried.fitted.regression, first.tried.fitted.fit);
+  const double both = fit_with(with, second.tried.suggestion).fit.log_likelihood;
   return both - with.fit.log_likelihood < 0.5 * second.tried.likelihood_gain;
 }
 
-// Would it show if there were a third level half-way? Of three that are visited alike two explain
-// three quarters. The rest, a third of what they explain under the noise that they leave, must pay
-// for its jumps as the others do; else noise that walks hides it.
-bool levels_show(const TriedEffect& effect) {
-  constexpr double kThird = 1.0 / 3.0;
-  const auto* term = std::get_if<EffectTerm>(&effect.suggestion.added);
-  if (term == nullptr || term->kind != EffectKind::kTelegraph) return true;
-  const Regression& regression = effect.trial.regression;
-  const Eigen::Index at = regression.first(regression.effects().size() - 1);
-  const EffectCoefficients& found = effect.trial.fit.effects;
-  const double explained = 0.5 * found.value(at) * found.value(at) / found.covariance(at, at);
-  return kThird * explained > effect.suggestion.search.log_places;
-}
-
 // Candidates whose evidence is as good, and what was not recorded.
-void fill_confusions(std::vector<RankedEffect>& effects, const Subject& subject,
-                     double significant) {
+void fill_confusions(std::vector<RankedTerm>& effects, const Subject& subject, double significant) {
   const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    RankedEffect& one = effects[i];
-    for (const RankedEffect& other : effects) {
-      if (effect_info(one.tried.effect).family == effect_info(other.tried.effect).family) continue;
+    RankedTerm& one = effects[i];
+    for (const RankedTerm& other : effects) {
+      if (cause_info(one.tried.cause).family == cause_info(other.tried.cause).family) continue;
       // Whether both are there is asked of the best one only: it costs a fit.
       const bool alike = i == 0 ? rivals(one, other, significant)
                                 : std::abs(one.tried.gain - other.tried.gain) < kClearGap;
-      if (alike) add_unique(one.confused_with, other.tried.effect, one.tried.effect);
+      if (alike) add_unique(one.confused_with, other.tried.cause, one.tried.cause);
     }
     for (const std::string_view id : unrecorded) {
-      const bool could = id == "temperature" ? one.tried.slow : told_by_spectrum(one.tried.effect);
-      if (could) add_unique(one.confused_with, id, one.tried.effect);
+      const bool could =
+          id == "temperature" ? one.tried.slow : cause_info(one.tried.cause).by_spectrum;
+      if (could) add_unique(one.confused_with, id, one.tried.cause);
     }
-    if (!levels_show(one.tried)) add_unique(one.confused_with, "step", one.tried.effect);
-    if (one.tried.suggestion.backwards)
-      add_unique(one.confused_with, "gauss_markov", one.tried.effect);
+    for (const std::string_view id : one.tried.could_be)
+      add_unique(one.confused_with, id, one.tried.cause);
   }
 }
 
 // Replicates that were not used must become more likely. The error is told but does not judge:
 // where it is at its floor already, chance moves it either way.
-bool proven(const RankedEffect& effect, const std::optional<Errors>& before) {
+bool proven(const RankedTerm& effect, const std::optional<Errors>& before) {
   if (!effect.heldout || !before) return true;
   return effect.heldout->total_likelihood() > before->total_likelihood();
 }
@@ -87,32 +74,16 @@ void prove(Diagnosis& out, double level, const Progress& progress) {
   std::size_t tried = 0;
   std::size_t passed = 0;
   for (; tried < out.effects.size() && passed < kProven && tried < kMostTried; ++tried) {
-    RankedEffect& one = out.effects[tried];
+    RankedTerm& one = out.effects[tried];
     if (progress.stopped() || (tried >= kProven && !(one.familywise_p < level))) break;
-    if (can_hold_out(one.tried.trial)) one.heldout = heldout_errors(one.tried.trial);
+    if (can_hold_out(one.tried.fitted)) one.heldout = heldout_errors(one.tried.fitted);
     if (proven(one, out.heldout)) ++passed;
   }
   const auto end = out.effects.begin() + static_cast<std::ptrdiff_t>(tried);
-  const auto best = std::find_if(out.effects.begin(), end, [&](const RankedEffect& one) {
+  const auto best = std::find_if(out.effects.begin(), end, [&](const RankedTerm& one) {
     return one.familywise_p < level && proven(one, out.heldout);
   });
   if (best != end) std::rotate(out.effects.begin(), best, best + 1);
-}
-
-std::string parameter_of(const Suggestion& one) {
-  const auto* term = std::get_if<EffectTerm>(&one.added);
-  if (term == nullptr) return "power";
-  switch (term->kind) {
-    case EffectKind::kRamp:
-      return "slope";
-    case EffectKind::kStep:
-      return "height";
-    case EffectKind::kLine:
-    case EffectKind::kWarmUp:
-      return "amplitude";
-    default:
-      return "coefficient";
-  }
 }
 
 // How large the coefficient of a search must be to pass the threshold nine times in ten.
@@ -120,40 +91,47 @@ std::optional<DetectionLimit> limit_of(const Suggestion& one, double level, Hert
   if (!(one.information > 0.0)) return std::nullopt;
   const double needed = gain_needed(level, one.dof, one.power, one.search);
   const double nine_in_ten = normal_quantile(0.9);
-  DetectionLimit out{std::string(one.effect), one.added, parameter_of(one),
+  DetectionLimit out{std::string(one.cause), one.added, "power",
                      (std::sqrt(2.0 * needed) + nine_in_ten) / std::sqrt(one.information)};
-  if (auto* term = std::get_if<EffectTerm>(&out.added))
+  if (auto* term = std::get_if<EffectTerm>(&out.added)) {
     *term = rounded(*term, one.shape_error, rate);
+    out.parameter = term->effect->coefficient;
+  }
+  return out;
+}
+
+// Noise, then each effect.
+Suggestions search_all(const Current& current, const Progress& progress) {
+  Suggestions out = search_noise(current);
+  const SearchView view(current);
+  const std::span<const Effect* const> effects = known_effects();
+  for (std::size_t i = 0; i < effects.size() && !progress.stopped(); ++i) {
+    progress.report(static_cast<double>(i + 1) / static_cast<double>(effects.size() + 1));
+    if (effects[i]->search == nullptr) continue;
+    Suggestions found = effects[i]->search(view);
+    std::move(found.begin(), found.end(), std::back_inserter(out));
+  }
   return out;
 }
 
 }  // namespace
 
-Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Progress& progress) {
+Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
+                   const Progress& progress) {
   const Current current = current_of(model.regression, model.fit);
   const Subject& subject = current.subject();
-  Suggestions all;
-  const std::vector<Suggestions (*)(const Current&)> searches{
-      scan_noise, scan_lines, scan_steps, scan_trends, scan_witnesses, scan_samples};
-  double done = 0.0;
-  for (const auto search : searches) {
-    if (progress.stopped()) return {};
-    Suggestions found = search(current);
-    all.insert(all.end(), std::make_move_iterator(found.begin()),
-               std::make_move_iterator(found.end()));
-    done += 1.0 / static_cast<double>(searches.size());
-    progress.report(0.4 * done);
-  }
+  const Suggestions all = search_all(current, progress.part(0.0, 0.4));
+  if (progress.stopped()) return {};
   const double misfit_level = kSpent * kMisfitShare * options.level;
   const double level = kSpent * options.level - misfit_level;
   // Everything that was searched is a chance of a false alarm.
   const auto searched = static_cast<double>(all.size());
-  std::vector<TriedEffect> tried = try_all(current, all, progress.part(0.4, 0.75));
+  std::vector<TriedTerm> tried = try_all(current, all, progress.part(0.4, 0.75));
   name_shared_noise(tried, searched, level, progress);
   if (progress.stopped()) return {};
   Diagnosis out;
-  for (TriedEffect& one : tried) {
-    const double chance = std::min(1.0, searched * std::exp(one.log_chance));
+  for (TriedTerm& one : tried) {
+    const double chance = std::min(1.0, searched * std::exp(one.log_p));
     out.effects.push_back({std::move(one), chance, {}, {}});
   }
   out.misfit = misfit_of(model);
@@ -173,7 +151,7 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
   out.worth_adding = !out.effects.empty() && out.effects[0].familywise_p < level &&
                      proven(out.effects[0], out.heldout);
   if (out.worth_adding) {
-    const Trial& best = out.effects[0].tried.trial;
+    const FittedModel& best = out.effects[0].tried.fitted;
     // What remains after the best effect must be small against what it took away, or it is not it.
     const MisfitReport after = misfit_of(best);
     const bool explains = !(after.spectrum.p_value < 1e-6) ||
@@ -188,28 +166,6 @@ Diagnosis diagnose(const Trial& model, const DiagnosisOptions& options, const Pr
     out.verdict = DiagnosisVerdict::kUnknown;
   }
   return out;
-}
-
-Trial fit_full_model(std::shared_ptr<const Subject> subject, const FullModel& start,
-                     const Progress& progress) {
-  Regression regression(std::move(subject));
-  bool telegraph = false;
-  for (const EffectTerm& term : start.effects) {
-    if (term.kind == EffectKind::kTelegraph) {
-      telegraph = true;
-    } else {
-      regression = regression.with(term);
-    }
-  }
-  JointFit fit = joint_fit(regression, start.noise, progress);
-  for (const EffectTerm& term : start.effects) {
-    if (term.kind != EffectKind::kOutliers) continue;
-    const Current current = current_of(regression, fit);
-    regression = regression.on(without(regression.subject(), find_outliers(current, term.above)));
-    fit = joint_fit(regression, fit.model.noise, progress);
-  }
-  if (telegraph) return with_two_levels(regression, fit);
-  return {std::move(regression), std::move(fit)};
 }
 
 }  // namespace imunoise

@@ -50,22 +50,22 @@ double modulation_gain(const Regression& one, const JointFit& fit,
   if (fit.modulation.empty()) return 0.0;
   double out = 0.0;
   Innovations white = innovations(one, {.model = fit.model, .effects = {coefficients, {}}});
-  const std::vector<const Witness*> witnesses = modulating(one);
-  for (std::size_t m = 0; m < witnesses.size(); ++m) {
-    out += predicted_gain(fit.modulation[m], *witnesses[m], white);
-    take_out(fit.modulation[m], *witnesses[m], white);
+  const std::vector<const VarianceCourse*> courses = variance_courses(one);
+  for (std::size_t m = 0; m < courses.size(); ++m) {
+    out += predicted_gain(fit.modulation[m], *courses[m], white);
+    take_out(fit.modulation[m], *courses[m], white);
   }
   return out;
 }
 
 }  // namespace
 
-bool can_hold_out(const Trial& trial) {
-  const auto& effects = trial.regression.effects();
-  const Subject& subject = trial.regression.subject();
+bool can_hold_out(const FittedModel& fitted) {
+  const auto& effects = fitted.regression.effects();
+  const Subject& subject = fitted.regression.subject();
   return (subject.replicates() > 1 || subject.length(0) >= kShortestCut) &&
          std::none_of(effects.begin(), effects.end(),
-                      [](const EffectTerm& term) { return term.kind == EffectKind::kOwnPowers; });
+                      [](const EffectTerm& term) { return term.effect->own_noise != nullptr; });
 }
 
 double Errors::mean_error() const {
@@ -85,38 +85,38 @@ double Errors::total_likelihood() const {
   return std::accumulate(log_likelihood.begin(), log_likelihood.end(), 0.0);
 }
 
-LeftOver left_over(const Trial& trial) {
-  const Subject& subject = trial.regression.subject();
+LeftOver left_over(const FittedModel& fitted) {
+  const Subject& subject = fitted.regression.subject();
   LeftOver out{std::vector<WaveletVariance>(subject.replicates()), {}};
   std::vector<WaveletVariance> all(subject.replicates());
   const Scales run_off = run_off_scales(subject);
   for_each_index(subject.replicates(), [&](std::size_t k) {
-    const Eigen::VectorXd left = trial.regression.residual_samples(trial.fit.effects.value, k);
+    const Eigen::VectorXd left = fitted.regression.residual_samples(fitted.fit.effects.value, k);
     const Scales octaves = scales_of(left);
     all[k] = variance_of(left, subject, octaves.with(run_off));
     out.variances[k] = at_scales(all[k], octaves);
   });
-  out.run_off = run_off_of(trial, all);
+  out.run_off = run_off_of(fitted, all);
   return out;
 }
 
-Errors training_errors(const Trial& trial, const LeftOver& left) {
-  const std::size_t count = trial.regression.subject().replicates();
-  const std::vector<Model>& own = trial.fit.own_powers;
+Errors training_errors(const FittedModel& fitted, const LeftOver& left) {
+  const std::size_t count = fitted.regression.subject().replicates();
+  const std::vector<Model>& own = fitted.fit.own_noise;
   Errors out{std::vector<double>(count), std::vector<double>(count)};
-  if (own.empty()) out.error = wavelet_errors(left.variances, trial.fit.model.noise);
+  if (own.empty()) out.error = wavelet_errors(left.variances, fitted.fit.model.noise);
   for_each_index(count, [&](std::size_t k) {
-    const Model& noise = own.empty() ? trial.fit.model.noise : own[k];
+    const Model& noise = own.empty() ? fitted.fit.model.noise : own[k];
     if (!own.empty()) out.error[k] = wavelet_errors({left.variances[k]}, noise).front();
     out.log_likelihood[k] =
-        log_likelihood_of(trial.regression.of({k}), trial.fit.effects.value, noise);
+        log_likelihood_of(fitted.regression.of({k}), fitted.fit.effects.value, noise);
   });
   return out;
 }
 
-Errors heldout_errors(const Trial& trial) {
-  const bool single = trial.regression.subject().replicates() == 1;
-  const Regression all = single ? trial.regression.in_blocks(kBlocks) : trial.regression;
+Errors heldout_errors(const FittedModel& fitted) {
+  const bool single = fitted.regression.subject().replicates() == 1;
+  const Regression all = single ? fitted.regression.in_blocks(kBlocks) : fitted.regression;
   const auto left_in = [&](const Eigen::VectorXd& coefficients, std::size_t k) -> Eigen::VectorXd {
     if (single) return inverse_cosine_transform(all.residual_cosines(coefficients, k));
     return all.residual_samples(coefficients, k);
@@ -128,7 +128,7 @@ Errors heldout_errors(const Trial& trial) {
     for (std::size_t i = 0; i < count; ++i) {
       if (i != k) others.push_back(i);
     }
-    const JointFit fit = joint_fit(all.of(others), trial.fit.model.noise);
+    const JointFit fit = joint_fit(all.of(others), fitted.fit.model.noise);
     const Model& noise = fit.model.noise;
     const Regression one = all.of({k});
     const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/diagnosis/run_off.h"
+#include "core/diagnosis/views/run_off.h"
 #include "core/wavelet/wavelet_variance.h"
 
 namespace imunoise {
@@ -25,19 +25,19 @@ struct LeftOver {
   std::vector<WaveletVariance> variances;  ///< a replicate each
   std::vector<RunOff> run_off;
 };
-LeftOver left_over(const Trial& trial);
+LeftOver left_over(const FittedModel& fitted);
 
 /// True where something can be held out: replicates, or blocks of a single one that is long enough;
 /// and no parameters of their own.
-bool can_hold_out(const Trial& trial);
+bool can_hold_out(const FittedModel& fitted);
 
 /// On the replicates that the model was fitted to. `left`: left_over() of it.
-Errors training_errors(const Trial& trial, const LeftOver& left);
+Errors training_errors(const FittedModel& fitted, const LeftOver& left);
 
 /// On each replicate by a fit to the others; of a single replicate on each of four blocks, which is
 /// weaker: what holds throughout that hour is not seen to hold in another. Coefficients that belong
 /// to the held-out replicate alone (phases, steps) are estimated there, and each costs a nat.
 /// Precondition: can_hold_out().
-Errors heldout_errors(const Trial& trial);
+Errors heldout_errors(const FittedModel& fitted);
 
 }  // namespace imunoise

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/diagnosis/catalogue.h"
+#include "core/diagnosis/causes.h"
+#include "core/effects/couplings.h"
 
 namespace imunoise {
 namespace {
@@ -17,22 +18,19 @@ constexpr double kMuch = 0.1;         // or of what is explained: how much more 
 
 // A coupling to a sensor of the subject's kind, at all frequencies or at some.
 struct Coupling {
-  const TriedEffect* tried = nullptr;
+  const TriedTerm* tried = nullptr;
   const Witness* witness = nullptr;
   bool whole = false;
 };
 
-std::vector<Coupling> couplings(const std::vector<TriedEffect>& tried) {
+std::vector<Coupling> couplings(const std::vector<TriedTerm>& tried) {
   std::vector<Coupling> out;
-  for (const TriedEffect& one : tried) {
-    const auto* term = std::get_if<EffectTerm>(&one.suggestion.added);
-    if (term == nullptr || term->kind != EffectKind::kWitness) continue;
-    if (term->lag > 0.0 || term->quadratic || term->derivative) continue;
-    const Subject& subject = one.trial.regression.subject();
-    const Witness* const witness = subject.find(term->witness);
+  for (const TriedTerm& one : tried) {
+    if (one.suggestion.coupling == PlainCoupling::kNo) continue;
+    const Subject& subject = one.fitted.regression.subject();
+    const Witness* const witness = subject.find(one.term()->witness);
     if (witness == nullptr || !may_share_motion(subject.quantity, *witness)) continue;
-    out.push_back({&one, witness,
-                   *term == EffectTerm{.kind = EffectKind::kWitness, .witness = term->witness}});
+    out.push_back({&one, witness, one.suggestion.coupling == PlainCoupling::kWhole});
   }
   return out;
 }
@@ -49,24 +47,24 @@ bool is_leak(const Coupling& one, const std::vector<Coupling>& all) {
 struct SharedMotion {
   const Witness* with = nullptr;  // null: none
   double gain = 0.0;
-  double log_chance = 0.0;
+  double log_p = 0.0;
 };
 
-SharedMotion shared_motion(const TriedEffect& noise, const std::vector<Coupling>& vibrations) {
-  const Current with = current_of(noise.trial.regression, noise.trial.fit);
+SharedMotion shared_motion(const TriedTerm& noise, const std::vector<Coupling>& vibrations) {
+  const Current with = current_of(noise.fitted.regression, noise.fitted.fit);
   SharedMotion out;
   for (const Coupling& one : vibrations) {
     const Suggestion& how = one.tried->suggestion;
-    const double gain = try_out(with, how).fit.log_likelihood - with.fit.log_likelihood;
-    const double chance = log_chance(gain, how.dof, one.tried->freedom, how.power, how.search);
-    if (chance < out.log_chance) out = {one.witness, gain, chance};
+    const double gain = fit_with(with, how).fit.log_likelihood - with.fit.log_likelihood;
+    const double log_p = log_p_value(gain, how.dof, one.tried->noise_dof, how.power, how.search);
+    if (log_p < out.log_p) out = {one.witness, gain, log_p};
   }
   return out;
 }
 
 }  // namespace
 
-void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level,
+void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double level,
                        const Progress& progress) {
   const double surely_there = std::log(level / searches);
   const double surely_shared = std::log(level / (kMostNoises * kMostCouplings));
@@ -75,21 +73,21 @@ void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double 
   for (const Coupling& one : all) {
     if (!is_leak(one, all) && vibrations.size() < kMostCouplings) vibrations.push_back(one);
   }
-  std::vector<std::pair<TriedEffect*, SharedMotion>> found;
+  std::vector<std::pair<TriedTerm*, SharedMotion>> found;
   std::size_t looked = 0;
-  for (TriedEffect& one : tried) {
-    if (!told_by_spectrum(one.effect) || !(one.log_chance < surely_there)) continue;
+  for (TriedTerm& one : tried) {
+    if (!cause_info(one.cause).by_spectrum || !(one.log_p < surely_there)) continue;
     if (looked++ == kMostNoises || progress.stopped()) break;
     const SharedMotion shared = shared_motion(one, vibrations);
-    if (shared.log_chance < surely_shared && shared.gain > kLeastShare * one.likelihood_gain)
+    if (shared.log_p < surely_shared && shared.gain > kLeastShare * one.likelihood_gain)
       found.emplace_back(&one, shared);
   }
   for (const auto& [one, shared] : found) {
-    one->effect = "common_vibration";
+    one->cause = "common_vibration";
     one->shared_with = shared.with->name;
     one->likelihood_gain += shared.gain;
-    one->log_chance += shared.log_chance;
-    one->gain = -one->log_chance;
+    one->log_p += shared.log_p;
+    one->gain = -one->log_p;
   }
   best_first(tried);
 }

@@ -10,8 +10,8 @@ namespace imunoise {
 /// the same kind feels it too: a coupling to that sensor at some frequencies, which explains more
 /// than one at all of them (a leak), explains something beside the noise, and no trifle. The
 /// evidence of both then counts. `tried`: best first, and so they are again. `searches`: how many
-/// found them. `level`: chance of a false alarm. Stopped, it names nothing more.
-void name_shared_noise(std::vector<TriedEffect>& tried, double searches, double level,
+/// found them. `level`: false-alarm probability. Stopped, it names nothing more.
+void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double level,
                        const Progress& progress = {});
 
 }  // namespace imunoise

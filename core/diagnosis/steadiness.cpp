@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/diagnosis/normal_power.h"
+#include "core/diagnosis/views/normal_power.h"
 #include "core/spectrum/cosine_transform.h"
 
 namespace imunoise {
@@ -29,14 +29,14 @@ TestOutcome steadiness(const Regression& regression, const JointFit& fit, const 
   if (term == nullptr) return {};
   const Model alone{{*term}};
   double chi = 0.0;
-  Index freedom = 0;
+  Index dof = 0;
   for (std::size_t k = 0; k < regression.subject().replicates(); ++k) {
     const Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, k);
     const Index n = left.size() + 1;
     const Eigen::ArrayXd spectrum = spectrum_of_cosines(fit.model.noise, n);
     const Eigen::ArrayXd share = spectrum_of_cosines(alone, n) / spectrum;
     // Power of the course, were it white in its band: Σ share numbers of variance 1, which are
-    // worth (Σ share)²/Σ share² degrees of freedom.
+    // worth (Σ share)²/Σ share² degrees of dof.
     const Eigen::VectorXd course =
         inverse_cosine_transform((left.array() * (share / spectrum).sqrt()).matrix());
     const double worth = share.sum() * share.sum() / share.square().sum();
@@ -51,9 +51,9 @@ TestOutcome steadiness(const Regression& regression, const JointFit& fit, const 
       const double score = normal_score(ratio, worth / static_cast<double>(stretches));
       chi += score * score;
     }
-    freedom += stretches - 1;
+    dof += stretches - 1;
   }
-  return chi_square_test(chi, freedom);
+  return chi_square_test(chi, dof);
 }
 
 }  // namespace imunoise

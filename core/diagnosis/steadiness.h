@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/diagnosis/joint_fit.h"
 #include "core/inference/goodness.h"
+#include "core/regression/joint_fit.h"
 
 namespace imunoise {
 

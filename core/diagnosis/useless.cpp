@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/search/evidence.h"
+
 namespace imunoise {
 namespace {
 
+// Terms whose regressors are known before the fit.
 bool adds_up(const EffectTerm& term) {
-  return term.kind == EffectKind::kRamp || term.kind == EffectKind::kWarmUp ||
-         term.kind == EffectKind::kLine || term.kind == EffectKind::kStep ||
-         term.kind == EffectKind::kWitness;
+  return term.effect->regressors != nullptr && term.effect->fit_with == nullptr;
 }
 
-UselessTerm weighed(const Trial& with, std::string term, Regression regression,
+UselessTerm weighed(const FittedModel& with, std::string term, Regression regression,
                     const Model& start) {
   JointFit fit = joint_fit(regression, start);
   const double loss = with.fit.log_likelihood - fit.log_likelihood;
@@ -21,15 +22,15 @@ UselessTerm weighed(const Trial& with, std::string term, Regression regression,
 
 }  // namespace
 
-std::optional<UselessTerm> useless_term(const Trial& trial, double level) {
-  const Model& noise = trial.fit.model.noise;
-  const std::vector<EffectTerm>& effects = trial.regression.effects();
+std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level) {
+  const Model& noise = fitted.fit.model.noise;
+  const std::vector<EffectTerm>& effects = fitted.regression.effects();
   std::optional<UselessTerm> out;
   double highest = std::log(level);
   const auto weigh = [&](UselessTerm one, double dof) {
-    const double chance = log_chance(std::max(0.0, one.loss), dof, INFINITY, false);
-    if (!(chance > highest)) return;
-    highest = chance;
+    const double log_p = log_p_value(std::max(0.0, one.loss), dof, INFINITY, false);
+    if (!(log_p > highest)) return;
+    highest = log_p;
     out = std::move(one);
   };
   for (std::size_t t = 0; t < noise.terms.size() && noise.terms.size() > 1; ++t) {
@@ -40,13 +41,13 @@ std::optional<UselessTerm> useless_term(const Trial& trial, double level) {
     without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(t));
     Model alone;
     alone.terms.push_back(noise.terms[t]);
-    weigh(weighed(trial, print(alone), trial.regression, without), static_cast<double>(free));
+    weigh(weighed(fitted, print(alone), fitted.regression, without), static_cast<double>(free));
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!adds_up(effects[e])) continue;
     const auto coefficients =
-        static_cast<double>(trial.regression.first(e + 1) - trial.regression.first(e));
-    weigh(weighed(trial, print(effects[e]), trial.regression.without(e), noise), coefficients);
+        static_cast<double>(fitted.regression.first(e + 1) - fitted.regression.first(e));
+    weigh(weighed(fitted, print(effects[e]), fitted.regression.without(e), noise), coefficients);
   }
   return out;
 }

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/diagnosis/candidates.h"
+#include "core/regression/fitted_model.h"
 
 namespace imunoise {
 
@@ -11,12 +11,12 @@ namespace imunoise {
 struct UselessTerm {
   std::string term;   ///< in the grammar, without the noise's values
   double loss = 0.0;  ///< nats of likelihood that go with it
-  Trial without;
+  FittedModel without;
 };
 
-/// The most useless term of a fitted model, if one is: the chance that a term which is not there
-/// gains as much at its place is above `level`. The last noise term stays, and so do outliers,
+/// The most useless term of a fitted model, if one is: its p-value at its place is above
+/// `level`. The last noise term stays, and so do outliers,
 /// jumps, modulations and powers of each replicate, which are no terms that are added up.
-std::optional<UselessTerm> useless_term(const Trial& trial, double level);
+std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level);
 
 }  // namespace imunoise

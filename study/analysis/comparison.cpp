@@ -2,19 +2,19 @@
 
 #include <cmath>
 
-#include "core/diagnosis/normal_power.h"
-#include "core/diagnosis/scale_kurtosis.h"
-#include "core/diagnosis/sensor_pairs.h"
-#include "core/diagnosis/spectral_view.h"
-#include "core/diagnosis/witness_lags.h"
+#include "core/diagnosis/views/lag_curves.h"
+#include "core/diagnosis/views/normal_power.h"
+#include "core/diagnosis/views/scale_kurtosis.h"
+#include "core/diagnosis/views/sensor_pairs.h"
+#include "core/diagnosis/views/spectral_view.h"
 #include "core/estimate/estimators.h"
 
 namespace imunoise::study {
 namespace {
 
 // The wavelet variance of each replicate at each scale, as a normal score under the model.
-void add_replicates(const Trial& trial, const LeftOver& left, const std::vector<std::string>& names,
-                    v1::Comparison& to) {
+void add_replicates(const FittedModel& trial, const LeftOver& left,
+                    const std::vector<std::string>& names, v1::Comparison& to) {
   const Model& noise = trial.fit.model.noise;
   const MomentCovariances covariances = moment_covariances(noise, left.variances);
   for (std::size_t k = 0; k < left.variances.size(); ++k) {
@@ -46,7 +46,7 @@ void add_spectrum(const Current& current, v1::Comparison& to) {
   }
 }
 
-void add_innovations(const Trial& trial, const std::vector<std::string>& names,
+void add_innovations(const FittedModel& trial, const std::vector<std::string>& names,
                      v1::Comparison& to) {
   const Subject& subject = trial.regression.subject();
   const double rate = subject.rate.value;
@@ -100,7 +100,8 @@ void add_lags(const Current& current, v1::Comparison& to) {
 
 }  // namespace
 
-v1::Comparison comparison_of(const Trial& trial, const LeftOver& left, const std::string& channel,
+v1::Comparison comparison_of(const FittedModel& trial, const LeftOver& left,
+                             const std::string& channel,
                              const std::vector<std::string>& replicates) {
   v1::Comparison out;
   add_replicates(trial, left, replicates, out);

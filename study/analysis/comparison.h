@@ -12,7 +12,8 @@ namespace imunoise::study {
 
 /// Spectrum, kurtosis, times, replicates, pairs of channels and lags of a fitted model. `left`:
 /// left_over() of it; `replicates` are their names, `channel` that of the one under study.
-v1::Comparison comparison_of(const Trial& trial, const LeftOver& left, const std::string& channel,
+v1::Comparison comparison_of(const FittedModel& trial, const LeftOver& left,
+                             const std::string& channel,
                              const std::vector<std::string>& replicates);
 
 }  // namespace imunoise::study

@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/useless.h"
+#include "core/effects/parse_full_model.h"
 #include "study/analysis/comparison.h"
 #include "study/analysis/diagnosis_report.h"
 #include "study/analysis/integrity_report.h"
@@ -20,15 +21,15 @@ namespace {
 
 constexpr int kMostRungs = 8;
 
-Step step_of(const TriedEffect& effect) {
-  return {.added = printed(effect.suggestion.added),
-          .effect = effect.effect,
+Step step_of(const TriedTerm& tried) {
+  return {.added = printed(tried.suggestion.added),
+          .effect = tried.cause,
           .why = fmt::format("{} explains {:.1f} nats; its evidence against chance is {:.1f} nats.",
-                             effect.effect, effect.likelihood_gain, effect.gain)};
+                             tried.cause, tried.likelihood_gain, tried.gain)};
 }
 
 // Takes what the last term made useless out of a model, one after the other.
-void drop_useless(Trial& model, Step& step, double level) {
+void drop_useless(FittedModel& model, Step& step, double level) {
   while (auto useless = useless_term(model, level)) {
     step.dropped.push_back(useless->term);
     step.why += fmt::format(" Beside it {} explains no more than chance ({:.1f} nats).",
@@ -112,7 +113,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
         "One replicate: its four quarters stand in for replicates, each predicted from the others. "
         "That is weaker proof: record again after a restart to be sure.");
 
-  Trial model = fit_full_model(subject, *start, progress.part(0.2, 0.25));
+  FittedModel model = fit_full_model(subject, *start, progress.part(0.2, 0.25));
   out.set_model(print(model.fit.model));
   out.set_fitted_model(print_with_values(model.fit.model));
   LeftOver left = left_over(model);
@@ -141,9 +142,9 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
       if (rung > 0) add_remaining(diagnosis.verdict, out);
       break;
     }
-    RankedEffect& best = diagnosis.effects.front();
+    RankedTerm& best = diagnosis.effects.front();
     step = step_of(best.tried);
-    model = std::move(best.tried.trial);
+    model = std::move(best.tried.fitted);
     if (options.automatic) drop_useless(model, step, options.level);
     left = left_over(model);
     if (rung + 1 < most) continue;

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/catalogue.h"
-#include "core/diagnosis/run_off.h"
+#include "core/diagnosis/causes.h"
+#include "core/diagnosis/views/run_off.h"
+#include "core/effects/couplings.h"
 #include "core/inference/normal_scores.h"
 #include "core/support/distributions.h"
 #include "study/analysis/effect_parameters.h"
@@ -35,7 +36,7 @@ v1::Verdict verdict_of(DiagnosisVerdict from) {
 std::string titles(const std::vector<std::string>& ids) {
   std::string out;
   for (const std::string& id : ids)
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", effect_info(id).title);
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", cause_info(id).title);
   return out;
 }
 
@@ -55,21 +56,20 @@ std::string numbers(const std::vector<v1::EffectParameter>& parameters) {
   return out;
 }
 
-const EffectInfo& info_of(const TriedEffect& tried, const Subject& subject) {
-  const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added);
-  return effect_info(tried.effect, term == nullptr ? nullptr : subject.find(term->witness));
+const Cause& info_of(const TriedTerm& tried, const Subject& subject) {
+  const EffectTerm* const term = tried.term();
+  return cause_info(tried.cause, term == nullptr ? nullptr : subject.find(term->witness));
 }
 
-v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<Errors>& before,
+v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Errors>& before,
                                  const Subject& subject) {
-  const TriedEffect& tried = from.tried;
-  const EffectInfo& about = info_of(tried, subject);
+  const TriedTerm& tried = from.tried;
+  const Cause& about = info_of(tried, subject);
   v1::EffectCandidate to;
-  to.set_effect(tried.effect);
+  to.set_effect(tried.cause);
   to.set_title(std::string(about.title));
   to.set_term(printed(tried.suggestion.added));
-  if (const auto* term = std::get_if<EffectTerm>(&tried.suggestion.added))
-    to.set_witness(term->witness);
+  if (tried.term() != nullptr) to.set_witness(tried.term()->witness);
   if (!tried.shared_with.empty()) to.set_witness(tried.shared_with);
   to.set_familywise_p(from.familywise_p);
   to.set_gain_nats(tried.gain);
@@ -82,7 +82,7 @@ v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<E
   const std::vector<v1::EffectParameter> parameters = effect_parameters(tried, subject);
   for (const v1::EffectParameter& one : parameters) *to.add_parameters() = one;
   for (const std::string& id : from.confused_with) to.add_confused_with(id);
-  to.set_cause(std::string(about.cause));
+  to.set_cause(std::string(about.physics));
   to.set_record_next(std::string(about.record_next));
   const std::string with = to.witness().empty() ? "" : fmt::format(" ({})", to.witness());
   const std::string told = numbers(parameters);
@@ -97,7 +97,7 @@ v1::EffectCandidate candidate_of(const RankedEffect& from, const std::optional<E
 }
 
 // What else to record so that an effect can be told from couplings that nobody could see.
-std::string beside(const RankedEffect& best, const Subject& subject) {
+std::string beside(const RankedTerm& best, const Subject& subject) {
   const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
   const bool some = std::any_of(unrecorded.begin(), unrecorded.end(), [&](std::string_view id) {
     return std::find(best.confused_with.begin(), best.confused_with.end(), id) !=
@@ -112,11 +112,11 @@ std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
            "would have had to be.";
   if (!diagnosis.worth_adding)
     return "The model misses something that no known effect explains: look where it fails.";
-  const RankedEffect& best = diagnosis.effects.front();
-  const EffectInfo& about = info_of(best.tried, subject);
+  const RankedTerm& best = diagnosis.effects.front();
+  const Cause& about = info_of(best.tried, subject);
   const std::string chance = chance_words(best.familywise_p);
   if (diagnosis.verdict == DiagnosisVerdict::kFound)
-    return fmt::format("Missing: {} ({}). {}", about.title, chance, about.cause);
+    return fmt::format("Missing: {} ({}). {}", about.title, chance, about.physics);
   if (diagnosis.verdict == DiagnosisVerdict::kOneOf)
     return fmt::format(
         "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.{}",
@@ -156,26 +156,21 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
   for (std::size_t i = 0; i < std::min(kMostCandidates, diagnosis.effects.size()); ++i)
     *to.add_candidates() = candidate_of(diagnosis.effects[i], diagnosis.heldout, subject);
   for (const DetectionLimit& from : diagnosis.limits) {
-    const bool seen = std::any_of(
-        diagnosis.effects.begin(), diagnosis.effects.end(), [&](const RankedEffect& one) {
+    const bool seen =
+        std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), [&](const RankedTerm& one) {
           constexpr double kSeen = 0.01;
-          return one.tried.effect == from.effect && one.familywise_p < kSeen;
+          return one.tried.cause == from.cause && one.familywise_p < kSeen;
         });
     if (seen) continue;
     v1::DetectionLimit& limit = *to.add_limits();
-    limit.set_effect(from.effect);
+    limit.set_effect(from.cause);
     limit.set_parameter(from.parameter);
     limit.set_value(from.value);
     const auto* term = std::get_if<EffectTerm>(&from.added);
-    const Witness* witness = term != nullptr ? subject.find(term->witness) : nullptr;
-    const std::string unit(si_symbol(subject.quantity));
-    limit.set_unit(witness != nullptr          ? coupling_unit(subject.quantity, *witness, *term)
-                   : from.parameter == "power" ? unit_of(Dimension::kPower, subject.quantity)
-                   : from.parameter == "slope" ? unit + "/s"
-                                               : unit);
-    if (witness != nullptr) limit.set_witness(witness->name);
-    const bool anywhere =
-        term != nullptr && (term->kind == EffectKind::kLine || term->kind == EffectKind::kStep);
+    limit.set_unit(term != nullptr ? unit_of(*term, subject)
+                                   : unit_of(Dimension::kPower, subject.quantity));
+    if (term != nullptr && term->effect->witness) limit.set_witness(term->witness);
+    const bool anywhere = term != nullptr && term->effect->anywhere;
     if (!anywhere) limit.set_term(printed(from.added));
   }
 }
@@ -186,8 +181,7 @@ void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to) {
   if (to.verdict() == v1::unknown) {
     std::string all;
     for (int rung = 1; rung < to.ladder_size(); ++rung)
-      all +=
-          fmt::format("{}{}", rung == 1 ? "" : ", ", effect_info(to.ladder(rung).effect()).title);
+      all += fmt::format("{}{}", rung == 1 ? "" : ", ", cause_info(to.ladder(rung).effect()).title);
     to.set_summary(fmt::format("Missing: {}.", all));
   }
   const std::string_view left = verdict == DiagnosisVerdict::kNone
@@ -196,7 +190,7 @@ void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to) {
   to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));
 }
 
-v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, double first,
+v1::Rung rung_of(const FittedModel& trial, const LeftOver& left, const Step& step, double first,
                  double misfit_p, const std::optional<Errors>& heldout) {
   v1::Rung out;
   out.set_model(print(trial.fit.model));
@@ -233,7 +227,7 @@ v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, dou
   return out;
 }
 
-v1::NoiseBudget budget_of(const Trial& trial, const LeftOver& left) {
+v1::NoiseBudget budget_of(const FittedModel& trial, const LeftOver& left) {
   const Model& noise = trial.fit.model.noise;
   const std::vector<WaveletVariance>& measured = left.variances;
   const MomentCovariances covariances = moment_covariances(noise, measured);

@@ -23,11 +23,11 @@ struct Step {
 };
 
 /// A model that was tried, for the ladder. `first` is the likelihood of the lowest rung.
-v1::Rung rung_of(const Trial& trial, const LeftOver& left, const Step& step, double first,
+v1::Rung rung_of(const FittedModel& trial, const LeftOver& left, const Step& step, double first,
                  double misfit_p, const std::optional<Errors>& heldout);
 
 /// The measured wavelet variance, with the effects taken out, against the noise of a fit.
-v1::NoiseBudget budget_of(const Trial& trial, const LeftOver& left);
+v1::NoiseBudget budget_of(const FittedModel& trial, const LeftOver& left);
 
 /// What an effect adds to the model, in the grammar.
 std::string printed(const AddedTerm& added);

@@ -7,15 +7,11 @@
 
 namespace imunoise::study {
 
-/// The numbers of a tried effect with their intervals (95 %), in SI units.
-std::vector<v1::EffectParameter> effect_parameters(const TriedEffect& effect,
-                                                   const Subject& subject);
+/// The numbers of a tried term with their intervals (95 %), in SI units.
+std::vector<v1::EffectParameter> effect_parameters(const TriedTerm& tried, const Subject& subject);
 
 /// What was fitted of an effect of a model, by its number: coefficients, amplitudes, heights, with
 /// their intervals (95 %), in SI units.
-std::vector<v1::EffectParameter> fitted_parameters(const Trial& trial, std::size_t number);
-
-/// The unit of a coupling of one quantity to another: "rad/s/K"; "1" where both are the same.
-std::string coupling_unit(Quantity subject, const Witness& witness, const EffectTerm& term);
+std::vector<v1::EffectParameter> fitted_parameters(const FittedModel& model, std::size_t number);
 
 }  // namespace imunoise::study

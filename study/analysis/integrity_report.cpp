@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/diagnosis/catalogue.h"
-#include "core/diagnosis/integrity.h"
+#include "core/diagnosis/causes.h"
+#include "core/integrity/integrity.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::study {
@@ -76,11 +76,11 @@ void add_timing(const std::vector<recording::Replicate>& recordings, v1::Diagnos
 void put_defects_first(bool mended, v1::DiagnosisReport& to) {
   if (to.integrity_size() == 0) return;
   const v1::IntegrityFinding& finding = to.integrity(0);
-  const EffectInfo& about = defect_info(finding.effect());
+  const Cause& about = defect_info(finding.effect());
   v1::EffectCandidate defect;
   defect.set_effect(finding.effect());
   defect.set_title(std::string(about.title));
-  defect.set_cause(std::string(about.cause));
+  defect.set_cause(std::string(about.physics));
   defect.set_record_next(std::string(about.record_next));
   defect.set_sentence(finding.sentence());
   google::protobuf::RepeatedPtrField<v1::EffectCandidate> all;

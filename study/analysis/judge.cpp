@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "core/diagnosis/columns.h"
 #include "core/diagnosis/heldout.h"
-#include "core/diagnosis/misfit.h"
+#include "core/diagnosis/views/misfit.h"
+#include "core/effect/columns.h"
+#include "core/effects/parse_full_model.h"
 #include "core/estimate/estimators.h"
 #include "study/analysis/prepare.h"
 
@@ -32,7 +33,7 @@ Result<FullModel> started(const std::string& model, const SeenChannel& seen,
   return out;
 }
 
-std::optional<Errors> errors_held_out(const Trial& model) {
+std::optional<Errors> errors_held_out(const FittedModel& model) {
   if (!can_hold_out(model)) return std::nullopt;
   return heldout_errors(model);
 }
@@ -41,7 +42,7 @@ Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const 
                        const Progress& progress) {
   const Result<FullModel> start = started(model, seen, progress.part(0.0, 0.1));
   if (!start) return tl::unexpected(start.error());
-  const Trial trial = fit_full_model(seen.subject, *start, progress.part(0.1, 0.3));
+  const FittedModel trial = fit_full_model(seen.subject, *start, progress.part(0.1, 0.3));
   const std::optional<Errors> heldout = errors_held_out(trial);
   progress.report(0.7);
   const double misfit_p = misfit_p_value(misfit_of(trial));

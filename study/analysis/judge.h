@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/model/effect_term.h"
+#include "core/effect/full_model.h"
 #include "study/analysis/diagnosis_report.h"
 #include "study/analysis/seen_channel.h"
 
@@ -21,7 +21,7 @@ Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const 
                        const Progress& progress = {});
 
 /// Error on replicates that the model was not fitted to; none where nothing can be held out.
-std::optional<Errors> errors_held_out(const Trial& model);
+std::optional<Errors> errors_held_out(const FittedModel& model);
 
 /// The channels that a model's effects follow.
 std::vector<std::string> witnesses_of(const FullModel& model);

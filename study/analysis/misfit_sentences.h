@@ -2,7 +2,7 @@
 
 // Where a model fails, a sentence a place.
 
-#include "core/diagnosis/misfit.h"
+#include "core/diagnosis/views/misfit.h"
 #include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::study {

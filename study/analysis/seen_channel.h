@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnosis/subject.h"
+#include "core/effect/subject.h"
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "core/wavelet/wavelet_variance.h"

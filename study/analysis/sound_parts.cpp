@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "core/diagnosis/integrity.h"
-#include "core/diagnosis/mend.h"
+#include "core/integrity/integrity.h"
+#include "core/integrity/mend.h"
 #include "core/spectrum/cross_power.h"
 #include "core/support/parallel.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnosis/subject.h"
+#include "core/effect/subject.h"
 #include "recording/import/channel.h"
 
 namespace imunoise::study {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/model/effect_term.h"
+#include "core/effects/parse_full_model.h"
 #include "core/model/model.h"
 
 namespace {

@@ -26,7 +26,7 @@ Diagnosis of(const MadeSubject& made, const std::string& model = "WN + RW") {
 
 void expect_found(const Diagnosis& diagnosis, const std::string& effect) {
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, effect);
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, effect);
   EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kFound);
   ASSERT_TRUE(diagnosis.effects[0].heldout);
   EXPECT_GT(diagnosis.effects[0].heldout->total_likelihood(),
@@ -47,7 +47,7 @@ TEST(Diagnose, AWave) {
   const auto& term = std::get<EffectTerm>(diagnosis.effects[0].tried.suggestion.added);
   const double error = diagnosis.effects[0].tried.suggestion.shape_error;
   EXPECT_GT(error, 0.0);
-  EXPECT_LT(std::abs(term.frequency - 7.123), 4.0 * error);
+  EXPECT_LT(std::abs(term["f"] - 7.123), 4.0 * error);
 }
 
 TEST(Diagnose, ATemperatureBehindALag) {
@@ -60,7 +60,7 @@ TEST(Diagnose, ATemperatureBehindALag) {
   expect_found(diagnosis, "temperature");
   const auto& term = std::get<EffectTerm>(diagnosis.effects[0].tried.suggestion.added);
   EXPECT_EQ(term.witness, "temperature");
-  EXPECT_NEAR(term.lag, 5.0, 2.0);
+  EXPECT_NEAR(term["lag"], 5.0, 2.0);
 }
 
 TEST(Diagnose, AStepInOneReplicate) {
@@ -69,8 +69,8 @@ TEST(Diagnose, AStepInOneReplicate) {
                                   }});
   expect_found(diagnosis, "step");
   const auto& term = std::get<EffectTerm>(diagnosis.effects[0].tried.suggestion.added);
-  EXPECT_EQ(term.replicate, 3.0);
-  EXPECT_NEAR(term.time, 90.0, 1.0);
+  EXPECT_EQ(term["replicate"], 3.0);
+  EXPECT_NEAR(term["t"], 90.0, 1.0);
 }
 
 // The same each time, as a relay's would be: two levels explain it, but none is taken again.
@@ -92,7 +92,7 @@ TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
   const Diagnosis diagnosis =
       of({.model = "WN(sigma2=1) + RW(gamma2=1e-5) + AR1(phi=0.98, sigma2=0.002)", .seed = 9});
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
   EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kOneOf);
   const auto& confused = diagnosis.effects[0].confused_with;
   EXPECT_EQ(std::count(confused.begin(), confused.end(), "supply_voltage"), 1);
@@ -132,28 +132,28 @@ Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
 TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
   const Diagnosis diagnosis = beside_another(1.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "common_vibration");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "common_vibration");
   EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {
   const Diagnosis diagnosis = beside_another(0.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourHardlyFeelsIsItsOwn) {
   const Diagnosis diagnosis = beside_another(0.02, 0.0, 10.0);
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "gauss_markov");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
 }
 
 TEST(Diagnose, ALeakBesideNoiseOfItsOwnMakesNoVibrationOfIt) {
   const Diagnosis diagnosis = beside_another(0.0, 0.1);
-  for (const RankedEffect& one : diagnosis.effects) EXPECT_TRUE(one.tried.shared_with.empty());
+  for (const RankedTerm& one : diagnosis.effects) EXPECT_TRUE(one.tried.shared_with.empty());
   const auto markov =
       std::find_if(diagnosis.effects.begin(), diagnosis.effects.end(),
-                   [](const RankedEffect& one) { return one.tried.effect == "gauss_markov"; });
+                   [](const RankedTerm& one) { return one.tried.cause == "gauss_markov"; });
   EXPECT_NE(markov, diagnosis.effects.end());
 }
 
@@ -174,10 +174,10 @@ TEST(Diagnose, JumpsBetweenTwoLevels) {
   };
   const Diagnosis diagnosis = of({.seed = 13, .added = up});
   expect_found(diagnosis, "telegraph");
-  const FullModel& model = diagnosis.effects[0].tried.trial.fit.model;
+  const FullModel& model = diagnosis.effects[0].tried.fitted.fit.model;
   EXPECT_EQ(print(model), "WN + RW + telegraph");
   // A model that is given finds the same again.
-  const Trial again = fitted(subject_of({.seed = 13, .added = up}), "WN + RW + telegraph");
+  const FittedModel again = fitted(subject_of({.seed = 13, .added = up}), "WN + RW + telegraph");
   EXPECT_NEAR(again.fit.effects.value(0), 0.8, 4.0 * std::sqrt(again.fit.effects.covariance(0, 0)));
 }
 
@@ -188,7 +188,7 @@ TEST(Diagnose, FaintJumpsMayHaveMoreLevelsThanTwo) {
             return std::fmod(s + 11.0 * static_cast<double>(k), 53.0) < 20.0 ? 0.4 : 0.0;
           }});
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "telegraph");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "telegraph");
   EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kOneOf);
   EXPECT_EQ(diagnosis.effects[0].confused_with, std::vector<std::string>{"step"});
 }
@@ -199,7 +199,7 @@ TEST(Diagnose, ASlowRampMayBeATemperatureThatNobodyRecorded) {
                                   .added = [](std::size_t, double s) { return 0.01 * s; }},
                                  "WN");
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "rate_ramp");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "rate_ramp");
   EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kOneOf);
   const auto& with = diagnosis.effects[0].confused_with;
   EXPECT_NE(std::find(with.begin(), with.end(), "temperature"), with.end());
@@ -212,7 +212,7 @@ TEST(Diagnose, ATemperatureThatStoodStillIsNoSuspect) {
                                   .temperature = [](std::size_t, double) { return 300.0; }},
                                  "WN");
   ASSERT_FALSE(diagnosis.effects.empty());
-  EXPECT_EQ(diagnosis.effects[0].tried.effect, "rate_ramp");
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "rate_ramp");
   const auto& with = diagnosis.effects[0].confused_with;
   EXPECT_EQ(std::find(with.begin(), with.end(), "temperature"), with.end());
 }
@@ -221,7 +221,7 @@ TEST(Diagnose, WhatWasFoundIsGoneOnceItIsInTheModel) {
   const MadeSubject made{.seed = 4,
                          .added = [](std::size_t, double s) { return 0.1 * wave(7.123, s); }};
   const Diagnosis before = of(made);
-  const Diagnosis after = diagnose(before.effects[0].tried.trial);
+  const Diagnosis after = diagnose(before.effects[0].tried.fitted);
   EXPECT_EQ(after.verdict, DiagnosisVerdict::kNone);
 }
 
@@ -235,8 +235,8 @@ TEST(Diagnose, NoiseThatFollowsAWitnessIsGoneOnceItIsInTheModel) {
       {.model = "WN(sigma2=1e-6)", .seed = 30, .added = louder, .temperature = temperature});
   const Diagnosis before = diagnose(fitted(subject, "WN"));
   ASSERT_FALSE(before.effects.empty());
-  EXPECT_EQ(before.effects[0].tried.effect, "modulated_variance");
-  const Trial with = fitted(subject, "WN + modulated(temperature)");
+  EXPECT_EQ(before.effects[0].tried.cause, "modulated_variance");
+  const FittedModel with = fitted(subject, "WN + modulated(temperature)");
   const Diagnosis after = diagnose(with);
   EXPECT_FALSE(after.worth_adding);
   EXPECT_GT(after.misfit.time.p_value, 1e-3);
@@ -257,7 +257,7 @@ TEST(Diagnose, OneReplicateIsProvenOnItsQuarters) {
 
 TEST(Diagnose, NoiseThatFollowsAWitnessIsJudgedOnTheQuartersOfOneReplicate) {
   const auto subject = subject_of({.replicates = 1, .seed = 18, .temperature = temperature});
-  const Trial trial = fitted(subject, "WN + RW + modulated(temperature)");
+  const FittedModel trial = fitted(subject, "WN + RW + modulated(temperature)");
   ASSERT_TRUE(can_hold_out(trial));
   const Errors errors = heldout_errors(trial);
   ASSERT_EQ(errors.error.size(), 4U);
@@ -270,9 +270,9 @@ TEST(Diagnose, NoiseThatFollowsAWitnessIsJudgedOnTheQuartersOfOneReplicate) {
 TEST(UselessTerm, GoesAndWhatIsNeededStays) {
   const auto subject =
       subject_of({.seed = 17, .added = [](std::size_t, double s) { return 0.1 * wave(7.123, s); }});
-  const Trial loaded = fitted(subject, "WN + RW + QN + line(f=7.123) + ramp");
+  const FittedModel loaded = fitted(subject, "WN + RW + QN + line(f=7.123) + ramp");
   std::vector<std::string> gone;
-  Trial model = loaded;
+  FittedModel model = loaded;
   while (auto useless = useless_term(model, 0.01)) {
     gone.push_back(useless->term);
     EXPECT_LT(useless->loss, 7.0);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/diagnosis/diagnose.h"
+#include "core/effects/parse_full_model.h"
 
 namespace imunoise {
 
@@ -62,7 +63,8 @@ inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
 }
 
 /// The fit of a model, from the values that noise of the tests has.
-inline Trial fitted(std::shared_ptr<const Subject> subject, const std::string& text = "WN + RW") {
+inline FittedModel fitted(std::shared_ptr<const Subject> subject,
+                          const std::string& text = "WN + RW") {
   FullModel model = *parse_full_model(text, subject->rate);
   for (Term& term : model.noise.terms) {
     std::vector<double> v = values(term.process);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/scale_kurtosis.h"
-#include "core/diagnosis/sensor_pairs.h"
-#include "core/diagnosis/spectral_view.h"
-#include "core/diagnosis/witness_lags.h"
+#include "core/diagnosis/views/lag_curves.h"
+#include "core/diagnosis/views/scale_kurtosis.h"
+#include "core/diagnosis/views/sensor_pairs.h"
+#include "core/diagnosis/views/spectral_view.h"
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {
@@ -21,7 +21,7 @@ double swing(std::size_t k, double s) {
 
 // A trial that a Current may borrow from.
 struct Looked {
-  Trial trial;
+  FittedModel trial;
   Current current;
   explicit Looked(const MadeSubject& made)
       : trial(fitted(subject_of(made))), current(current_of(trial.regression, trial.fit)) {}

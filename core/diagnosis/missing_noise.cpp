@@ -1,0 +1,309 @@
+#include "core/diagnosis/missing_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/diagnosis/markov_levels.h"
+#include "core/diagnosis/steadiness.h"
+#include "core/inference/parameter_covariance.h"
+#include "core/support/linear_algebra.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Whitened band powers of all lengths of replicates, one below the other, and the directions in
+// which the free parameters move them.
+class ScoreSpace {
+ public:
+  explicit ScoreSpace(const Current& current) : pooled_(current.pooled) {
+    const Model& noise = current.fit.model.noise;
+    const std::vector<Index> interior = parameter_sets(noise).interior;
+    Index rows = 0;
+    for (const BandedPower& bands : pooled_) rows += bands.frequency.size();
+    root_.resize(rows);
+    excess_.resize(rows);
+    slopes_.resize(rows, static_cast<Index>(interior.size()));
+    Index begin = 0;
+    for (const BandedPower& bands : pooled_) {
+      const Index size = bands.frequency.size();
+      const Eigen::ArrayXd s = spectrum(noise, bands.frequency);
+      root_.segment(begin, size) = (0.5 * bands.count).sqrt() / s;
+      excess_.segment(begin, size) = (root_.segment(begin, size) * (bands.power - s)).matrix();
+      slopes_.middleRows(begin, size) = whittle_slopes(noise, bands, interior);
+      begin += size;
+    }
+    inverse_ = pseudo_inverse(slopes_.transpose() * slopes_).matrix;
+  }
+
+  // The direction of a new spectrum, scaled to length 1, less what the parameters can do.
+  Eigen::VectorXd direction(const Process& process) const {
+    const Eigen::VectorXd unit = whitened(process).normalized();
+    return unit - slopes_ * (inverse_ * (slopes_.transpose() * unit));
+  }
+
+  double score(const Eigen::VectorXd& direction) const {
+    const double norm = direction.norm();
+    return norm > kNothingNew ? direction.dot(excess_) / norm : 0.0;
+  }
+
+  // Square root of the information on the power of a process: 1/standard error.
+  double precision(const Process& process) const {
+    return whitened(process).norm() * std::max(direction(process).norm(), kNothingNew);
+  }
+
+ private:
+  // Of a unit vector: what is left of a spectrum that the parameters can make.
+  static constexpr double kNothingNew = 1e-4;
+
+  // A spectrum over that of the model, as its power moves the whitened band powers.
+  Eigen::VectorXd whitened(const Process& process) const {
+    Eigen::VectorXd out(root_.size());
+    Index begin = 0;
+    for (const BandedPower& bands : pooled_) {
+      const Index size = bands.frequency.size();
+      out.segment(begin, size) =
+          (root_.segment(begin, size) * spectrum(process, bands.frequency)).matrix();
+      begin += size;
+    }
+    return out;
+  }
+
+  const std::vector<BandedPower>& pooled_;
+  Eigen::ArrayXd root_;
+  Eigen::VectorXd excess_;
+  Eigen::MatrixXd slopes_;
+  Eigen::MatrixXd inverse_;
+};
+
+// The best of a scanned family of processes.
+void add_best(const Current& current, const ScoreSpace& space, std::string_view cause,
+              const std::vector<Process>& family, Suggestions& out) {
+  if (family.empty()) return;  // replicates are too short for any of it
+  Eigen::MatrixXd directions(space.direction(family[0]).size(), static_cast<Index>(family.size()));
+  std::size_t best = 0;
+  double most = -INFINITY;
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    directions.col(static_cast<Index>(i)) = space.direction(family[i]);
+    const double score = space.score(directions.col(static_cast<Index>(i)));
+    if (score <= most) continue;
+    most = score;
+    best = i;
+  }
+  if (!(most > 0.0)) return;
+  Process process = family[best];
+  std::vector<double> v = values(process);
+  const double precision = space.precision(process);
+  v[0] = std::max(most, 1.0) / precision;
+  set_values(process, v);
+  Model grown = current.fit.model.noise;
+  grown.terms.emplace_back(process);
+  out.push_back({.cause = cause,
+                 .added = NoiseChange{std::move(grown), process},
+                 .score_nats = 0.5 * most * most,
+                 .power = true,
+                 .search = {.path = path_length(directions)},
+                 .information = precision * precision});
+}
+
+template <class P>
+bool has(const Model& model) {
+  return std::any_of(model.terms.begin(), model.terms.end(),
+                     [](const Term& term) { return std::holds_alternative<P>(term.process); });
+}
+
+template <class P>
+void add_simple(const Current& current, const ScoreSpace& space, std::string_view cause,
+                Suggestions& out) {
+  if (!has<P>(current.fit.model.noise)) add_best(current, space, cause, {Process(P{})}, out);
+}
+
+std::vector<Process> markov_family(double longest) {
+  constexpr int kEachOctave = 3;
+  std::vector<Process> out;
+  const int last = static_cast<int>(kEachOctave * std::log2(longest));
+  for (int i = 0; i <= last; ++i)
+    out.emplace_back(Ar1{1.0, std::exp(-1.0 / std::exp2(static_cast<double>(i) / kEachOctave))});
+  return out;
+}
+
+// Resonances of one damping, over their frequencies.
+std::vector<Process> resonance_family(double damping, double lowest) {
+  std::vector<Process> out;
+  for (double f = lowest; f < 0.48; f *= 1.0 + 0.7 * damping) {
+    const double omega = 2.0 * std::numbers::pi * f;
+    out.emplace_back(Resonance{1.0, std::exp(-damping * omega), omega});
+  }
+  return out;
+}
+
+// White noise through the device's filter instead of white noise.
+void add_filters(const Current& current, Suggestions& out) {
+  const Model& noise = current.fit.model.noise;
+  const auto white = std::find_if(noise.terms.begin(), noise.terms.end(), [](const Term& term) {
+    return std::holds_alternative<WhiteNoise>(term.process) && !term.given[0];
+  });
+  if (white == noise.terms.end()) return;
+  const auto place = static_cast<std::size_t>(white - noise.terms.begin());
+  const double sigma2 = values(white->process)[0];
+  const std::vector<int> lengths{2, 3, 4, 6, 8, 12, 16};
+  const double before = whittle_objective(noise, current.pooled);
+  for (const bool twice : {false, true}) {
+    Suggestion best{.cause = "low_pass",
+                    .added = NoiseChange{},
+                    .search = {.log_places = std::log(static_cast<double>(lengths.size()))}};
+    for (const int n : lengths) {
+      Model changed = noise;
+      const Process filter =
+          twice ? Process(BartlettFilter{sigma2, n}) : Process(MovingAverageFilter{sigma2, n});
+      changed.terms[place] = Term(filter);
+      const double gain = before - whittle(changed, current.pooled).objective;
+      if (!(gain > best.score_nats)) continue;
+      best.score_nats = gain;
+      best.added = NoiseChange{std::move(changed), filter};
+    }
+    if (best.score_nats > 0.0) out.push_back(std::move(best));
+  }
+}
+
+// Correlation time of a Markov process, samples; 0 of any other.
+double memory_of(const Process& process) {
+  const auto* markov = std::get_if<Ar1>(&process);
+  return markov != nullptr && markov->phi > 0.0 ? -1.0 / std::log(markov->phi) : 0.0;
+}
+
+// A Markov process so fast that it left no white noise is the sensor's bandwidth.
+bool is_bandwidth(const Model& noise) {
+  constexpr double kFastest = 20.0;  // samples
+  constexpr double kLeft = 0.1;
+  double white = 0.0;
+  double fast = 0.0;
+  for (const Term& term : noise.terms) {
+    if (std::holds_alternative<WhiteNoise>(term.process)) white += spectrum(term.process, 0.5);
+    const double memory = memory_of(term.process);
+    if (memory > 0.0 && memory < kFastest) fast += spectrum(term.process, 0.5);
+  }
+  return fast > 0.0 && white < kLeft * fast;
+}
+
+// Heat does not move a sensor faster than this.
+constexpr double kFastestHeat = 10.0;  // s
+
+bool has_slow_markov(const Model& noise, Hertz rate) {
+  return std::any_of(noise.terms.begin(), noise.terms.end(), [&](const Term& term) {
+    return memory_of(term.process) > kFastestHeat * rate.value;
+  });
+}
+
+// What a Markov process may be in truth.
+void name_markov(const Current& current, TriedTerm& tried) {
+  const FittedModel& fitted = tried.fitted;
+  if (is_bandwidth(fitted.fit.model.noise)) {
+    tried.cause = "low_pass";
+    return;
+  }
+  const double levels = two_level_gain(fitted.regression, fitted.fit);
+  constexpr double kClearly = 5.0;
+  if (levels >= kClearly) {
+    tried.cause = "telegraph";
+    tried.likelihood_gain += levels - kClearly;  // so much chance may gain
+    return;
+  }
+  tried.slow = has_slow_markov(fitted.fit.model.noise, current.subject().rate);
+}
+
+}  // namespace
+
+std::vector<Cause> noise_causes() {
+  return {
+      {"quantisation",
+       "quantisation of an accumulated angle or velocity",
+       "The converter rounds the integral of the signal; differences of rounding errors fall off "
+       "as "
+       "1/τ².",
+       "the same at a finer resolution, or a few minutes with slow motion that exercises many "
+       "codes",
+       {"white_noise", "line"},
+       "quantisation"},
+      {"white_noise",
+       "white noise",
+       "Thermal noise of the sensing element and its electronics.",
+       "a minute at the highest rate the device has",
+       {"outliers", "quantisation"},
+       "white_noise"},
+      {"random_walk",
+       "random walk",
+       "The bias moves by independent increments, as charge traps and creep let it.",
+       "longer, with the temperature beside it",
+       {"gauss_markov", "temperature", "step", "flicker"},
+       "random_walk",
+       true},
+      {"gauss_markov",
+       "first-order Markov noise",
+       "A fluctuation that forgets itself after its correlation time: bias instability.",
+       "ten times its correlation time, with the temperature beside it",
+       {"flicker", "telegraph", "temperature", "low_pass"},
+       "gauss_markov",
+       false,
+       true},
+      {"flicker",
+       "flicker noise",
+       "1/f noise of the electronics: many traps of many time constants.",
+       "longer: one Markov process and flicker noise differ only over several decades",
+       {"gauss_markov", "random_walk"},
+       "flicker",
+       true,
+       true},
+      {"low_pass",
+       "sensor bandwidth",
+       "A filter on the chip takes away the fastest noise; the spectrum rolls off.",
+       "the same with the filter set differently",
+       {"gauss_markov", "quantisation"},
+       "low_pass"},
+      {"resonance",
+       "resonance",
+       "The sensing element, its mount or the bench rings when noise excites it.",
+       "the same on another mount, and with a tap on the bench",
+       {"line", "gauss_markov"},
+       "resonance",
+       false,
+       true},
+  };
+}
+
+void review_noise(const Current& current, TriedTerm& tried) {
+  constexpr double kUnsteady = 1e-3;
+  if (tried.cause == "gauss_markov") name_markov(current, tried);
+  if (tried.cause == "telegraph") return;
+  const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
+  tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
+}
+
+Suggestions search_noise(const Current& current) {
+  const ScoreSpace space(current);
+  Suggestions out;
+  add_simple<WhiteNoise>(current, space, "white_noise", out);
+  add_simple<QuantisationNoise>(current, space, "quantisation", out);
+  add_simple<RandomWalk>(current, space, "random_walk", out);
+  add_simple<Flicker>(current, space, "flicker", out);
+  const auto longest = static_cast<double>(current.subject().length(0));
+  add_best(current, space, "gauss_markov", markov_family(longest / 4.0), out);
+  Suggestions resonances;
+  for (const double damping : {0.005, 0.02, 0.08, 0.25})
+    add_best(current, space, "resonance", resonance_family(damping, 20.0 / longest), resonances);
+  if (!resonances.empty()) {
+    auto best = std::max_element(
+        resonances.begin(), resonances.end(),
+        [](const Suggestion& a, const Suggestion& b) { return a.score_nats < b.score_nats; });
+    double path = 0.0;
+    for (const Suggestion& one : resonances) path += one.search.path;
+    best->search.path = path;
+    out.push_back(*best);
+  }
+  add_filters(current, out);
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,165 @@
+#include "core/diagnosis/views/misfit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/views/normal_power.h"
+#include "core/inference/parameter_covariance.h"
+#include "core/support/linear_algebra.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Bands are put together until they have this many degrees of freedom and span half an octave.
+constexpr double kFewestFreedom = 8.0;
+
+// What the replicates of one length say about a narrow band.
+struct Measured {
+  double frequency = 0.0;  // Hz
+  double freedom = 0.0;
+  double relative = 0.0;  // sum of as many powers over the model's
+  Eigen::VectorXd slope;  // of the model's logarithm, by its parameters
+};
+
+// Of replicates of all lengths, in the order of frequency.
+std::vector<Measured> measured(const Model& noise, const std::vector<BandedPower>& lengths,
+                               const std::vector<Index>& interior) {
+  std::vector<Measured> out;
+  for (const BandedPower& bands : lengths) {
+    const Eigen::MatrixXd slopes = whittle_slopes(noise, bands, interior);
+    const Eigen::ArrayXd power = bands.count * bands.power / spectrum(noise, bands.frequency);
+    for (Index b = 0; b < bands.frequency.size(); ++b) {
+      out.push_back({bands.frequency(b) * bands.rate.value, bands.count(b), power(b),
+                     slopes.row(b).transpose()});
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Measured& one, const Measured& other) {
+    return one.frequency < other.frequency;
+  });
+  return out;
+}
+
+// Half octaves, with the directions of the parameters.
+void add_bands(const std::vector<Measured>& all, std::vector<BandMisfit>& out,
+               std::vector<Eigen::VectorXd>& directions) {
+  for (std::size_t begin = 0; begin < all.size();) {
+    double freedom = 0.0;
+    double relative = 0.0;
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(all[begin].slope.size());
+    std::size_t end = begin;
+    while (end < all.size() && (freedom < kFewestFreedom ||
+                                all[end].frequency < std::sqrt(2.0) * all[begin].frequency)) {
+      freedom += all[end].freedom;
+      relative += all[end].relative;
+      direction += std::sqrt(0.5 * all[end].freedom) * all[end].slope;
+      ++end;
+    }
+    if (freedom >= kFewestFreedom) {
+      BandMisfit one{all[begin].frequency, all[end - 1].frequency, relative / freedom, 0.0, 0};
+      one.sigma = normal_score(one.ratio, freedom);
+      out.push_back(one);
+      directions.push_back(direction / std::sqrt(0.5 * freedom));
+    }
+    begin = end;
+  }
+}
+
+void count_replicates(const Model& noise, const std::vector<BandedPower>& left,
+                      std::vector<BandMisfit>& bands) {
+  for (const BandedPower& one : left) {
+    const Eigen::ArrayXd power = one.count * one.power / spectrum(noise, one.frequency);
+    for (BandMisfit& band : bands) {
+      double freedom = 0.0;
+      double relative = 0.0;
+      for (Index b = 0; b < one.frequency.size(); ++b) {
+        const double f = one.frequency(b) * one.rate.value;
+        if (f < band.from || f > band.to) continue;
+        freedom += one.count(b);
+        relative += power(b);
+      }
+      if (freedom > 0.0 && (relative > freedom) == (band.ratio > 1.0)) ++band.replicates;
+    }
+  }
+}
+
+}  // namespace
+
+MisfitReport misfit_of(const FittedModel& fitted) {
+  MisfitReport out;
+  const Model& noise = fitted.fit.model.noise;
+  const Subject& subject = fitted.regression.subject();
+  const std::vector<BandedPower> remaining = fitted.regression.residual(fitted.fit.effects.value);
+  const std::vector<Index> interior = parameter_sets(noise).interior;
+  std::vector<Eigen::VectorXd> directions;
+  add_bands(measured(noise, pooled(remaining), interior), out.bands, directions);
+  count_replicates(noise, remaining, out.bands);
+  const auto n = static_cast<Index>(out.bands.size());
+  Eigen::VectorXd z(n);
+  Eigen::MatrixXd a(n, static_cast<Index>(interior.size()));
+  for (Index i = 0; i < n; ++i) {
+    z(i) = out.bands[static_cast<std::size_t>(i)].sigma;
+    a.row(i) = directions[static_cast<std::size_t>(i)].transpose();
+  }
+  const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
+  const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
+  out.spectrum = chi_square_test(left.squaredNorm(), std::max<Index>(0, n - inverse.rank));
+
+  // One replicate after the other: all their innovations at once would be as long as the recording.
+  struct Seen {
+    std::vector<TimeMisfit> times;
+    double squares = 0.0;
+    double fourth = 0.0;
+    double samples = 0.0;
+  };
+  const std::vector<std::size_t>& replicates = fitted.regression.replicates();
+  std::vector<Seen> each(replicates.size());
+  for_each_index(each.size(), [&](std::size_t i) {
+    const std::size_t k = replicates[i];
+    const Eigen::VectorXd white = innovations(fitted.regression, fitted.fit, k);
+    each[i] = {time_misfits(white, k, subject.rate.value), white.squaredNorm(),
+               white.array().square().square().sum(), static_cast<double>(white.size())};
+  });
+  double chi = 0.0;
+  double squares = 0.0;
+  double fourth = 0.0;
+  double samples = 0.0;
+  for (const Seen& one : each) {
+    for (const TimeMisfit& stretch : one.times) chi += stretch.sigma * stretch.sigma;
+    out.times.insert(out.times.end(), one.times.begin(), one.times.end());
+    squares += one.squares;
+    fourth += one.fourth;
+    samples += one.samples;
+  }
+  out.time = chi_square_test(chi, static_cast<Index>(out.times.size() - each.size()));
+  out.excess_kurtosis = fourth * samples / (squares * squares) - 3.0;
+  out.kurtosis = chi_square_test(out.excess_kurtosis * out.excess_kurtosis * samples / 24.0, 1);
+  return out;
+}
+
+std::vector<TimeMisfit> time_misfits(const VectorRef& white, std::size_t replicate, double rate) {
+  constexpr Index kStretches = 16;
+  std::vector<TimeMisfit> out;
+  const Index length = white.size() / kStretches;
+  // Each replicate against its own level: that is another question.
+  const double level = white.squaredNorm() / static_cast<double>(white.size());
+  const double seconds = static_cast<double>(length) / rate;
+  for (Index at = 0; at < kStretches; ++at) {
+    const double ratio =
+        white.segment(at * length, length).squaredNorm() / (level * static_cast<double>(length));
+    out.push_back({replicate, static_cast<double>(at) * seconds,
+                   static_cast<double>(at + 1) * seconds, ratio,
+                   normal_score(ratio, static_cast<double>(length))});
+  }
+  return out;
+}
+
+double misfit_p_value(const MisfitReport& misfit) {
+  const double least =
+      std::min({misfit.spectrum.p_value, misfit.time.p_value, misfit.kurtosis.p_value});
+  return 1.0 - std::pow(1.0 - least, 3.0);
+}
+
+}  // namespace imunoise

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/effect/subject.h"
+
+namespace imunoise {
+
+/// The causes of a coupling to a witness.
+std::vector<Cause> coupling_causes();
+
+/// What a coupling to a witness is called: by the witness's quantity, else by its name.
+std::string_view coupling_effect(Quantity subject, const Witness& witness);
+/// True for a witness of which nothing says what it measures.
+bool measures_unknown(const Witness& witness);
+/// Couplings to surroundings that nobody recorded: what stood still is no suspect.
+std::vector<std::string_view> unrecorded_couplings(const Subject& subject);
+/// True where both sensors could feel the same motion, so that it need not be the one leaking into
+/// the other.
+bool may_share_motion(Quantity subject, const Witness& witness);
+/// True for a gyroscope beside an accelerometer, which sees the bench tilt.
+bool feels_rocking(Quantity subject, const Witness& witness);
+
+}  // namespace imunoise

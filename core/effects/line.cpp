@@ -1,0 +1,300 @@
+// line: a sine wave, and multiples of its frequency.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/effect/columns.h"
+#include "core/search/peak.h"
+#include "core/search/search_view.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/spectrum/fourier.h"
+#include "core/support/parallel.h"
+
+namespace imunoise::effects {
+
+const Effect& line();
+
+namespace {
+
+using Index = Eigen::Index;
+
+enum LineParameter : std::size_t { kLineFrequency, kLineHarmonics, kLineAmplitude };
+
+int harmonics_of(const EffectTerm& term) { return static_cast<int>(term[kLineHarmonics]); }
+
+Shape line_shape(const EffectTerm& term, const Subject& subject) {
+  return waves(term[kLineFrequency] / subject.rate.value, harmonics_of(term));
+}
+
+Result<void> check_line(const EffectTerm& term, const Subject& subject) {
+  if (term[kLineFrequency] * term[kLineHarmonics] > 0.5 * subject.rate.value)
+    return too_fast(term, subject);
+  double longest = 0.0;  // s
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    longest = std::max(longest, subject.seconds(k));
+  if (term[kLineFrequency] * longest < 0.5)
+    return unfit(term, fmt::format("no replicate is as long as half a period ({:.6g} s)", longest));
+  return {};
+}
+
+Regressors line_regressors(const EffectTerm& term, const Subject& subject) {
+  std::vector<std::string> names;
+  for (int h = 1; h <= harmonics_of(term); ++h) {
+    names.push_back(fmt::format("cosine_{}", h));
+    names.push_back(fmt::format("sine_{}", h));
+  }
+  return shaped(subject, true, names, [&](Index) { return line_shape(term, subject); });
+}
+
+void add_line(const EffectTerm& term, const Subject& subject, std::size_t,
+              const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
+  line_shape(term, subject).add(coefficients, to);
+}
+
+// The multiple h has a random phase and the amplitude of the fundamental over h.
+void simulate_line(const EffectTerm& term, const SimulatedReplicate& at, Eigen::VectorXd& samples) {
+  Eigen::VectorXd coefficients(2 * harmonics_of(term));
+  for (int h = 0; h < harmonics_of(term); ++h) {
+    const std::complex<double> phase(at.random.normal(), at.random.normal());
+    const double scale = term[kLineAmplitude] / (std::abs(phase) * (h + 1));
+    coefficients(2 * h) = scale * phase.real();
+    coefficients(2 * h + 1) = scale * phase.imag();
+  }
+  add_line(term, at.beside, at.replicate, coefficients, samples);
+}
+
+// Amplitude of each multiple, over all replicates: root mean square less what noise adds.
+std::vector<ReportedNumber> line_numbers(const FittedEffect& effect) {
+  const Index first = effect.model.regression.first(effect.number);
+  const EffectCoefficients& found = effect.model.fit.effects;
+  const int harmonics = harmonics_of(effect.term());
+  const std::size_t count = effect.subject().replicates();
+  const auto replicates = static_cast<double>(count);
+  std::vector<ReportedNumber> out;
+  for (int h = 0; h < harmonics; ++h) {
+    double square = 0.0;
+    double noise = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Index at = first + 2 * (static_cast<Index>(k) * harmonics + h);
+      square += found.value.segment(at, 2).squaredNorm();
+      noise += found.covariance(at, at) + found.covariance(at + 1, at + 1);
+    }
+    const double amplitude = std::sqrt(std::max(0.0, square - noise) / replicates);
+    const double error = std::sqrt(0.5 * noise) / replicates;
+    out.push_back(with_error({harmonics == 1 ? "amplitude" : fmt::format("amplitude_{}", h + 1),
+                              amplitude, unit_of(effect.term(), effect.subject())},
+                             error));
+  }
+  return out;
+}
+
+// A wave of fewer periods than this in a replicate is a trend like any other.
+constexpr double kFewestPeriods = 8.0;
+
+// The shortest quick length ≥ n.
+Index padded_length(Index n) {
+  auto out = static_cast<std::size_t>(n);
+  while (quick_length(out) != out) ++out;
+  return static_cast<Index>(out);
+}
+
+double level_at(const Current& current, std::size_t k, double f) {
+  const Eigen::ArrayXd& s = current.spectrum[k];
+  const auto place = static_cast<Index>(std::lround(2.0 * f * static_cast<double>(s.size() + 1)));
+  return s(std::clamp<Index>(place - 1, 0, s.size() - 1));
+}
+
+// Log-likelihood gained by a wave of any phase and size in a replicate, at frequencies i/2N.
+Eigen::ArrayXd line_gains(const Current& current, std::size_t k, Index padded) {
+  const Eigen::VectorXd& u = current.weighted[k];
+  std::vector<double> series(static_cast<std::size_t>(padded), 0.0);
+  std::copy(u.data(), u.data() + u.size(), series.begin());
+  const std::vector<std::complex<double>> spectrum = half_spectrum(std::move(series));
+  Eigen::ArrayXd out(static_cast<Index>(spectrum.size()));
+  for (Index i = 0; i < out.size(); ++i) {
+    const double f = static_cast<double>(i) / static_cast<double>(padded);
+    out(i) = std::norm(spectrum[static_cast<std::size_t>(i)]) * level_at(current, k, f) /
+             static_cast<double>(u.size());
+  }
+  return out;
+}
+
+// The same at one frequency, cycles per sample, over all replicates.
+double line_gain(const Current& current, double f) {
+  double out = 0.0;
+  for (std::size_t k = 0; k < current.weighted.size(); ++k) {
+    const Eigen::VectorXd& u = current.weighted[k];
+    const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * f);
+    std::complex<double> sum = 0.0;
+    for (Index t = u.size() - 1; t >= 0; --t) sum = sum * turn + u(t);
+    out += std::norm(sum) * level_at(current, k, f) / static_cast<double>(u.size());
+  }
+  return out;
+}
+
+// True where a frequency is that of 50 or 60 Hz mains or of a low multiple, folded; mains wander by
+// 0.1 %.
+bool is_folded_mains(double hertz, double rate, double resolution) {
+  for (const double mains : {50.0, 60.0}) {
+    for (int multiple = 1; multiple <= 4; ++multiple) {
+      const double high = mains * multiple;
+      if (high < 0.5 * rate) continue;
+      const double folded = std::abs(high - rate * std::round(high / rate));
+      if (folded > 0.0 && std::abs(folded - hertz) <= 0.001 * high + resolution) return true;
+    }
+  }
+  return false;
+}
+
+// Of the shortest and the longest replicate, samples.
+std::pair<Index, Index> lengths(const Subject& subject) {
+  std::pair<Index, Index> out{subject.length(0), subject.length(0)};
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    out.first = std::min(out.first, subject.length(k));
+    out.second = std::max(out.second, subject.length(k));
+  }
+  return out;
+}
+
+// The wave that explains most.
+Suggestion best_wave(const Current& current) {
+  const Subject& subject = current.subject();
+  const auto [shortest, longest] = lengths(subject);
+  const Index padded = padded_length(2 * longest);
+  std::vector<Eigen::ArrayXd> each(subject.replicates());
+  for_each_index(each.size(), [&](std::size_t k) { each[k] = line_gains(current, k, padded); });
+  Eigen::ArrayXd sum = each[0];
+  for (std::size_t k = 1; k < each.size(); ++k) sum += each[k];
+  Suggestion out{.cause = "line", .added = EffectTerm(line())};
+  const auto first = static_cast<Index>(
+      std::ceil(kFewestPeriods * static_cast<double>(padded) / static_cast<double>(shortest)));
+  if (first >= sum.size() - 2) return out;
+  Index best = first;
+  sum.segment(first, sum.size() - 1 - first).maxCoeff(&best);
+  best += first;
+  const double step = 1.0 / static_cast<double>(padded);
+  const double near = static_cast<double>(best) * step;
+  const Peak peak = peak_between(near - step, near + step, 0.25 * step,
+                                 [&](double at) { return line_gain(current, at); });
+  const double rate = subject.rate.value;
+  const double hertz = peak.at * rate;
+  out.added = EffectTerm(line(), "", {{"f", hertz}});
+  out.score_nats = peak.gain;
+  out.dof = 2.0 * static_cast<double>(each.size());
+  out.shape_error = peak.error * rate;
+  for (std::size_t k = 0; k < each.size(); ++k)
+    out.information += 0.5 * static_cast<double>(subject.length(k)) / level_at(current, k, peak.at);
+  // A wave's score turns by π T/√3 rad per Hz: the spread of time within a replicate.
+  out.search.path = 0.5 * std::numbers::pi / std::sqrt(3.0) * static_cast<double>(longest);
+  if (is_folded_mains(hertz, rate, rate / static_cast<double>(longest))) out.cause = "mains_alias";
+  return out;
+}
+
+// Multiples of a fundamental, which may be any of the first four of them; `f` in cycles per sample.
+std::optional<Suggestion> best_harmonics(const Current& current, const Suggestion& wave, double f) {
+  const Subject& subject = current.subject();
+  const Index shortest = lengths(subject).first;
+  for (int order = 1; order <= 4; ++order) {
+    const double fundamental = f / order;
+    const int most = std::min(12, static_cast<int>(0.495 / fundamental));
+    if (fundamental * static_cast<double>(shortest) < kFewestPeriods || most < 2) continue;
+    double total = 0.0;
+    double kept = 0.0;
+    int count = 0;
+    int shown = 0;
+    for (int h = 1; h <= most; ++h) {
+      const double gain = h == order ? wave.score_nats : line_gain(current, h * fundamental);
+      total += gain;
+      constexpr double kShownNats = 6.0;
+      if (gain < kShownNats + 0.5 * wave.dof) continue;
+      ++shown;
+      kept = total;
+      count = h;
+    }
+    if (shown < 2 || 2 * shown < count) continue;
+    Suggestion out{.cause = "harmonics",
+                   .added = EffectTerm(line(), "",
+                                       {{"f", fundamental * subject.rate.value},
+                                        {"harmonics", static_cast<double>(count)}}),
+                   .score_nats = kept,
+                   .dof = wave.dof * count,
+                   .search = wave.search,
+                   .shape_error = wave.shape_error / order};
+    out.search.log_places = std::log(4.0 * most);
+    return out;
+  }
+  return std::nullopt;
+}
+
+Suggestions search_line(const SearchView& view) {
+  const Current& current = view.current();
+  const Suggestion wave = best_wave(current);
+  const double hertz = std::get<EffectTerm>(wave.added)[kLineFrequency];
+  if (!(hertz > 0.0)) return {};
+  Suggestions out{wave};
+  if (auto more = best_harmonics(current, wave, hertz / view.subject().rate.value))
+    out.push_back(std::move(*more));
+  return out;
+}
+
+}  // namespace
+
+const Effect& line() {
+  static const Effect kLine{
+      .name = "line",
+      .title = "sine wave",
+      .meaning = "Adds a wave and multiples of its frequency, with phases of each replicate.",
+      .parameters = {{.name = "f",
+                      .meaning = "frequency",
+                      .unit = "Hz",
+                      .required = true,
+                      .reported = "frequency_hz",
+                      .rounding = Rounding::kByError,
+                      .error = ShapeError::kAbsolute},
+                     {.name = "harmonics",
+                      .meaning = "number of multiples of the frequency, itself included",
+                      .form = ParameterForm::kWholeNumber,
+                      .absent = 1.0,
+                      .lower = 1.0,
+                      .upper = 50.0},
+                     {.name = "amplitude",
+                      .meaning = "amplitude of the fundamental; the multiple h has an h-th of it",
+                      .reported = "amplitude",
+                      .truth = true}},
+      .coefficient = "amplitude",
+      .anywhere = true,
+      .causes = {{.id = "line",
+                  .title = "sine wave",
+                  .physics = "A fan, a pump or a building vibrates at one frequency.",
+                  .record_next = "the same with fans and pumps off, one after the other",
+                  .looks_like = {"resonance", "harmonics", "mains_alias"},
+                  .family = "line"},
+                 {.id = "harmonics",
+                  .title = "sine wave and its multiples",
+                  .physics = "A rotating machine shakes the bench at its speed and at multiples of "
+                             "it.",
+                  .record_next = "the same with machines off, one after the other",
+                  .looks_like = {"line", "mains_alias"},
+                  .family = "line"},
+                 {.id = "mains_alias",
+                  .title = "folded mains frequency",
+                  .physics = "The mains, or a multiple, is folded below half the sampling rate.",
+                  .record_next = "the same at another sampling rate: the line moves; and on a "
+                                 "battery: it goes",
+                  .looks_like = {"line"},
+                  .family = "line"}},
+      .check = check_line,
+      .regressors = line_regressors,
+      .add = add_line,
+      .simulate = simulate_line,
+      .search = search_line,
+      .numbers = line_numbers,
+  };
+  return kLine;
+}
+
+}  // namespace imunoise::effects

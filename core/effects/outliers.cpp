@@ -1,0 +1,159 @@
+// outliers: single samples that something disturbed.
+
+#include <cmath>
+
+#include "core/effect/columns.h"
+#include "core/effects/draws.h"
+#include "core/search/search_view.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/distributions.h"
+#include "core/support/parallel.h"
+
+namespace imunoise::effects {
+
+const Effect& outliers();
+
+namespace {
+
+using Index = Eigen::Index;
+
+enum OutliersParameter : std::size_t { kOutliersAbove, kOutliersShare, kOutliersSize };
+
+std::string_view outliers_fault(const EffectTerm& term) {
+  constexpr double kLeastAbove = 3.0;
+  if (term[kOutliersAbove] >= kLeastAbove) return {};
+  return "above is at least 3 standard deviations: less is noise";
+}
+
+// Samples that stand out from what the noise before and after them makes likely.
+struct Outliers {
+  std::vector<std::vector<Index>> places;  // of each replicate
+  std::vector<std::vector<double>> sizes;  // unit
+  double above = 0.0;                      // the threshold
+  double gain_nats = 0.0;                  // log-likelihood that taking them out gains
+  std::size_t count = 0;
+};
+
+// Those beyond `above` standard deviations of what single samples can be told by (the matched
+// filter of an impulse under the noise); of neighbours, the largest.
+Outliers find_outliers(const Current& current, double above) {
+  const std::size_t count = current.weighted.size();
+  Outliers out{std::vector<std::vector<Index>>(count), std::vector<std::vector<double>>(count),
+               above};
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::VectorXd& u = current.weighted[k];
+    const double information = (1.0 / current.spectrum[k]).mean();
+    const double least = above * std::sqrt(information);
+    for (Index t = 0; t < u.size(); ++t) {
+      const double size = std::abs(u(t));
+      if (size < least) continue;
+      const bool peak = (t == 0 || size >= std::abs(u(t - 1))) &&
+                        (t + 1 == u.size() || size > std::abs(u(t + 1)));
+      if (!peak) continue;
+      out.places[k].push_back(t);
+      out.sizes[k].push_back(u(t) / information);
+      out.gain_nats += 0.5 * size * size / information;
+      ++out.count;
+    }
+  }
+  return out;
+}
+
+// The threshold that noise of this many samples passes once in 20 recordings.
+double outlier_threshold(const Subject& subject) {
+  double samples = 0.0;
+  for (const SharedVector& x : subject.samples) samples += static_cast<double>(x.size());
+  constexpr double kOnceIn = 20.0;
+  return normal_quantile(1.0 - 0.5 / (kOnceIn * samples));
+}
+
+// The subject with them taken out. Sizes are estimates, so the noise beneath them stays, less one
+// degree of freedom each.
+std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& outliers) {
+  auto out = std::make_shared<Subject>(subject);
+  out->own_nats.resize(out->samples.size(), 0.0);
+  for_each_index(out->samples.size(), [&](std::size_t k) {
+    if (outliers.places[k].empty()) return;
+    out->own_nats[k] +=
+        0.5 * outliers.above * outliers.above * static_cast<double>(outliers.places[k].size());
+    Eigen::VectorXd samples = out->samples[k];
+    for (std::size_t i = 0; i < outliers.places[k].size(); ++i)
+      samples(outliers.places[k][i]) -= outliers.sizes[k][i];
+    samples.array() -= samples.mean();
+    out->cosines[k] = cosine_transform(samples);
+    out->samples[k] = std::move(samples);
+  });
+  return out;
+}
+
+std::shared_ptr<const Subject> without_outliers(const EffectTerm& term, const Current& current) {
+  return without(current.subject(), find_outliers(current, term[kOutliersAbove]));
+}
+
+void simulate_outliers(const EffectTerm& term, const SimulatedReplicate& at,
+                       Eigen::VectorXd& samples) {
+  for (double& x : samples) {
+    if (uniform_number(at.random) < term[kOutliersShare])
+      x += std::copysign(term[kOutliersSize], at.random.normal());
+  }
+}
+
+Suggestions search_outliers(const SearchView& view) {
+  const Subject& subject = view.subject();
+  const double above = outlier_threshold(subject);
+  const Outliers found = find_outliers(view.current(), above);
+  if (found.count == 0) return {};
+  double samples = 0.0;
+  for (const SharedVector& x : subject.samples) samples += static_cast<double>(x.size());
+  const auto count = static_cast<double>(found.count);
+  // So many places out of all samples: about log(samples^count / count!).
+  return {{.cause = "outliers",
+           .added = EffectTerm(outliers(), "", {{"above", above}}),
+           .score_nats = found.gain_nats,
+           .dof = count,
+           .search = {.log_places = count * std::log(samples) - std::lgamma(count + 1.0) +
+                                    log_number(count)}}};
+}
+
+void outlier_numbers(const TriedTerm& tried, std::vector<ReportedNumber>& first,
+                     std::vector<ReportedNumber>&) {
+  first.push_back({"count", tried.suggestion.dof, "1"});
+}
+
+}  // namespace
+
+const Effect& outliers() {
+  static const Effect kOutliers{
+      .name = "outliers",
+      .title = "outliers",
+      .meaning = "Takes out single samples that stand out from their neighbours.",
+      .parameters = {{.name = "above",
+                      .meaning = "smallest size of an outlier, in standard deviations",
+                      .unit = "1",
+                      .required = true,
+                      .rounding = Rounding::kFourDigits},
+                     {.name = "share",
+                      .meaning = "share of the samples that are disturbed",
+                      .unit = "1",
+                      .upper = 1.0,
+                      .truth = true},
+                     {.name = "size",
+                      .meaning = "size of each disturbance; its sign is random",
+                      .truth = true}},
+      .causes = {{.id = "outliers",
+                  .title = "outliers",
+                  .physics = "Single samples are disturbed: interference, or errors of the "
+                             "transfer.",
+                  .record_next = "the raw words with their checksums",
+                  .looks_like = {"white_noise", "modulated_variance"},
+                  .family = "outliers"}},
+      .fault = outliers_fault,
+      .cleaned = without_outliers,
+      .simulate = simulate_outliers,
+      .search = search_outliers,
+      .more_numbers = outlier_numbers,
+  };
+  return kOutliers;
+}
+
+}  // namespace imunoise::effects

@@ -1,0 +1,104 @@
+// own_powers: every replicate has noise powers of its own.
+
+#include <cmath>
+
+#include "core/effect/columns.h"
+#include "core/search/search_view.h"
+
+namespace imunoise::effects {
+
+const Effect& own_powers();
+
+namespace {
+
+enum OwnPowersParameter : std::size_t { kOwnPowersSpread };
+
+// The model with all that is not a power held as it is.
+Model powers_only(Model model) {
+  for (Term& term : model.terms) {
+    for (std::size_t p = 1; p < term.given.size(); ++p) term.given[p] = true;
+  }
+  return model;
+}
+
+void fit_own_powers(const Regression& regression, JointFit& fit) {
+  fit.log_likelihood = 0.0;
+  for (const BandedPower& one : regression.residual(fit.effects.value)) {
+    const WhittleEstimate found = whittle(powers_only(fit.model.noise), std::span(&one, 1));
+    fit.log_likelihood -= found.objective;
+    fit.own_noise.push_back(found.model);
+  }
+}
+
+void simulate_own_powers(const EffectTerm& term, const SimulatedReplicate& at,
+                         Eigen::VectorXd& samples) {
+  samples *= std::exp(0.5 * term[kOwnPowersSpread] * at.random.normal());
+}
+
+// Powers that could differ between replicates.
+double free_powers(const Model& noise) {
+  double out = 0.0;
+  for (const Term& term : noise.terms) {
+    if (!term.given[0] && values(term.process)[0] > 0.0) ++out;
+  }
+  return out;
+}
+
+Suggestions search_own_powers(const SearchView& view) {
+  const Current& current = view.current();
+  const auto replicates = static_cast<double>(view.subject().replicates());
+  // What modulates the noise has made it differ between replicates, and the likelihood of their
+  // powers does not know.
+  const bool modulated = !current.fit.modulation.empty();
+  if (view.subject().replicates() == 1 || !current.fit.own_noise.empty() || modulated) return {};
+  const EffectTerm own(own_powers());
+  const JointFit apart = joint_fit(current.regression.with(own), current.fit.model.noise);
+  return {{.cause = "replicate_change",
+           .added = own,
+           .score_nats = apart.log_likelihood - current.fit.log_likelihood,
+           .dof = (replicates - 1.0) * free_powers(current.fit.model.noise)}};
+}
+
+// Of the noise that each replicate has of its own, white noise alone explains less than half.
+void review_own_powers(const Current& current, TriedTerm& tried) {
+  const Regression& regression = tried.fitted.regression;
+  const Model& noise = current.fit.model.noise;
+  Model held = noise;
+  for (Term& term : held.terms)
+    term.given.assign(term.given.size(), !std::holds_alternative<WhiteNoise>(term.process));
+  double fast = 0.0;
+  for (const BandedPower& one : regression.residual(tried.fitted.fit.effects.value)) {
+    const std::span<const BandedPower> alone(&one, 1);
+    fast += whittle_objective(noise, alone) - whittle(held, alone).objective;
+  }
+  tried.slow = fast < 0.5 * (tried.fitted.fit.log_likelihood - current.fit.log_likelihood);
+}
+
+}  // namespace
+
+const Effect& own_powers() {
+  static const Effect kOwnPowers{
+      .name = "own_powers",
+      .title = "powers of each replicate",
+      .meaning = "Gives every replicate noise powers of its own.",
+      .parameters = {{.name = "spread",
+                      .meaning = "standard deviation over the replicates of the logarithm of the "
+                                 "noise power",
+                      .unit = "1",
+                      .truth = true}},
+      .causes = {{.id = "replicate_change",
+                  .title = "noise that differs between replicates",
+                  .physics = "The device, its surroundings or its settings were not the same in "
+                             "every replicate.",
+                  .record_next = "more replicates, with everything that could differ written down",
+                  .looks_like = {"modulated_variance"},
+                  .family = "replicate_change"}},
+      .own_noise = fit_own_powers,
+      .simulate = simulate_own_powers,
+      .search = search_own_powers,
+      .review = review_own_powers,
+  };
+  return kOwnPowers;
+}
+
+}  // namespace imunoise::effects

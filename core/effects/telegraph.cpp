@@ -1,0 +1,181 @@
+// telegraph: jumps between two levels, the same two in all replicates.
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/effect/columns.h"
+#include "core/effects/draws.h"
+#include "core/effects/two_levels.h"
+#include "core/search/search_view.h"
+
+namespace imunoise::effects {
+
+const Effect& telegraph();
+
+namespace {
+
+using Index = Eigen::Index;
+
+enum TelegraphParameter : std::size_t { kTelegraphHeight, kTelegraphDwell };
+
+const std::vector<TwoLevelCourse>* courses_in(const EffectTerm& term, const Subject& subject) {
+  const auto* found = subject.found_by<FoundCourses>(term);
+  return found == nullptr ? nullptr : &found->courses;
+}
+
+Regressors telegraph_regressors(const EffectTerm& term, const Subject& subject) {
+  const std::vector<TwoLevelCourse>* const courses = courses_in(term, subject);
+  if (courses == nullptr) return {std::vector<Columns>(subject.replicates()), {}};
+  return in_all(subject, false, {"height"}, [&](std::size_t k) {
+    return Columns{{(*courses)[k].cosines}, {}, {}};
+  });
+}
+
+// The courses are sought under the noise of the fit, and again under that which they leave: noise
+// that took their place hides them.
+FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regression,
+                               const JointFit& fit) {
+  constexpr int kRounds = 3;
+  JointFit under = fit;
+  std::optional<FittedModel> best;
+  double most = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    TwoLevels found = find_two_levels(step_products(current_of(regression, under)));
+    auto subject = std::make_shared<Subject>(regression.subject());
+    subject->own_nats.resize(subject->replicates(), 0.0);
+    for (std::size_t k = 0; k < subject->replicates(); ++k)
+      subject->own_nats[k] += found.courses[k].log_places;
+    const double price = log_places(found.courses);
+    subject->keep(term, std::make_shared<FoundCourses>(std::move(found.courses)));
+    Regression grown = regression.on(subject).with(term);
+    JointFit with = joint_fit(grown, under.model.noise);
+    under = {.model = {with.model.noise, regression.effects()},
+             .effects = regression.under(with.model.noise)};
+    const double worth = with.log_likelihood - price;
+    if (best && worth < most + 1e-6) break;
+    most = worth;
+    best = FittedModel{std::move(grown), std::move(with)};
+  }
+  return std::move(*best);
+}
+
+void simulate_telegraph(const EffectTerm& term, const SimulatedReplicate& at,
+                        Eigen::VectorXd& samples) {
+  const double dwell = term[kTelegraphDwell] * at.beside.rate.value;
+  double level = std::copysign(0.5 * term[kTelegraphHeight], at.random.normal());
+  const auto n = static_cast<double>(samples.size());
+  for (double begin = 0.0; begin < n; level = -level) {
+    const double end = std::min(n, begin - dwell * std::log(uniform_number(at.random)));
+    const auto first = static_cast<Index>(std::ceil(begin));
+    samples.segment(first, static_cast<Index>(std::ceil(end)) - first).array() += level;
+    begin = end;
+  }
+}
+
+// With fewer jumps it is a step.
+Suggestions search_telegraph(const SearchView& view) {
+  constexpr std::size_t kFewestJumps = 3;
+  const EffectTerm term(telegraph());
+  const auto& effects = view.current().regression.effects();
+  if (std::find(effects.begin(), effects.end(), term) != effects.end()) return {};
+  const TwoLevels found = find_two_levels(view.steps());
+  if (found.jumps < kFewestJumps) return {};
+  return {{.cause = "telegraph",
+           .added = term,
+           .score_nats = found.gain_nats,
+           .search = {.log_places = log_places(found.courses)}}};
+}
+
+// Would it show if there were a third level half-way? Of three that are visited alike two explain
+// three quarters. The rest, a third of what they explain under the noise that they leave, must pay
+// for its jumps as the others do; else noise that walks hides it.
+bool levels_show(const TriedTerm& tried) {
+  constexpr double kThird = 1.0 / 3.0;
+  const Regression& regression = tried.fitted.regression;
+  const Index at = regression.first(regression.effects().size() - 1);
+  const EffectCoefficients& found = tried.fitted.fit.effects;
+  const double explained = 0.5 * found.value(at) * found.value(at) / found.covariance(at, at);
+  return kThird * explained > tried.suggestion.search.log_places;
+}
+
+void review_telegraph(const Current&, TriedTerm& tried) {
+  const std::vector<TwoLevelCourse>& courses =
+      *courses_in(*tried.term(), tried.fitted.regression.subject());
+  tried.suggestion.search.log_places = log_places(courses);
+  // A level that is left and never taken again was no level of two.
+  const bool once = std::all_of(courses.begin(), courses.end(),
+                                [](const TwoLevelCourse& one) { return one.jumps.size() <= 1; });
+  if (once) tried.cause = "step";
+  if (!levels_show(tried)) tried.could_be.push_back("step");
+  // Dwells too short to be seen move the levels between the others a little.
+  constexpr double kLittle = 0.05;
+  constexpr double kMoreThanTwo = 0.01;
+  const TestOutcome more = more_levels(tried.fitted, courses);
+  tried.steady =
+      more.p_value > kMoreThanTwo || 0.5 * more.statistic < kLittle * tried.likelihood_gain;
+}
+
+// When the courses leave their first level.
+void add_first_jump(const Subject& subject, const std::vector<TwoLevelCourse>& courses,
+                    std::vector<ReportedNumber>& out) {
+  for (std::size_t k = 0; k < courses.size(); ++k) {
+    if (courses[k].jumps.empty()) continue;
+    const double after = static_cast<double>(courses[k].jumps.front()) / subject.rate.value;
+    out.push_back({"time_s", subject.begins(k) + after, "s"});
+    out.push_back({"replicate", static_cast<double>(subject.parts[k].recorded + 1), "1"});
+    return;
+  }
+}
+
+void telegraph_numbers(const TriedTerm& tried, std::vector<ReportedNumber>& first,
+                       std::vector<ReportedNumber>& last) {
+  const Subject& subject = tried.fitted.regression.subject();
+  const std::vector<TwoLevelCourse>& courses = *courses_in(*tried.term(), subject);
+  const bool step = tried.cause == "step";
+  if (step) add_first_jump(subject, courses, first);
+  double jumps = 0.0;
+  double seconds = 0.0;
+  for (std::size_t k = 0; k < courses.size(); ++k) {
+    jumps += static_cast<double>(courses[k].jumps.size());
+    seconds += subject.seconds(k);
+  }
+  last.push_back({"jumps", jumps, "1"});
+  if (!step) last.push_back({"dwell_s", seconds / jumps, "s"});
+}
+
+}  // namespace
+
+const Effect& telegraph() {
+  static const Effect kTelegraph{
+      .name = "telegraph",
+      .title = "random telegraph noise",
+      .meaning =
+          "Jumps between two levels, the same in all replicates, at times that are found in "
+          "each.",
+      .parameters = {{.name = "height",
+                      .meaning = "distance of the levels",
+                      .reported = "height",
+                      .truth = true},
+                     {.name = "dwell",
+                      .meaning = "mean time between jumps",
+                      .unit = "s",
+                      .reported = "dwell_s",
+                      .truth = true}},
+      .coefficient = "height",
+      .causes = {{.id = "telegraph",
+                  .title = "random telegraph noise",
+                  .physics = "A charge trap fills and empties: the bias jumps between two levels.",
+                  .record_next = "longer than a hundred jumps, at constant temperature",
+                  .looks_like = {"gauss_markov", "step"},
+                  .family = "telegraph"}},
+      .regressors = telegraph_regressors,
+      .fit_with = fit_with_telegraph,
+      .simulate = simulate_telegraph,
+      .search = search_telegraph,
+      .review = review_telegraph,
+      .more_numbers = telegraph_numbers,
+  };
+  return kTelegraph;
+}
+
+}  // namespace imunoise::effects

@@ -1,0 +1,325 @@
+// witness: proportional to another channel, as it is, filtered, or behind a lag.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/effect/columns.h"
+#include "core/effect/filters.h"
+#include "core/effects/couplings.h"
+#include "core/search/lagged_witness.h"
+#include "core/search/search_view.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
+
+namespace imunoise::effects {
+
+const Effect& witness();
+
+namespace {
+
+using Index = Eigen::Index;
+
+enum WitnessParameter : std::size_t {
+  kWitnessLag,
+  kWitnessFrom,
+  kWitnessTo,
+  kWitnessQuadratic,
+  kWitnessDerivative,
+  kWitnessOwn,
+  kWitnessCoefficient,
+};
+
+bool is_on(const EffectTerm& term, WitnessParameter flag) { return term[flag] != 0.0; }
+
+std::string_view witness_fault(const EffectTerm& term) {
+  return term[kWitnessFrom] < term[kWitnessTo] ? "" : "from must lie below to";
+}
+
+Result<void> check_witness(const EffectTerm& term, const Subject& subject) {
+  if (term[kWitnessFrom] >= 0.5 * subject.rate.value) return too_fast(term, subject);
+  return {};
+}
+
+// The movements of a transformed series between two frequencies, in Hz.
+void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate) {
+  const auto per_hertz = 2.0 * static_cast<double>(cosines.size() + 1) / rate;
+  const auto n = static_cast<double>(cosines.size());
+  const auto first = static_cast<Index>(std::min(from * per_hertz, n));
+  const auto last = static_cast<Index>(std::min(to * per_hertz, n));
+  cosines.head(first).setZero();
+  cosines.tail(cosines.size() - last).setZero();
+}
+
+bool as_it_is(const EffectTerm& term) {
+  return !is_on(term, kWitnessQuadratic) && !is_on(term, kWitnessDerivative) &&
+         !(term[kWitnessLag] > 0.0);
+}
+
+// The witness as the term takes it: behind its lag, squared, its change.
+SharedVector witness_samples(const EffectTerm& term, const Witness& channel, std::size_t k,
+                             double rate) {
+  if (as_it_is(term)) return channel.samples[k];
+  const double lag = term[kWitnessLag];
+  Eigen::VectorXd x =
+      lag > 0.0 ? lagged(channel.samples[k], lag * rate) : Eigen::VectorXd(channel.samples[k]);
+  if (is_on(term, kWitnessQuadratic)) x = x.array().square();
+  if (is_on(term, kWitnessDerivative)) x = rate_of_change(x, rate);
+  return x;
+}
+
+// A single column; all frequencies are the samples' own.
+Columns witness_columns(const EffectTerm& term, const Witness& channel, std::size_t k,
+                        double rate) {
+  const SharedVector samples = witness_samples(term, channel, k, rate);
+  const bool transformed = as_it_is(term) && !channel.cosines.empty();
+  const SharedVector cosines =
+      transformed ? channel.cosines[k] : SharedVector(cosine_transform(samples));
+  if (!(term[kWitnessFrom] > 0.0) && !std::isfinite(term[kWitnessTo]))
+    return {{cosines}, {}, {samples}};
+  Eigen::VectorXd part = cosines;
+  keep_between(part, term[kWitnessFrom], term[kWitnessTo], rate);
+  return {{std::move(part)}, {}, {}};
+}
+
+Regressors witness_regressors(const EffectTerm& term, const Subject& subject) {
+  const Witness& channel = *subject.find(term.witness);
+  const bool quadratic = is_on(term, kWitnessQuadratic);
+  return in_all(
+      subject, is_on(term, kWitnessOwn), {quadratic ? "quadratic_coefficient" : "coefficient"},
+      [&](std::size_t k) { return witness_columns(term, channel, k, subject.rate.value); });
+}
+
+void simulate_witness(const EffectTerm& term, const SimulatedReplicate& at,
+                      Eigen::VectorXd& samples) {
+  const double own = is_on(term, kWitnessOwn) ? at.random.normal() : 1.0;
+  const Columns columns =
+      witness_columns(term, *at.beside.find(term.witness), at.replicate, at.beside.rate.value);
+  add_effect(term, at.beside, at.replicate, columns,
+             Eigen::VectorXd::Constant(1, own * term[kWitnessCoefficient]), samples);
+}
+
+std::string witness_unit(const EffectTerm& term, const Subject& subject) {
+  std::string below = unit_of(*subject.find(term.witness));
+  if (is_on(term, kWitnessQuadratic)) below += "²";
+  if (is_on(term, kWitnessDerivative)) below = "(" + below + "/s)";
+  const std::string above(si_symbol(subject.quantity));
+  if (below == above) return "1";
+  return below == "1" ? above : above + "/" + below;
+}
+
+// Sums over all replicates, by the place in the transform of the first: products of the whitened
+// witness with what is left, and its squares. Cumulated from low frequencies up.
+struct Cumulated {
+  Eigen::ArrayXd product;
+  Eigen::ArrayXd square;
+  double gain(Index from, Index to) const {
+    const double p = product(to) - product(from);
+    const double s = square(to) - square(from);
+    return s > 0.0 ? 0.5 * p * p / s : 0.0;
+  }
+};
+
+// At the octaves of frequency: entry i holds all below 2^i/2T. `regressor`: one transform a
+// replicate.
+Cumulated cumulated(const Current& current, const std::vector<SharedVector>& regressor) {
+  const auto octaves =
+      static_cast<Index>(std::ceil(std::log2(static_cast<double>(current.subject().length(0)))));
+  Cumulated out{Eigen::ArrayXd::Zero(octaves + 1), Eigen::ArrayXd::Zero(octaves + 1)};
+  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
+    const Eigen::ArrayXd weighted = regressor[k].array() / current.spectrum[k];
+    Index begin = 0;
+    double product = 0.0;
+    double square = 0.0;
+    for (Index i = 0; i <= octaves; ++i) {
+      const Index end = std::min<Index>(weighted.size(), (Index{1} << i) - 1);
+      product += weighted.segment(begin, end - begin)
+                     .matrix()
+                     .dot(current.cosines[k].segment(begin, end - begin));
+      square += weighted.segment(begin, end - begin)
+                    .matrix()
+                    .dot(regressor[k].segment(begin, end - begin));
+      out.product(i) += product;
+      out.square(i) += square;
+      begin = end;
+    }
+  }
+  return out;
+}
+
+// Parts of the frequencies are tried from here on; below there is too little to tell.
+constexpr Index kFirstOctave = 4;
+
+double edge_of(const Current& current, Index octave) {
+  return std::exp2(static_cast<double>(octave)) * 0.5 / current.subject().seconds(0);
+}
+
+void add_static(const Current& current, const Witness& channel, Suggestions& out) {
+  const Cumulated sums = cumulated(current, channel.cosines);
+  const Index last = sums.product.size() - 1;
+  const EffectTerm whole(witness(), channel.name);
+  out.push_back({.cause = coupling_effect(current.subject().quantity, channel),
+                 .added = whole,
+                 .score_nats = sums.gain(0, last),
+                 .information = sums.square(last),
+                 .coupling = PlainCoupling::kWhole});
+  if (!may_share_motion(current.subject().quantity, channel)) return;
+  // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
+  Suggestion slow{.cause = "tilt", .added = whole, .coupling = PlainCoupling::kBand};
+  Suggestion fast{.cause = "common_vibration", .added = whole, .coupling = PlainCoupling::kBand};
+  slow.search.log_places = fast.search.log_places =
+      std::log(static_cast<double>(last - kFirstOctave));
+  for (Index i = kFirstOctave; i < last; ++i) {
+    const double edge = edge_of(current, i);
+    if (const double gain = sums.gain(0, i); gain > slow.score_nats) {
+      slow.score_nats = gain;
+      std::get<EffectTerm>(slow.added).set("to", edge);
+    }
+    if (const double gain = sums.gain(i, last); gain > fast.score_nats) {
+      fast.score_nats = gain;
+      std::get<EffectTerm>(fast.added).set("from", edge);
+    }
+  }
+  // A bench tilts over minutes; what is faster is vibration.
+  constexpr double kFastestTilt = 0.1;  // Hz
+  if (std::get<EffectTerm>(slow.added)[kWitnessTo] > kFastestTilt) slow.cause = fast.cause;
+  if (slow.score_nats > 0.0) out.push_back(std::move(slow));
+  if (fast.score_nats > 0.0) out.push_back(std::move(fast));
+}
+
+// A gyroscope on a bench that rocks feels how fast the accelerometers' view of gravity turns: at
+// the frequencies where that view is more than the accelerometers' own noise, which are the low
+// ones.
+void add_rocking(const Current& current, const Witness& channel, Suggestions& out) {
+  const Subject& subject = current.subject();
+  if (!feels_rocking(subject.quantity, channel)) return;
+  std::vector<SharedVector> turning;
+  for (const SharedVector& x : channel.samples)
+    turning.emplace_back(cosine_transform(rate_of_change(x, subject.rate.value)));
+  const Cumulated sums = cumulated(current, turning);
+  const Index last = sums.product.size() - 1;
+  const EffectTerm rate(witness(), channel.name, {{"derivative", 1.0}});
+  Suggestion best{.cause = "tilt",
+                  .added = rate,
+                  .score_nats = sums.gain(0, last),
+                  .search = {.log_places = std::log(static_cast<double>(last - kFirstOctave + 1))},
+                  .information = sums.square(last)};
+  for (Index i = kFirstOctave; i < last; ++i) {
+    const double gain = sums.gain(0, i);
+    if (!(gain > best.score_nats)) continue;
+    best.score_nats = gain;
+    best.information = sums.square(i);
+    std::get<EffectTerm>(best.added).set("to", edge_of(current, i));
+  }
+  if (best.score_nats > 0.0) out.push_back(std::move(best));
+}
+
+void add_lagged(const Current& current, const SlowView& view, const Witness& channel,
+                Suggestions& out) {
+  const Subject& subject = current.subject();
+  const std::string_view cause = coupling_effect(subject.quantity, channel);
+  const LaggedWitness behind(view, subject, channel);
+  if (behind.shortest() < behind.longest()) {
+    const auto best_of = [&](const std::function<SlowView::Means(double)>& family) {
+      return view.best_time(behind.shortest(), behind.longest(), false, family);
+    };
+    const SlowView::BestTime best = best_of([&](double lag) { return behind.late(lag); });
+    const SlowView::BestTime backwards = best_of([&](double lag) { return behind.early(lag); });
+    constexpr double kClearly = 3.0;  // nats
+    if (best.gain > 0.0) {
+      out.push_back({.cause = cause,
+                     .added = EffectTerm(witness(), channel.name, {{"lag", best.seconds}}),
+                     .score_nats = best.gain,
+                     .search = {best.path, 0.0},
+                     .information = best.information,
+                     .shape_error = best.log_error,
+                     .backwards = backwards.gain > best.gain + kClearly});
+    }
+  }
+
+  std::vector<Eigen::VectorXd> squares;
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    squares.push_back(view.means(channel.samples[k].array().square().matrix(), k));
+  const Eigen::VectorXd squared = view.whitened(squares);
+  out.push_back({.cause = cause,
+                 .added = EffectTerm(witness(), channel.name, {{"quadratic", 1.0}}),
+                 .score_nats = view.gain(squared, false),
+                 .information = squared.squaredNorm()});
+}
+
+Suggestions search_witness(const SearchView& view) {
+  const Subject& subject = view.subject();
+  if (subject.witnesses.empty()) return {};
+  const SlowView& slow = view.slow();
+  std::vector<Suggestions> each(subject.witnesses.size());
+  for_each_index(each.size(), [&](std::size_t w) {
+    const Witness& channel = subject.witnesses[w];
+    add_static(view.current(), channel, each[w]);
+    add_lagged(view.current(), slow, channel, each[w]);
+    add_rocking(view.current(), channel, each[w]);
+  });
+  Suggestions out;
+  for (const Suggestions& some : each) out.insert(out.end(), some.begin(), some.end());
+  return out;
+}
+
+// What comes before its cause has another.
+void review_witness(const Current&, TriedTerm& tried) {
+  if (tried.suggestion.backwards) tried.could_be.push_back("gauss_markov");
+}
+
+}  // namespace
+
+const Effect& witness() {
+  static const Effect kWitness{
+      .name = "witness",
+      .title = "coupling to a channel",
+      .meaning =
+          "Adds another channel times a coefficient, behind a lag, between two frequencies, "
+          "squared, or its change per second.",
+      .witness = true,
+      .parameters =
+          {{.name = "lag",
+            .meaning = "time constant of a first-order lag",
+            .unit = "s",
+            .reported = "lag_s",
+            .rounding = Rounding::kFourDigits,
+            .error = ShapeError::kLogarithm},
+           {.name = "from",
+            .meaning = "only movements of the witness faster than this",
+            .unit = "Hz",
+            .reported = "from_hz",
+            .rounding = Rounding::kFourDigits},
+           {.name = "to",
+            .meaning = "only movements of the witness slower than this",
+            .unit = "Hz",
+            .absent = std::numeric_limits<double>::infinity(),
+            .reported = "to_hz",
+            .rounding = Rounding::kFourDigits},
+           {.name = "quadratic", .meaning = "the witness squared", .form = ParameterForm::kFlag},
+           {.name = "derivative",
+            .meaning = "the change of the witness per second",
+            .form = ParameterForm::kFlag},
+           {.name = "own",
+            .meaning = "each replicate has a coefficient of its own",
+            .form = ParameterForm::kFlag},
+           {.name = "coefficient",
+            .meaning = "output per unit of the witness; with own, its standard deviation over the "
+                       "replicates",
+            .lower = -1e15,
+            .reported = "coefficient",
+            .truth = true}},
+      .coefficient = "coefficient",
+      .causes = coupling_causes(),
+      .fault = witness_fault,
+      .check = check_witness,
+      .unit = witness_unit,
+      .regressors = witness_regressors,
+      .simulate = simulate_witness,
+      .search = search_witness,
+      .review = review_witness,
+  };
+  return kWitness;
+}
+
+}  // namespace imunoise::effects

@@ -1,0 +1,102 @@
+#include "core/regression/fitted_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/regression/current.h"
+#include "core/support/distributions.h"
+
+namespace imunoise {
+namespace {
+
+// The number of a replicate as it was recorded and, of what follows a cut, when it begins.
+std::string place_of(const Subject& subject, std::size_t replicate) {
+  const std::size_t number = subject.parts[replicate].recorded + 1;
+  if (subject.parts[replicate].first == 0) return std::to_string(number);
+  return fmt::format("{} from {:.6g} s on", number, subject.begins(replicate));
+}
+
+}  // namespace
+
+FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullModel& start,
+                           const Progress& progress) {
+  Regression regression(std::move(subject));
+  for (const EffectTerm& term : start.effects) {
+    if (term.effect->fit_with == nullptr) regression = regression.with(term);
+  }
+  JointFit fit = joint_fit(regression, start.noise, progress);
+  for (const EffectTerm& term : start.effects) {
+    if (term.effect->cleaned == nullptr) continue;
+    regression = regression.on(term.effect->cleaned(term, current_of(regression, fit)));
+    fit = joint_fit(regression, fit.model.noise, progress);
+  }
+  FittedModel out{std::move(regression), std::move(fit)};
+  for (const EffectTerm& term : start.effects) {
+    if (term.effect->fit_with != nullptr)
+      out = term.effect->fit_with(term, out.regression, out.fit);
+  }
+  return out;
+}
+
+FittedModel fit_with(const Current& current, const EffectTerm& term) {
+  if (term.effect->fit_with != nullptr)
+    return term.effect->fit_with(term, current.regression, current.fit);
+  Regression grown = current.regression.with(term);
+  if (term.effect->cleaned != nullptr) grown = grown.on(term.effect->cleaned(term, current));
+  JointFit fit = joint_fit(grown, current.fit.model.noise);
+  return {std::move(grown), std::move(fit)};
+}
+
+std::vector<ReportedNumber> coefficient_numbers(const FittedEffect& effect) {
+  const Regression& regression = effect.model.regression;
+  const EffectCoefficients& found = effect.model.fit.effects;
+  const double stretch =
+      std::isfinite(effect.noise_dof)
+          ? student_quantile(0.975, std::max(1.0, effect.noise_dof)) / interval_reach()
+          : 1.0;
+  const std::string unit = unit_of(effect.term(), effect.subject());
+  std::vector<ReportedNumber> out;
+  for (Eigen::Index i = regression.first(effect.number); i < regression.first(effect.number + 1);
+       ++i) {
+    const CoefficientName& name = regression.coefficients()[static_cast<std::size_t>(i)];
+    const std::string label = name.replicate == CoefficientName::kAll
+                                  ? name.name
+                                  : fmt::format("{} in replicate {}", name.name,
+                                                place_of(regression.subject(), name.replicate));
+    out.push_back(
+        with_error({label, found.value(i), unit}, stretch * std::sqrt(found.covariance(i, i))));
+  }
+  return out;
+}
+
+std::vector<ReportedNumber> fitted_numbers(const FittedEffect& effect) {
+  const Effect& about = *effect.term().effect;
+  return about.numbers == nullptr ? coefficient_numbers(effect) : about.numbers(effect);
+}
+
+std::string unit_of(const EffectTerm& term, const Subject& subject) {
+  if (term.effect->unit != nullptr) return term.effect->unit(term, subject);
+  return std::string(si_symbol(subject.quantity));
+}
+
+EffectTerm with_truth(const EffectTerm& term, const std::vector<ReportedNumber>& found) {
+  EffectTerm out = term;
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    const EffectParameter& about = out.effect->parameters[i];
+    if (!about.truth) continue;
+    double squares = 0.0;
+    double count = 0.0;
+    for (const ReportedNumber& one : found) {
+      const bool whole = one.name == about.reported;
+      if (whole) out.values[i] = one.value;
+      if (whole || !one.name.starts_with(fmt::format("{} in ", about.reported))) continue;
+      squares += one.value * one.value;
+      ++count;
+    }
+    if (count > 0.0) out.values[i] = std::sqrt(squares / count);
+  }
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,95 @@
+#include "core/regression/joint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/spectrum/bands.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr int kRounds = 6;
+constexpr double kSettled = 1e-4;  // nats
+
+}  // namespace
+
+JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress) {
+  JointFit out{.model = {start, regression.effects()}, .effects = regression.under(start)};
+  for (int round = 0; round < kRounds && !progress.stopped(); ++round) {
+    const std::vector<BandedPower> left = pooled(regression.residual(out.effects, out.model.noise));
+    const WhittleEstimate found = whittle(out.model.noise, left, progress);
+    out.model.noise = found.model;
+    out.termination = found.termination;
+    out.effects = regression.under(out.model.noise);
+    const double before = out.log_likelihood;
+    out.log_likelihood =
+        -whittle_objective(out.model.noise, pooled(regression.residual(out.effects.value)));
+    if (regression.coefficients().empty()) break;
+    if (round > 0 && std::abs(out.log_likelihood - before) < kSettled) break;
+  }
+  for (const EffectTerm& term : regression.effects()) {
+    if (term.effect->own_noise != nullptr) term.effect->own_noise(regression, out);
+  }
+  const std::vector<const VarianceCourse*> courses = variance_courses(regression);
+  if (courses.empty()) return out;
+  // Each explains what those before it leave.
+  Innovations white = innovations(regression, out);
+  for (const VarianceCourse* course : courses) {
+    out.modulation.push_back(modulation_by(*course, white));
+    out.log_likelihood += out.modulation.back().log_likelihood;
+    take_out(out.modulation.back(), *course, white);
+  }
+  return out;
+}
+
+Innovations innovations(const Regression& regression, const JointFit& fit) {
+  Innovations out{regression.replicates(), {}};
+  out.white.resize(out.replicates.size());
+  for_each_index(out.white.size(), [&](std::size_t i) {
+    out.white[i] = innovations(regression, fit, out.replicates[i]);
+  });
+  return out;
+}
+
+Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit, std::size_t k) {
+  Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, k);
+  const Bands bands(left.size() + 1);
+  const Eigen::ArrayXd level =
+      spectrum(fit.own_noise.empty() ? fit.model.noise : fit.own_noise[k], bands.frequency);
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    left.segment(begin, bands.edges[static_cast<std::size_t>(b) + 1] - begin) /=
+        std::sqrt(level(b));
+  }
+  Eigen::VectorXd out = rough_inverse_cosine_transform(left);  // white: no digits to lose
+  const std::vector<const VarianceCourse*> courses = variance_courses(regression);
+  for (std::size_t m = 0; m < fit.modulation.size(); ++m)
+    take_out(fit.modulation[m], (*courses[m])[k], out);
+  return out;
+}
+
+std::vector<const VarianceCourse*> variance_courses(const Regression& regression) {
+  std::vector<const VarianceCourse*> out;
+  for (const EffectTerm& term : regression.effects()) {
+    if (term.effect->variance_course != nullptr)
+      out.push_back(&term.effect->variance_course(term, regression.subject()));
+  }
+  return out;
+}
+
+Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Index n) {
+  const Bands bands(n);
+  const Eigen::ArrayXd level = spectrum(noise, bands.frequency);
+  Eigen::ArrayXd out(n - 1);
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    out.segment(begin, bands.edges[static_cast<std::size_t>(b) + 1] - begin).setConstant(level(b));
+  }
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "core/effect/full_model.h"
+#include "core/estimate/whittle.h"
+#include "core/regression/modulation.h"
+#include "core/regression/regression.h"
+
+namespace imunoise {
+
+/// Noise and effects fitted as one model.
+struct JointFit {
+  FullModel model{};               ///< every value of the noise set
+  EffectCoefficients effects{};    ///< of the effects that are regressors
+  std::vector<Model> own_noise{};  ///< of each replicate, where an effect gives it one of its own
+  std::vector<Modulation> modulation{};  ///< one a course of the variance, see variance_courses()
+  double log_likelihood = 0.0;           ///< nats, less what does not depend on the model
+  Termination termination = Termination::kConverged;
+};
+
+/// Maximum of Whittle's likelihood next to `start`, whose values are all set: coefficients by
+/// generalised least squares under the noise, noise from what they leave (with the degrees of
+/// freedom that they took), in turns until neither moves.
+JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress = {});
+
+/// What the replicates that count would be, were the fit true: transformed, divided by the root of
+/// the spectrum, and transformed back; less what
+/// modulates their variance.
+Innovations innovations(const Regression& regression, const JointFit& fit);
+/// Those of one replicate.
+Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit,
+                            std::size_t replicate);
+
+/// The courses that the effects say the variance follows, in their order.
+std::vector<const VarianceCourse*> variance_courses(const Regression& regression);
+
+/// Spectrum of a noise model at the coefficients 1 … n-1 of a cosine transform of length n, taken
+/// as straight within each band. Unit² per cycle/sample.
+Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Eigen::Index n);
+
+}  // namespace imunoise

@@ -1,0 +1,331 @@
+#include "core/regression/regression.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "core/spectrum/bands.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/linear_algebra.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Weights of bands under a model: coefficients over spectrum.
+Eigen::ArrayXd weights(const BandedPower& bands, const Model& noise) {
+  return bands.count / spectrum(noise, bands.frequency);
+}
+
+BandedPower empty_bands(Index n, Hertz rate) {
+  const Bands bands(n);
+  const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(bands.size());
+  return {bands.frequency, bands.count, zero, zero, zero, static_cast<std::size_t>(n), rate};
+}
+
+// Numbers i ≥ j as one.
+Index pair_of(Index i, Index j) { return i * (i + 1) / 2 + j; }
+
+// One series in blocks of so many samples, each less its mean.
+std::vector<SharedVector> cut(const VectorRef& x, std::size_t blocks, Index length) {
+  std::vector<SharedVector> out;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    Eigen::VectorXd block = x.segment(static_cast<Index>(b) * length, length);
+    block.array() -= block.mean();
+    out.emplace_back(std::move(block));
+  }
+  return out;
+}
+
+std::vector<SharedVector> transformed(const std::vector<SharedVector>& blocks) {
+  std::vector<SharedVector> out(blocks.size());
+  for_each_index(out.size(), [&](std::size_t b) { out[b] = cosine_transform(blocks[b]); });
+  return out;
+}
+
+}  // namespace
+
+Regression::Regression(std::shared_ptr<const Subject> subject)
+    : subject_(std::move(subject)), replicates_(subject_->replicates()) {
+  std::iota(replicates_.begin(), replicates_.end(), 0);
+  fill_moments();
+}
+
+void Regression::fill_moments() {
+  moments_.assign(subject_->replicates(), nullptr);
+  for_each_index(moments_.size(), [&](std::size_t k) { extend_moments(k); });
+}
+
+void Regression::extend_moments(std::size_t replicate) {
+  const SharedVector& response = subject_->cosines[replicate];
+  const Bands bands(response.size() + 1);
+  Moments made{empty_bands(response.size() + 1, subject_->rate), {}, {}};
+  made.product.resize(bands.size(), 0);
+  if (moments_[replicate]) made = *moments_[replicate];
+  std::vector<const SharedVector*> all{&response};
+  made.places.clear();
+  for (std::size_t e = 0; e < columns_.size(); ++e) {
+    const Columns& columns = columns_[e]->replicates[replicate];
+    for (std::size_t i = 0; i < columns.places.size(); ++i) {
+      all.push_back(&columns.cosines[i]);
+      made.places.push_back(first_[e] + columns.places[i]);
+    }
+  }
+  const Index known = made.product.cols();
+  const auto size = static_cast<Index>(all.size());
+  made.product.conservativeResize(Eigen::NoChange, pair_of(size, 0));
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    const Index width = bands.edges[static_cast<std::size_t>(b) + 1] - begin;
+    for (Index i = 0; i < size; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        if (pair_of(i, j) < known) continue;
+        made.product(b, pair_of(i, j)) =
+            all[static_cast<std::size_t>(i)]
+                ->segment(begin, width)
+                .dot(all[static_cast<std::size_t>(j)]->segment(begin, width)) /
+            static_cast<double>(width);
+      }
+    }
+  }
+  made.bands.power = made.product.col(0);
+  moments_[replicate] = std::make_shared<const Moments>(std::move(made));
+}
+
+Eigen::ArrayXd Regression::Moments::of_columns(const Eigen::MatrixXd& symmetric) const {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(product.rows());
+  for (Index i = 0; i < symmetric.rows(); ++i) {
+    for (Index j = 0; j <= i; ++j)
+      out += (i == j ? 1.0 : 2.0) * symmetric(i, j) * product.col(pair_of(i + 1, j + 1));
+  }
+  return out;
+}
+
+Regression Regression::with(const EffectTerm& term) const {
+  Regression out = *this;
+  auto columns = std::make_shared<const Regressors>(regressors_of(term, *subject_));
+  out.effects_.push_back(term);
+  out.names_.insert(out.names_.end(), columns->coefficients.begin(), columns->coefficients.end());
+  const bool empty = columns->coefficients.empty();
+  out.columns_.push_back(std::move(columns));
+  out.first_.push_back(static_cast<Index>(out.names_.size()));
+  if (!empty) for_each_index(moments_.size(), [&](std::size_t k) { out.extend_moments(k); });
+  return out;
+}
+
+Regression Regression::without(std::size_t effect) const {
+  Regression out = *this;
+  const auto place = static_cast<std::ptrdiff_t>(effect);
+  const Index taken = first_[effect + 1] - first_[effect];
+  out.effects_.erase(out.effects_.begin() + place);
+  out.columns_.erase(out.columns_.begin() + place);
+  out.names_.erase(out.names_.begin() + first_[effect], out.names_.begin() + first_[effect + 1]);
+  out.first_.erase(out.first_.begin() + place + 1);
+  for (std::size_t e = effect + 1; e < out.first_.size(); ++e) out.first_[e] -= taken;
+  out.fill_moments();
+  return out;
+}
+
+Regression Regression::of(const std::vector<std::size_t>& replicates) const {
+  Regression out = *this;
+  out.replicates_ = replicates;
+  return out;
+}
+
+Regression Regression::on(std::shared_ptr<const Subject> subject) const {
+  Regression out = *this;
+  out.subject_ = std::move(subject);
+  out.fill_moments();
+  return out;
+}
+
+Regression Regression::in_blocks(std::size_t blocks) const {
+  const auto length =
+      static_cast<Index>(quick_length(static_cast<std::size_t>(subject_->length(0)) / blocks));
+  auto parts = std::make_shared<Subject>(
+      Subject{subject_->rate, subject_->quantity, {}, {}, uncut(blocks), {}});
+  parts->samples = cut(subject_->samples[0], blocks, length);
+  parts->cosines = transformed(parts->samples);
+  // Columns are cut below; only noise that follows a witness needs the witness itself.
+  for (const EffectTerm& term : effects_) {
+    if (term.effect->variance_course == nullptr || parts->find(term.witness) != nullptr) continue;
+    const Witness& from = *subject_->find(term.witness);
+    Witness& to = parts->witnesses.emplace_back(Witness{from.name, from.quantity, {}, {}});
+    // The level of a block is part of what it says about the noise there.
+    for (std::size_t b = 0; b < blocks; ++b)
+      to.samples.emplace_back(
+          Eigen::VectorXd(from.samples[0].segment(static_cast<Index>(b) * length, length)));
+    to.cosines = transformed(to.samples);
+  }
+  if (!subject_->own_nats.empty())
+    parts->own_nats.assign(blocks, subject_->own_nats[0] / static_cast<double>(blocks));
+  Regression out(parts);
+  out.effects_ = effects_;
+  out.first_ = first_;
+  out.names_ = names_;
+  for (CoefficientName& name : out.names_) name.replicate = CoefficientName::kAll;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    auto made = std::make_shared<Regressors>();
+    made->replicates.resize(blocks);
+    const auto columns = static_cast<Index>(columns_[e]->replicates[0].places.size());
+    for (Index i = 0; i < columns; ++i) {
+      Eigen::VectorXd samples = Eigen::VectorXd::Zero(subject_->length(0));
+      add_effect(effects_[e], *subject_, 0, columns_[e]->replicates[0],
+                 Eigen::VectorXd::Unit(columns, i), samples);
+      const std::vector<SharedVector> each = cut(samples, blocks, length);
+      double all = 0.0;
+      for (const SharedVector& one : each) all += one.squaredNorm();
+      std::vector<std::size_t> felt;
+      for (std::size_t b = 0; b < blocks; ++b) {
+        constexpr double kNothing = 1e-12;
+        if (!(each[b].squaredNorm() > kNothing * all)) continue;
+        felt.push_back(b);
+        Columns& to = made->replicates[b];
+        to.cosines.emplace_back(cosine_transform(each[b]));
+        to.places.push_back(i);
+      }
+      if (felt.size() == 1)
+        out.names_[static_cast<std::size_t>(first_[e] + i)].replicate = felt.front();
+    }
+    out.columns_.push_back(std::move(made));
+  }
+  out.fill_moments();
+  return out;
+}
+
+Regression::Normal Regression::normal_equations(const Model& noise) const {
+  const auto n = static_cast<Index>(names_.size());
+  Normal out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  for (const std::size_t k : replicates_) {
+    const Moments& at = *moments_[k];
+    const auto q = static_cast<Index>(at.places.size());
+    if (q == 0) continue;
+    const Eigen::VectorXd sum = at.product.matrix().transpose() * weights(at.bands, noise).matrix();
+    for (Index i = 0; i < q; ++i) {
+      const Index row = at.places[static_cast<std::size_t>(i)];
+      out.moment(row) += sum(pair_of(1 + i, 0));
+      for (Index j = 0; j < q; ++j)
+        out.gram(row, at.places[static_cast<std::size_t>(j)]) +=
+            sum(pair_of(1 + std::max(i, j), 1 + std::min(i, j)));
+    }
+  }
+  return out;
+}
+
+EffectCoefficients Regression::under(const Model& noise) const {
+  if (names_.empty()) return {Eigen::VectorXd(0), Eigen::MatrixXd(0, 0)};
+  const Normal normal = normal_equations(noise);
+  const Eigen::MatrixXd covariance = pseudo_inverse(normal.gram).matrix;
+  return {covariance * normal.moment, covariance};
+}
+
+EffectCoefficients Regression::under(const Model& noise, const Eigen::VectorXd& shared) const {
+  if (names_.empty()) return {Eigen::VectorXd(0), Eigen::MatrixXd(0, 0)};
+  Normal normal = normal_equations(noise);
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(shared.size());
+  for (Index i = 0; i < known.size(); ++i) {
+    if (names_[static_cast<std::size_t>(i)].replicate == CoefficientName::kAll)
+      known(i) = shared(i);
+  }
+  normal.moment -= normal.gram * known;
+  for (Index i = 0; i < known.size(); ++i) {
+    if (names_[static_cast<std::size_t>(i)].replicate != CoefficientName::kAll) continue;
+    normal.gram.row(i).setZero();
+    normal.gram.col(i).setZero();
+    normal.moment(i) = 0.0;
+  }
+  const Eigen::MatrixXd covariance = pseudo_inverse(normal.gram).matrix;
+  return {known + covariance * normal.moment, covariance};
+}
+
+std::vector<BandedPower> Regression::residual(const Eigen::VectorXd& coefficients) const {
+  std::vector<BandedPower> out;
+  for (const std::size_t k : replicates_) {
+    const Moments& at = *moments_[k];
+    out.push_back(at.bands);
+    const auto q = static_cast<Index>(at.places.size());
+    if (q == 0) continue;
+    Eigen::VectorXd own(q);
+    for (Index i = 0; i < q; ++i) own(i) = coefficients(at.places[static_cast<std::size_t>(i)]);
+    Eigen::ArrayXd& power = out.back().power;
+    power += at.of_columns(own * own.transpose());
+    for (Index i = 0; i < q; ++i) power -= 2.0 * own(i) * at.product.col(pair_of(1 + i, 0));
+    power = power.max(0.0);
+  }
+  return out;
+}
+
+std::vector<Eigen::ArrayXd> Regression::leverage(const EffectCoefficients& found,
+                                                 const Model& noise) const {
+  std::vector<Eigen::ArrayXd> out;
+  for (const std::size_t k : replicates_) {
+    const Moments& at = *moments_[k];
+    const auto q = static_cast<Index>(at.places.size());
+    Eigen::MatrixXd covariance(q, q);
+    for (Index i = 0; i < q; ++i) {
+      for (Index j = 0; j < q; ++j)
+        covariance(i, j) = found.covariance(at.places[static_cast<std::size_t>(i)],
+                                            at.places[static_cast<std::size_t>(j)]);
+    }
+    out.emplace_back(weights(at.bands, noise) * at.of_columns(covariance));
+  }
+  return out;
+}
+
+std::vector<BandedPower> Regression::residual(const EffectCoefficients& found,
+                                              const Model& noise) const {
+  std::vector<BandedPower> out = residual(found.value);
+  if (names_.empty()) return out;
+  const std::vector<Eigen::ArrayXd> taken = leverage(found, noise);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    // A band that lost all its freedom says nothing; what is left of it must not be divided by.
+    constexpr double kLeast = 1e-3;
+    const Eigen::ArrayXd left = (out[i].count - taken[i]).max(kLeast * out[i].count);
+    out[i].power *= out[i].count / left;
+    out[i].count = left;
+  }
+  return out;
+}
+
+Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients,
+                                             std::size_t replicate) const {
+  Eigen::VectorXd out = subject_->cosines[replicate];
+  for (std::size_t e = 0; e < columns_.size(); ++e) {
+    const Columns& columns = columns_[e]->replicates[replicate];
+    for (std::size_t i = 0; i < columns.places.size(); ++i)
+      out -= coefficients(first_[e] + columns.places[i]) * columns.cosines[i];
+  }
+  return out;
+}
+
+Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients,
+                                             std::size_t replicate) const {
+  Eigen::VectorXd out = subject_->samples[replicate];
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Columns& columns = columns_[e]->replicates[replicate];
+    Eigen::VectorXd own(static_cast<Index>(columns.places.size()));
+    for (std::size_t i = 0; i < columns.places.size(); ++i)
+      own(static_cast<Index>(i)) = -coefficients(first_[e] + columns.places[i]);
+    add_effect(effects_[e], *subject_, replicate, columns, own, out);
+  }
+  return out;
+}
+
+std::vector<BandedPower> pooled(std::span<const BandedPower> replicates) {
+  std::vector<BandedPower> out;
+  for (const BandedPower& one : replicates) {
+    auto same = std::find_if(out.begin(), out.end(), [&](const BandedPower& other) {
+      return other.samples == one.samples;
+    });
+    if (same == out.end()) {
+      out.push_back(one);
+      continue;
+    }
+    same->power = (same->count * same->power + one.count * one.power) / (same->count + one.count);
+    same->count += one.count;
+  }
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,33 @@
+#include "core/search/search_view.h"
+
+namespace imunoise {
+
+const SlowView& SearchView::slow() const {
+  if (!slow_) slow_.emplace(current_);
+  return *slow_;
+}
+
+SlowView::Means SearchView::over_time(const std::function<double(double seconds)>& function) const {
+  const double rate = subject().rate.value;
+  SlowView::Means out;
+  for (std::size_t k = 0; k < subject().replicates(); ++k) {
+    const auto block = static_cast<double>(slow().block(k));
+    Eigen::VectorXd means(subject().length(k) / slow().block(k));
+    for (Eigen::Index i = 0; i < means.size(); ++i)
+      means(i) = function(subject().begins(k) + (static_cast<double>(i) + 0.5) * block / rate);
+    out.push_back(std::move(means));
+  }
+  return out;
+}
+
+const std::vector<StepProducts>& SearchView::steps() const {
+  if (!steps_) steps_ = step_products(current_);
+  return *steps_;
+}
+
+const Innovations& SearchView::innovations() const {
+  if (!innovations_) innovations_ = imunoise::innovations(current_.regression, current_.fit);
+  return *innovations_;
+}
+
+}  // namespace imunoise

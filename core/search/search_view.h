@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/regression/current.h"
+#include "core/search/slow_view.h"
+#include "core/search/step_products.h"
+#include "core/search/suggestion.h"
+
+namespace imunoise {
+
+/// What the searches for effects look at: the current model and views of what it leaves, each made
+/// when a search first asks for it. One thread at a time may ask.
+class SearchView {
+ public:
+  explicit SearchView(const Current& current) : current_(current) {}
+
+  const Current& current() const { return current_; }
+  const Subject& subject() const { return current_.subject(); }
+  const SlowView& slow() const;
+  /// Block means, as SlowView wants them, of a function of the time in s from the first sample of
+  /// what was recorded.
+  SlowView::Means over_time(const std::function<double(double seconds)>& function) const;
+  const std::vector<StepProducts>& steps() const;
+  const Innovations& innovations() const;
+
+ private:
+  const Current& current_;
+  mutable std::optional<SlowView> slow_;
+  mutable std::optional<std::vector<StepProducts>> steps_;
+  mutable std::optional<Innovations> innovations_;
+};
+
+}  // namespace imunoise

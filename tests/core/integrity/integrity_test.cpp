@@ -1,0 +1,89 @@
+// Defects of the samples themselves, and none where there are none.
+
+#include "core/integrity/integrity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/support/random.h"
+
+namespace imunoise {
+namespace {
+
+constexpr std::size_t kSamples = 20'000;
+
+// Normal numbers, rounded to a step where there is one.
+std::vector<double> noise(double step) {
+  RandomStream rng(5);
+  std::vector<double> out(kSamples);
+  for (double& one : out) {
+    one = rng.normal();
+    if (step > 0.0) one = step * std::round(one / step);
+  }
+  return out;
+}
+
+std::vector<std::string> effects(const std::vector<double>& samples) {
+  std::vector<std::string> out;
+  for (const Defect& one : integrity(Signal(std::span<const double>(samples), Hertz{100.0})))
+    out.push_back(one.effect);
+  return out;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Integrity, SoundSamplesAreLeftAlone) {
+  EXPECT_EQ(effects(noise(0.0)), Names{});
+  EXPECT_EQ(effects(noise(0.01)), Names{});
+  EXPECT_EQ(effects(noise(0.5)), Names{});
+}
+
+TEST(Integrity, EachDefectIsNamed) {
+  std::vector<double> repeated = noise(0.01);
+  for (std::size_t t = 101; t < kSamples; t += 100) repeated[t] = repeated[t - 1];
+  EXPECT_EQ(effects(repeated), Names{"duplicated_samples"});
+
+  std::vector<double> held = noise(0.01);
+  std::fill(held.begin() + 5000, held.begin() + 5020, held[5000]);
+  EXPECT_EQ(effects(held), Names{"stuck"});
+
+  std::vector<double> clipped = noise(0.01);
+  for (double& one : clipped) one = std::min(one, 2.5);
+  EXPECT_EQ(effects(clipped), Names{"saturation"});
+
+  // What lies at an end again and again repeats itself, which is no other defect.
+  std::vector<double> wandering = noise(0.01);
+  for (std::size_t t = 0; t < kSamples; ++t) {
+    const double slow = 1.5 * std::sin(0.002 * static_cast<double>(t));
+    wandering[t] = std::clamp(wandering[t] + slow, -2.0, 2.0);
+  }
+  EXPECT_EQ(effects(wandering), (Names{"saturation", "saturation"}));
+
+  EXPECT_EQ(effects(noise(4.0)), Names{"quantisation"});
+  EXPECT_EQ(effects(std::vector<double>(100, 3.0)), Names{"stuck"});
+}
+
+TEST(StuckRuns, AreFoundWhereTheyAre) {
+  std::vector<double> held = noise(0.01);
+  std::fill(held.begin() + 5000, held.begin() + 5020, held[5000]);
+  std::fill(held.begin() + 9000, held.begin() + 9400, held[9000]);
+  const auto runs = stuck_runs(Signal(std::span<const double>(held), Hertz{100.0}));
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].first, 5000U);
+  EXPECT_EQ(runs[0].count, 20U);
+  EXPECT_EQ(runs[1].first, 9000U);
+  EXPECT_EQ(runs[1].count, 400U);
+}
+
+TEST(StuckRuns, ACoarseConverterIsNotStuck) {
+  const std::vector<double> coarse = noise(4.0);
+  EXPECT_TRUE(stuck_runs(Signal(std::span<const double>(coarse), Hertz{100.0})).empty());
+  const std::vector<double> fine = noise(0.5);
+  EXPECT_TRUE(stuck_runs(Signal(std::span<const double>(fine), Hertz{100.0})).empty());
+}
+
+}  // namespace
+}  // namespace imunoise
