@@ -13,6 +13,7 @@
 #include "cli/client/daemon_client.h"
 #include "cli/show.h"
 #include "daemon/catalogue/history.h"
+#include "drivers/codec/wire_format.h"
 #include "drivers/emulator/serving/serve.h"
 #include "imunoise/v1/batch.pb.h"
 #include "imunoise/v1/study.pb.h"
@@ -141,11 +142,8 @@ struct DriversArguments {
   bool names_only = false;
 };
 
-/// How the bytes of a capture are to be read.
-enum class CaptureFormat { kXbus, kCandump, kAdis16405 };
-
 struct DecodeArguments {
-  CaptureFormat format = CaptureFormat::kXbus;
+  drivers::WireFormat format = drivers::WireFormat::kXbus;
   std::string file;                          ///< "-": standard input
   std::optional<std::filesystem::path> dbc;  ///< candump: a database, or
   std::string preset;                        ///< the name of a known IMU.

@@ -25,21 +25,10 @@ namespace {
 using drivers::DecodedSample;
 using drivers::StreamDecoder;
 using drivers::Tally;
+using drivers::WireFormat;
 using DecoderPointer = std::unique_ptr<StreamDecoder>;
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16U;
-
-std::string_view name_of(CaptureFormat format) {
-  switch (format) {
-    case CaptureFormat::kXbus:
-      return "xbus";
-    case CaptureFormat::kCandump:
-      return "candump";
-    case CaptureFormat::kAdis16405:
-      break;
-  }
-  return "adis16405";
-}
 
 Result<drivers::CanChannels> can_channels(const DecodeArguments& arguments) {
   if (!arguments.dbc) {
@@ -61,14 +50,14 @@ Result<drivers::CanChannels> can_channels(const DecodeArguments& arguments) {
 
 Result<DecoderPointer> make_decoder(const DecodeArguments& arguments) {
   switch (arguments.format) {
-    case CaptureFormat::kXbus:
+    case WireFormat::kXbus:
       break;
-    case CaptureFormat::kCandump: {
+    case WireFormat::kCandump: {
       Result<drivers::CanChannels> channels = can_channels(arguments);
       if (!channels) return tl::unexpected(channels.error());
       return DecoderPointer(std::make_unique<drivers::CandumpDecoder>(std::move(*channels)));
     }
-    case CaptureFormat::kAdis16405: {
+    case WireFormat::kAdis16405: {
       const auto scales = drivers::adis16405::count_scales(arguments.sens_avg);
       if (!scales) return tl::unexpected(scales.error());
       return DecoderPointer(std::make_unique<drivers::adis16405::BurstDecoder>(

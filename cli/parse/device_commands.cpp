@@ -24,11 +24,6 @@ Examples:
 
 imunoise reports rejected messages on standard error; with --json also in the last line.)help";
 
-CaptureFormat format_from(const std::string& name) {
-  if (name == "xbus") return CaptureFormat::kXbus;
-  return name == "candump" ? CaptureFormat::kCandump : CaptureFormat::kAdis16405;
-}
-
 ParsedCommand drivers_command(CLI::App& program) {
   CLI::App* const drivers = program.add_subcommand(
       "drivers", "List drivers with their options, and drivers that cannot be loaded");
@@ -60,7 +55,7 @@ ParsedCommand decode_command(CLI::App& program) {
   DecodeArguments& capture = raw->arguments;
   decode->add_option("--format", raw->format, "Format of the capture")
       ->required()
-      ->check(CLI::IsMember({"xbus", "candump", "adis16405"}));
+      ->check(CLI::IsMember(drivers::wire_format_names()));
   decode->add_option("FILE", capture.file, "Capture to decode; - reads standard input")->required();
   auto* const database =
       decode->add_option("--dbc", raw->dbc, "candump: DBC file that describes the messages")
@@ -80,7 +75,8 @@ ParsedCommand decode_command(CLI::App& program) {
   decode->add_flag("--json", capture.json, "Print the summary as the last JSON line");
   return {decode, [raw] {
             DecodeArguments out = raw->arguments;
-            out.format = format_from(raw->format);
+            out.format =
+                drivers::find_wire_format(raw->format).value();  // a member, says its check
             if (!raw->dbc.empty()) out.dbc = raw->dbc;
             return out;
           }};

@@ -84,7 +84,7 @@ std::vector<ParsedCommand> replay_commands(CLI::App& program) {
   replay->add_option("--unit", raw->one["unit"], "Unit of the channels of data files")
       ->type_name("UNIT");
   replay->add_option("--format", raw->one["format"], "Format of SOURCE, if it is a capture")
-      ->check(CLI::IsMember({"xbus", "candump", "adis16405"}));
+      ->check(CLI::IsMember(drivers::wire_format_names()));
   replay
       ->add_option("--preset", raw->one["preset"], "candump: known IMU: mti600, aceinna or mm5.10")
       ->type_name("IMU");

@@ -91,16 +91,19 @@ class MtData2Rows final : public RowMaker {
     }
     const std::int64_t device_time = clock_(*data_.sample_time_fine);
     for (std::size_t s = 0; s < streams_.size(); ++s) {
-      const bool complete = find_numbers(frame.payload, items_[s]);
-      if (numbers_.empty() && s > 0) continue;  // a slower stream is not in every message
-      if (!complete) {
+      const Found found = find_items(items_[s]);
+      if (found == Found::kNothing && s > 0) continue;  // a slower stream is not in every message
+      if (found != Found::kAll) {
         samples.refuse(s, plugin::Reason::kMalformed);
         continue;
       }
       plugin::Row row = samples.add(s, {host_time_ns, *data_.packet_counter, device_time,
                                         flags_of(s, data_.packet_counter, data_.status)});
-      for (std::size_t c = 0; c < numbers_.size(); ++c) {
-        set_number(row, c, numbers_[c].first, numbers_[c].second);
+      std::size_t column = 0;
+      for (const drivers::XsensItemNumbers* const item : found_) {
+        for (std::size_t i = 0; i < item->count; ++i) {
+          set_number(row, column++, drivers::format_of(item->id), data_.numbers[item->first + i]);
+        }
       }
     }
   }
@@ -111,31 +114,27 @@ class MtData2Rows final : public RowMaker {
   }
 
  private:
-  // Collects the numbers of these items, in their order. True where each item has as many as it
-  // should.
-  bool find_numbers(drivers::Bytes payload, const std::vector<std::uint16_t>& ids) {
-    numbers_.clear();
-    std::size_t expected = 0;
+  enum class Found { kNothing, kSome, kAll };
+  // Looks up the items of a stream in the message, in the order of its channels. All: each is there
+  // once, with all its numbers.
+  Found find_items(const std::vector<std::uint16_t>& ids) {
+    found_.clear();
     bool complete = true;
     for (const std::uint16_t id : ids) {
-      expected += drivers::find_number_item(id)->channels.size();
-      const XsensFormat format = drivers::format_of(id);
-      for (drivers::Bytes rest = payload; const auto item = drivers::take_item(rest);) {
-        if (item->id != id) continue;
-        drivers::BigEndianReader in(item->data);
-        while (in.left() >= drivers::size_of(format)) {
-          numbers_.emplace_back(format, drivers::take_number(in, format));
-        }
+      const std::size_t before = found_.size();
+      for (const drivers::XsensItemNumbers& item : data_.items) {
+        if (item.id == id) found_.push_back(&item);
       }
-      complete = complete && numbers_.size() == expected;
+      complete = complete && found_.size() == before + 1 && found_.back()->count > 0;
     }
-    return complete;
+    if (found_.empty()) return Found::kNothing;
+    return complete ? Found::kAll : Found::kSome;
   }
 
   std::vector<std::vector<std::uint16_t>> items_;  // by stream, in the order of its channels
   drivers::XsensSampleClock clock_;
   drivers::MtData2 data_;
-  std::vector<std::pair<XsensFormat, double>> numbers_;
+  std::vector<const drivers::XsensItemNumbers*> found_;  // of one stream, in data_
 };
 
 // Legacy MTData: one stream, without a time of its own.

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "drivers/can/codec/presets.h"
+#include "drivers/codec/wire_format.h"
 #include "drivers/replay/wire/codec.h"
 #include "tests/fuzz/memory_file.h"
 
@@ -15,14 +16,15 @@ using namespace imunoise::replay;
 namespace {
 
 std::unique_ptr<WireCodec> open(std::uint8_t kind, const std::filesystem::path& path) {
-  switch (kind % 3) {
-    case 0:
+  switch (drivers::kWireFormats[kind % drivers::kWireFormats.size()]) {
+    case drivers::WireFormat::kXbus:
       return open_xbus(path, std::nullopt);
-    case 1:
+    case drivers::WireFormat::kCandump:
       return open_candump(path, *drivers::make_preset("mti600"), "mti600", std::nullopt);
-    default:
-      return open_bursts(path, {});
+    case drivers::WireFormat::kAdis16405:
+      break;
   }
+  return open_bursts(path, {});
 }
 
 void replay_all(WireCodec& codec) {

@@ -1,32 +1,32 @@
-#include "drivers/can/codec/candump.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <utility>
 
+#include "drivers/can/codec/candump_reader.h"
 #include "drivers/can/frame_streams.h"
 #include "drivers/replay/wire/codec.h"
+#include "drivers/replay/wire/parsed_file.h"
 
 namespace imunoise::replay {
 namespace {
 
-constexpr std::size_t kLongestLine = 4096;  // far beyond any frame's
-constexpr double kShortest = 1e-3;          // s, that a log takes
+constexpr double kShortest = 1e-3;  // s, that a log takes
+
+using LogFile = ParsedFile<drivers::CandumpReader>;
 
 class CandumpCodec final : public WireCodec {
  public:
   CandumpCodec(const std::filesystem::path& file, drivers::CanChannels channels,
                std::string product, std::optional<double> rate_hz)
-      : path_(file),
-        product_(std::move(product)),
+      : product_(std::move(product)),
         channels_(std::move(channels)),
-        streams_(make_streams(channels_)) {
-    open();
+        streams_(make_streams(channels_)),
+        log_(file) {
+    LogFile whole(file);
     std::optional<std::int64_t> begin_ns;
-    while (read_frame()) {
+    while (read_frame(whole)) {
       if (!begin_ns) begin_ns = time_ns_;
       streams_.hear(frame_, time_ns_);
     }
@@ -36,21 +36,20 @@ class CandumpCodec final : public WireCodec {
       throw plugin::DeviceError(
           IMUNOISE_BAD_OPTION,
           fmt::format("{}: message {} comes once, which tells no rate; give it (rate=100)",
-                      path_.string(), left_out.front().message().name));
+                      file.string(), left_out.front().message().name));
     }
     if (streams_.streams().empty()) {
       throw plugin::DeviceError(
           IMUNOISE_BAD_OPTION,
           fmt::format("{}: no line of candump -L with a message of {}; is it another IMU's?",
-                      path_.string(), product_));
+                      file.string(), product_));
     }
-    open();
   }
 
   drivers::DeviceInfo info() const override { return {streams_.descriptions(), product_}; }
 
   std::optional<std::int64_t> next() override {
-    if (!read_frame()) return std::nullopt;
+    if (!read_frame(log_)) return std::nullopt;
     if (!first_ns_) first_ns_ = time_ns_;
     return time_ns_ - *first_ns_;
   }
@@ -66,34 +65,21 @@ class CandumpCodec final : public WireCodec {
     return std::move(*streams);
   }
 
-  void open() {
-    file_ = std::ifstream(path_, std::ios::binary);
-    if (!file_ || std::filesystem::is_directory(path_)) {
-      throw plugin::DeviceError(IMUNOISE_NOT_FOUND,
-                                path_.string() + ": cannot be read; is it there?");
-    }
-  }
-
-  // The next line that is a frame of data.
-  bool read_frame() {
-    while (std::getline(file_, line_)) {
-      if (!line_.empty() && line_.back() == '\r') line_.pop_back();
-      if (line_.size() > kLongestLine) continue;
-      const auto read = drivers::parse_candump_line(line_);
-      if (!read || read->frame.error || read->frame.remote) continue;
-      frame_ = read->frame;
-      time_ns_ = read->time_ns;
+  // The next frame of data.
+  bool read_frame(LogFile& log) {
+    while (const auto line = log.next()) {
+      if (line->frame.error || line->frame.remote) continue;
+      frame_ = line->frame;
+      time_ns_ = line->time_ns;
       return true;
     }
     return false;
   }
 
-  std::filesystem::path path_;
   std::string product_;
   drivers::CanChannels channels_;
   imunoise::can::FrameStreams streams_;
-  std::ifstream file_;
-  std::string line_;
+  LogFile log_;
   drivers::CanFrame frame_;
   std::int64_t time_ns_ = 0;
   std::optional<std::int64_t> first_ns_;

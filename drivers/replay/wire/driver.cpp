@@ -7,6 +7,7 @@
 
 #include "drivers/can/channel_options.h"
 #include "drivers/can/codec/presets.h"
+#include "drivers/codec/wire_format.h"
 #include "drivers/plugin.h"
 #include "drivers/plugin/or_throw.h"
 #include "drivers/replay/wire/wire_device.h"
@@ -30,7 +31,7 @@ drivers::DriverInfo describe_driver() {
            .type = kText,
            .description = "How its bytes are to be read",
            .required = true,
-           .choices = {"xbus", "candump", "adis16405"}},
+           .choices = drivers::wire_format_names()},
           {.name = "speed",
            .type = kNumber,
            .description = "Times real time; 0: as fast as it is read",
@@ -80,11 +81,7 @@ std::unique_ptr<WireCodec> open_can(const std::string& file, const plugin::Optio
   return open_candump(file, std::move(channels), product, rate_of(options));
 }
 
-std::unique_ptr<WireCodec> open_codec(const plugin::Options& options) {
-  const std::string file = options.text("file");
-  const std::string format = options.text("format");
-  if (format == "xbus") return open_xbus(file, rate_of(options));
-  if (format == "candump") return open_can(file, options);
+std::unique_ptr<WireCodec> open_adis16405(const std::string& file, const plugin::Options& options) {
   drivers::adis16405::Settings settings;
   const auto range = static_cast<unsigned>(std::stoul(options.text("gyro_range")));
   settings.sensitivity_averaging =
@@ -93,6 +90,19 @@ std::unique_ptr<WireCodec> open_codec(const plugin::Options& options) {
     settings.sample_period = plugin::or_throw(drivers::adis16405::sample_period(Hertz{*rate}));
   }
   return open_bursts(file, settings);
+}
+
+std::unique_ptr<WireCodec> open_codec(const plugin::Options& options) {
+  const std::string file = options.text("file");
+  switch (drivers::find_wire_format(options.text("format")).value()) {  // the host checked it
+    case drivers::WireFormat::kXbus:
+      return open_xbus(file, rate_of(options));
+    case drivers::WireFormat::kCandump:
+      return open_can(file, options);
+    case drivers::WireFormat::kAdis16405:
+      break;
+  }
+  return open_adis16405(file, options);
 }
 
 std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,

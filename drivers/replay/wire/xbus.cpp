@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "drivers/replay/wire/byte_file.h"
 #include "drivers/replay/wire/codec.h"
+#include "drivers/replay/wire/parsed_file.h"
 #include "drivers/xsens/codec/frame.h"
 #include "drivers/xsens/codec/items.h"
 #include "drivers/xsens/codec/mtdata2.h"
@@ -80,26 +80,7 @@ class Outputs {
   std::vector<std::uint16_t> order_;
 };
 
-// Whole frames of a capture, one after another.
-class Frames {
- public:
-  explicit Frames(const std::filesystem::path& path) : file_(path) {}
-
-  // Good until the next call.
-  std::optional<XbusFrame> next() {
-    for (;;) {
-      if (auto frame = parser_.next()) return frame;
-      const drivers::Bytes bytes = file_.read();
-      if (bytes.empty()) return std::nullopt;
-      parser_.push(bytes);
-    }
-  }
-  const drivers::XbusParser& parser() const { return parser_; }
-
- private:
-  ByteFile file_;
-  drivers::XbusParser parser_;
-};
+using Frames = ParsedFile<drivers::XbusParser>;
 
 struct Beginning {
   xsens::Setup setup;

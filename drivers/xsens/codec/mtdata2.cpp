@@ -9,15 +9,20 @@
 namespace imunoise::drivers {
 namespace {
 
-void decode_numbers(const XsensNumberItem& item, const XsensItemData& data, DecodedSample& sample,
+void decode_numbers(const XsensNumberItem& item, const XsensItemData& data, MtData2& out,
                     Refusals& refused) {
   const XsensFormat format = format_of(data.id);
+  XsensItemNumbers& numbers = out.items.emplace_back();
+  numbers = {data.id, out.numbers.size(), 0};
   if (data.data.size() != item.channels.size() * size_of(format)) {
     return refused.add(Refusal::kLength);
   }
+  numbers.count = item.channels.size();
+  DecodedSample& sample = out.sample;
   BigEndianReader in(data.data);
   for (const std::string_view channel : item.channels) {
-    append_value(sample, channel, item.si, take_number(in, format), refused);
+    out.numbers.push_back(take_number(in, format));
+    append_value(sample, channel, item.si, out.numbers.back(), refused);
   }
   constexpr std::array<std::string_view, 4> kFrames = {"", "ned", "nwu", "unknown_frame"};
   const std::string_view frame = kFrames[data.id >> 2U & 3U];
@@ -83,7 +88,7 @@ void decode_item(const XsensItemData& item, MtData2& out, Refusals& refused) {
       return append_gnss_satellites(sample, item.data, refused);
     default:
       if (const XsensNumberItem* const numbers = find_number_item(item.id)) {
-        return decode_numbers(*numbers, item, sample, refused);
+        return decode_numbers(*numbers, item, out, refused);
       }
       refused.add(Refusal::kUnknownItem);
   }
@@ -106,6 +111,8 @@ void decode_mtdata2(Bytes payload, MtData2& out, Refusals& refused) {
   out.status.reset();
   out.sample.clear();
   out.sample.stream = "imu";
+  out.items.clear();
+  out.numbers.clear();
   while (const auto item = take_item(payload)) decode_item(*item, out, refused);
   if (!payload.empty()) refused.add(Refusal::kLength);
 }

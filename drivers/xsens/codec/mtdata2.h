@@ -3,6 +3,7 @@
 // MTData2: a message of self-describing items {identifier, length, data}. Source: Xsens MT0101P
 // 2020.A; numbers agree with captures of real devices in all four formats.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,6 +27,13 @@ struct XsensItemData {
 /// empty) where an item is longer than what is left.
 std::optional<XsensItemData> take_item(Bytes& payload);
 
+/// The numbers of one item, as a range of MtData2::numbers; none where its length is wrong.
+struct XsensItemNumbers {
+  std::uint16_t id = 0;  ///< With format and frame.
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
 /// What one MTData2 message says.
 struct MtData2 {
   std::optional<std::uint16_t> packet_counter;
@@ -33,6 +41,9 @@ struct MtData2 {
   std::optional<std::uint32_t> status;            ///< Word, or byte.
   /// stream ("gnss" where the receiver speaks, else "imu"), values and flags; no time, no counter.
   DecodedSample sample;
+  /// Its items of numbers, in their order, and these numbers as the device sent them.
+  std::vector<XsensItemNumbers> items;
+  std::vector<double> numbers;
 };
 
 /// Reads every item of `payload`; unknown items are skipped, those of a wrong length refused.

@@ -60,6 +60,18 @@ TEST_F(Capture, AnXbusDumpWithoutItsBeginningTellsItsOutputs) {
   EXPECT_EQ(session->rows()[50].host_time_ns - session->rows()[0].host_time_ns, 1'000'000'000);
 }
 
+// What looks like the beginning of a long frame hides no frame behind it, even where the capture
+// ends.
+TEST_F(Capture, AFalseBeginningNearTheEndHidesNoFrame) {
+  const auto last = message(20);
+  write(dump(20) + std::string("\xfa\xff\x36\xff\x07\x00", 6) +
+        std::string(last.begin(), last.end()));
+  const auto session = replay({{"rate", "50"}}, "xbus");
+  ASSERT_NE(session, nullptr);
+  ASSERT_TRUE(session->read_rows(21)) << session->failure();
+  EXPECT_EQ(session->rows()[20].counter, 20U);
+}
+
 // Six numbers in all, but not where they belong: acceleration in float32, rate in fixed point.
 TEST_F(Capture, AnMtiMessageWithNumbersInTheWrongItemIsRefused) {
   const auto mixed = [](std::uint16_t index, std::size_t accelerations, std::size_t rates) {
