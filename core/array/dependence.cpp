@@ -1,9 +1,6 @@
 #include "core/array/dependence.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
+#include "core/support/holm.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {
@@ -20,17 +17,10 @@ ArrayModel without_correlation(ArrayModel model) {
 }
 
 void adjust(std::vector<PairDependence>& tests) {
-  std::vector<std::size_t> order(tests.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tests[a].test.p_value < tests[b].test.p_value;
-  });
-  double largest = 0.0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    PairDependence& test = tests[order[i]];
-    largest = std::max(largest, test.test.p_value * static_cast<double>(order.size() - i));
-    test.adjusted_p = std::min(1.0, largest);
-  }
+  std::vector<double> p_values;
+  for (const PairDependence& one : tests) p_values.push_back(one.test.p_value);
+  const std::vector<double> adjusted = holm(p_values);
+  for (std::size_t i = 0; i < tests.size(); ++i) tests[i].adjusted_p = adjusted[i];
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "core/support/distributions.h"
+#include "core/support/roots.h"
 
 namespace imunoise {
 namespace {
 
 constexpr int kNodes = 64;      // of the average over τ²
-constexpr int kHalvings = 60;   // of the search for one τ²
 constexpr double kCrowd = 6.0;  // nodes crowd where τ² is large, which decides small p-values
 
 // Weighted least squares at one τ².
@@ -80,13 +80,8 @@ double tau2_at(std::span<const DatedEstimate> estimates, double u, const Fit& fi
   if (fit(estimates, 0.0).misfit <= u) return 0.0;
   std::vector<DatedEstimate> unweighted(estimates.begin(), estimates.end());
   for (DatedEstimate& one : unweighted) one.variance = 1.0;
-  double low = 0.0;
-  double high = fit(unweighted, 0.0).misfit / u;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (fit(estimates, middle).misfit > u ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const double high = 2.0 * fit(unweighted, 0.0).misfit / u;  // beyond it, whatever is rounded
+  return root_between([&](double tau2) { return fit(estimates, tau2).misfit - u; }, 0.0, high);
 }
 
 // The fiducial law of τ²: where Q(τ²) is each quantile of χ².
@@ -156,15 +151,13 @@ std::optional<ExpectedRange> expected_next(std::span<const DatedEstimate> histor
   const std::vector<Node> nodes = nodes_of(history, Mean{});
   const double centre = mean_of(nodes);
   const auto end = [&](double direction) {
-    double inside = 0.0;
+    const auto above = [&](double distance) {
+      return p_value(nodes, centre + direction * distance, variance) - level;
+    };
+    if (above(0.0) <= 0.0) return centre;
     double outside = std::sqrt(variance);
-    while (p_value(nodes, centre + direction * outside, variance) > level) outside *= 2.0;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      const double p = p_value(nodes, centre + direction * middle, variance);
-      (p > level ? inside : outside) = middle;
-    }
-    return centre + direction * inside;
+    while (above(outside) > 0.0) outside *= 2.0;
+    return centre + direction * root_between(above, 0.0, outside);
   };
   return ExpectedRange{centre, end(-1.0), end(1.0)};
 }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/process/parameter_scale.h"
 #include "core/support/distributions.h"
+#include "core/support/holm.h"
+#include "core/support/roots.h"
 
 namespace imunoise {
 namespace {
@@ -42,12 +43,7 @@ struct Effects {
     if (q(0.0) <= wanted) return 0.0;
     double high = *std::max_element(error2.begin(), error2.end());
     while (q(high) > wanted) high *= 4.0;
-    double low = 0.0;
-    for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
-      const double middle = 0.5 * (low + high);
-      (q(middle) > wanted ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return root_between([&](double between2) { return q(between2) - wanted; }, 0.0, high);
   }
 };
 
@@ -68,18 +64,11 @@ ParameterSpread spread_of(const Effects& effects, const ParameterScale& scale) {
   return out;
 }
 
-// Holm (1979): the smallest p-value times their number, the next times one less, and never falling.
 void correct_for_number(std::vector<ParameterSpread>& all) {
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return all[a].p_value < all[b].p_value; });
-  double least = 0.0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    double& p = all[order[i]].p_value;
-    least = std::max(least, std::min(1.0, p * static_cast<double>(order.size() - i)));
-    p = least;
-  }
+  std::vector<double> p_values;
+  for (const ParameterSpread& one : all) p_values.push_back(one.p_value);
+  const std::vector<double> corrected = holm(p_values);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].p_value = corrected[i];
 }
 
 }  // namespace

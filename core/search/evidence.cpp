@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/support/distributions.h"
+#include "core/support/roots.h"
 
 namespace imunoise {
 namespace {
@@ -47,13 +48,11 @@ double log_p_value(double gain_nats, double dof, double noise_dof, bool power,
 }
 
 double gain_needed(double level, double dof, bool power, const Search& search) {
-  double low = 0.0;
-  double high = 1e3;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (log_p_value(middle, dof, INFINITY, power, search) > std::log(level) ? low : high) = middle;
-  }
-  return high;
+  constexpr double kMost = 1e3;  // nats
+  const auto excess = [&](double gain_nats) {
+    return log_p_value(gain_nats, dof, INFINITY, power, search) - std::log(level);
+  };
+  return excess(kMost) < 0.0 ? root_between(excess, 0.0, kMost) : kMost;
 }
 
 double log_number(double count) { return count > 0.0 ? std::log(count * (count + 1.0)) : 0.0; }
