@@ -5,7 +5,7 @@
 #include "drivers/xsens/codec/items.h"
 #include "drivers/xsens/codec/messages.h"
 #include "drivers/xsens/codec/number.h"
-#include "tests/drivers/wire/capture.h"
+#include "tests/drivers/replay/wire/capture.h"
 
 namespace imunoise::testing {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "tests/drivers/wire/capture.h"
+#include "tests/drivers/replay/wire/capture.h"
 
 namespace imunoise::testing {
 namespace {
