@@ -4,7 +4,7 @@
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
-#include "study/analysis/regressors.h"
+#include "study/analysis/arrays/regressors.h"
 
 namespace imunoise::cli {
 

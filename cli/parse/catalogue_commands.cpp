@@ -3,7 +3,7 @@
 #include "cli/parse/commands.h"
 #include "cli/parse/daemon_options.h"
 #include "cli/parse/raw_analysis.h"
-#include "study/analysis/array_series.h"
+#include "study/analysis/arrays/array_series.h"
 
 namespace imunoise::cli {
 namespace {

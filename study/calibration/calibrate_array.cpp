@@ -6,7 +6,7 @@
 #include <array>
 
 #include "recording/store/across.h"
-#include "study/analysis/array_series.h"
+#include "study/analysis/arrays/array_series.h"
 #include "study/calibration/calibrate_channel.h"
 
 namespace imunoise::study {

@@ -1,13 +1,13 @@
-#include "study/analysis/fault_series.h"
+#include "study/analysis/arrays/fault_series.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/faults/fault_detector.h"
-#include "study/analysis/array_series.h"
-#include "study/analysis/array_setup.h"
-#include "study/analysis/fault_traces.h"
+#include "study/analysis/arrays/array_series.h"
+#include "study/analysis/arrays/array_setup.h"
+#include "study/analysis/arrays/fault_traces.h"
 #include "study/analysis/prepare.h"
 
 namespace imunoise::study {

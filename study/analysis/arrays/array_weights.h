@@ -7,8 +7,8 @@
 #include "core/array/array_estimate.h"
 #include "core/array/virtual_sensor.h"
 #include "imunoise/v1/array.pb.h"
-#include "study/analysis/array_series.h"
-#include "study/analysis/array_setup.h"
+#include "study/analysis/arrays/array_series.h"
+#include "study/analysis/arrays/array_setup.h"
 
 namespace imunoise::study {
 

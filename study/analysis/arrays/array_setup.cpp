@@ -1,4 +1,4 @@
-#include "study/analysis/array_setup.h"
+#include "study/analysis/arrays/array_setup.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/analysis/fault_traces.h"
+#include "study/analysis/arrays/fault_traces.h"
 
 #include <algorithm>
 #include <cmath>

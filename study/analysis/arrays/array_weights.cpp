@@ -1,4 +1,4 @@
-#include "study/analysis/array_weights.h"
+#include "study/analysis/arrays/array_weights.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/analysis/array_parameters.h"
+#include "study/analysis/arrays/array_parameters.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/analysis/array_series.h"
+#include "study/analysis/arrays/array_series.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include "core/array/array_blocks.h"
 #include "core/array/array_whittle.h"
 #include "core/array/dependence.h"
-#include "study/analysis/array_parameters.h"
-#include "study/analysis/array_setup.h"
-#include "study/analysis/array_weights.h"
+#include "study/analysis/arrays/array_parameters.h"
+#include "study/analysis/arrays/array_setup.h"
+#include "study/analysis/arrays/array_weights.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 

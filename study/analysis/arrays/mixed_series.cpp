@@ -1,4 +1,4 @@
-#include "study/analysis/mixed_series.h"
+#include "study/analysis/arrays/mixed_series.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/array/array_whittle.h"
-#include "study/analysis/array_parameters.h"
-#include "study/analysis/array_setup.h"
+#include "study/analysis/arrays/array_parameters.h"
+#include "study/analysis/arrays/array_setup.h"
+#include "study/analysis/arrays/regressors.h"
 #include "study/analysis/prepare.h"
-#include "study/analysis/regressors.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {

@@ -1,4 +1,4 @@
-#include "study/analysis/regressors.h"
+#include "study/analysis/arrays/regressors.h"
 
 #include <fmt/format.h>
 
