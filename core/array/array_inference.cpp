@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/inference/intervals.h"
 #include "core/support/distributions.h"
@@ -19,23 +18,17 @@ double factor(const Latent& latent, const ArrayParameter& parameter, const Pair&
   return latent.acts_on(pair.a) && latent.acts_on(pair.b) ? 1.0 : 0.0;
 }
 
-// The sandwich of a fit's parameters, were the moments to scatter as under `scatter`.
-ArrayCovariance sandwich(const ArrayFit& fit, const ArrayModel& scatter,
-                         const std::vector<ArrayBlock>& blocks,
-                         const std::vector<Eigen::MatrixXd>& roots,
-                         const BlockCovariance& covariance) {
-  const auto p = static_cast<Eigen::Index>(fit.parameters.size());
-  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(p, p);
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(p, p);
+// Covariance of a fit's parameters, were the moments to scatter as under `scatter`.
+ParameterCovariance sandwich(const ArrayFit& fit, const ArrayModel& scatter,
+                             const std::vector<ArrayBlock>& blocks,
+                             const std::vector<Eigen::MatrixXd>& roots,
+                             const BlockCovariance& covariance) {
+  Sandwich out(static_cast<Eigen::Index>(fit.parameters.size()));
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const Eigen::MatrixXd slope =
-        roots[b] * parameter_slopes(fit, blocks[b].pairs, blocks[b].group->scales);
-    const Eigen::MatrixXd spread = roots[b] * covariance(scatter, blocks[b]) * roots[b].transpose();
-    bread += slope.transpose() * slope;
-    meat += slope.transpose() * spread * slope;
+    out.add(roots[b], parameter_slopes(fit, blocks[b].pairs, blocks[b].group->scales),
+            covariance(scatter, blocks[b]));
   }
-  const PseudoInverse inverse = pseudo_inverse(bread);
-  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+  return out.covariance();
 }
 
 }  // namespace
@@ -82,9 +75,7 @@ Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const 
 }
 
 void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& covariance_under) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kHidden = 0.2;  // share of a parameter that other parameters can imitate
-  const ArrayCovariance here = covariance_under(fit.model);
+  const ParameterCovariance here = covariance_under(fit.model);
   fit.covariance = here.matrix;
   const double z = normal_quantile(0.5 + 0.5 * confidence);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -92,8 +83,8 @@ void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& cov
     const auto at = static_cast<Eigen::Index>(i);
     const Latent& latent = fit.model.latents[parameter.latent];
     const double value = value_of(fit.model, parameter);
-    const bool hidden = here.null_share(at) > kHidden;
-    const double error = hidden ? kInfinity : std::sqrt(std::max(fit.covariance(at, at), 0.0));
+    const bool hidden = here.hidden(at);
+    const double error = here.standard_error(at);
     if (hidden || parameter.row != parameter.column) {  // a covariance has no sign to respect
       parameter.estimate = {value, error, value - z * error, value + z * error,
                             hidden ? Observability::kIndistinguishable : Observability::kObserved};

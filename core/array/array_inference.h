@@ -5,6 +5,7 @@
 
 #include "core/array/array_blocks.h"
 #include "core/array/array_estimate.h"
+#include "core/inference/parameter_covariance.h"
 
 namespace imunoise {
 
@@ -13,14 +14,9 @@ namespace imunoise {
 std::vector<ArrayParameter> parameters_of(const ArrayModel& model);
 double value_of(const ArrayModel& model, const ArrayParameter& parameter);
 
-/// Covariance of a fit's parameters.
-struct ArrayCovariance {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd null_share;  ///< near 1 where a parameter cannot be told from the others
-};
-/// What it would be, were the noise that of the model given, which differs from the fit's in its
-/// powers alone.
-using CovarianceUnder = std::function<ArrayCovariance(const ArrayModel& scatter)>;
+/// Covariance of a fit's parameters, were the noise that of the model given, which differs from the
+/// fit's in its powers alone.
+using CovarianceUnder = std::function<ParameterCovariance(const ArrayModel& scatter)>;
 
 /// Fills the estimates of fit.parameters, which are there, and their covariance: intervals on the
 /// scale that suits each.

@@ -6,100 +6,79 @@
 #include <limits>
 
 #include "core/array/array_inference.h"
-#include "core/array/cross_spectra.h"
+#include "core/estimate/band_likelihood.h"
 #include "core/estimate/fisher_scoring.h"
-#include "core/process/parameter_scale.h"
+#include "core/estimate/searched_parameter.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {
 namespace {
 
-ParameterScale scale_of(const ArrayModel& model, const ArrayParameter& parameter) {
-  const Process& process = model.latents[parameter.latent].term.process;
-  return {parameters(process)[parameter.parameter], parameter.parameter};
+const Process& process_of(const ArrayModel& model, const ArrayParameter& parameter) {
+  return model.latents[parameter.latent].term.process;
 }
 
 double get(const ArrayModel& model, const ArrayParameter& parameter) {
-  const double value = value_of(model, parameter);
-  return parameter.parameter == 0 ? value : scale_of(model, parameter).to_scale(value);
+  return parameter.parameter == 0 ? value_of(model, parameter)
+                                  : searched(process_of(model, parameter), parameter.parameter);
 }
 
 void set(ArrayModel& model, const ArrayParameter& parameter, double at) {
   Latent& latent = model.latents[parameter.latent];
-  if (parameter.parameter == 0) {
-    if (latent.matrix()) {
-      latent.power(parameter.row, parameter.column) = at;
-      latent.power(parameter.column, parameter.row) = at;
-    } else {
-      latent.set_scalar(at);
-    }
-    return;
+  if (parameter.parameter > 0) {
+    set_searched(latent.term.process, parameter.parameter, at);
+  } else if (latent.matrix()) {
+    latent.power(parameter.row, parameter.column) = at;
+    latent.power(parameter.column, parameter.row) = at;
+  } else {
+    latent.set_scalar(at);
   }
-  const ParameterInfo about = parameters(latent.term.process)[parameter.parameter];
-  std::vector<double> v = values(latent.term.process);
-  v[parameter.parameter] =
-      std::clamp(scale_of(model, parameter).to_value(at), about.lower, about.upper);
-  set_values(latent.term.process, v);
 }
 
-// How the cross spectra move with a parameter on its search scale: one spectrum times one matrix.
-struct Direction {
-  Eigen::ArrayXd spectrum;
-  Eigen::MatrixXd matrix;
-};
+SpectralDirection direction_of(const ArrayModel& model, const ArrayParameter& parameter,
+                               const Eigen::ArrayXd& frequency) {
+  Latent moved = model.latents[parameter.latent];
+  if (parameter.parameter == 0 && moved.matrix()) {
+    moved.power.setZero();
+    moved.power(parameter.row, parameter.column) = 1.0;
+    moved.power(parameter.column, parameter.row) = 1.0;
+  } else if (parameter.parameter == 0) {
+    moved.set_scalar(1.0);
+  }
+  return {searched_slope(moved.term.process, parameter.parameter, frequency), moved.power};
+}
 
-Direction direction_of(const ArrayModel& model, const ArrayParameter& parameter,
-                       const Eigen::ArrayXd& frequency) {
-  constexpr double kStep = 1e-4;
-  const Latent& latent = model.latents[parameter.latent];
-  if (parameter.parameter > 0) {
-    const double at = get(model, parameter);
-    const auto side = [&](double to) {
-      ArrayModel moved = model;
-      set(moved, parameter, to);
-      return spectrum(moved.latents[parameter.latent].term.process, frequency);
-    };
-    return {(side(at + kStep) - side(at - kStep)) / (2.0 * kStep), latent.power};
+// Matrices as BandLikelihood takes them.
+Eigen::ArrayXXd over_bands(const std::vector<Eigen::MatrixXd>& matrices, Eigen::Index channels) {
+  Eigen::ArrayXXd out(static_cast<Eigen::Index>(matrices.size()), channels * channels);
+  for (std::size_t b = 0; b < matrices.size(); ++b)
+    out.row(static_cast<Eigen::Index>(b)) = matrices[b].reshaped().transpose();
+  return out;
+}
+
+BandLikelihood likelihood_of(const ArrayModel& model, const CrossPower& measured) {
+  Eigen::ArrayXXd expected =
+      Eigen::ArrayXXd::Zero(measured.frequency.size(), model.sensors * model.sensors);
+  for (const Latent& latent : model.latents) {
+    expected += (spectrum(latent.term.process, measured.frequency).matrix() *
+                 latent.power.reshaped().transpose())
+                    .array();
   }
-  Latent unit = latent;
-  if (latent.matrix()) {
-    unit.power.setZero();
-    unit.power(parameter.row, parameter.column) = 1.0;
-    unit.power(parameter.column, parameter.row) = 1.0;
-  } else {
-    unit.set_scalar(1.0);
-  }
-  return {spectrum(latent.term.process, frequency), unit.power};
+  return {measured.count, expected};
 }
 
 Curvature curvature_at(const ArrayModel& model, const std::vector<ArrayParameter>& parameters,
                        std::span<const CrossPower> replicates) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
-  const Eigen::Index entries = model.sensors * model.sensors;
   Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   for (const CrossPower& measured : replicates) {
-    std::vector<Direction> directions;
+    const BandLikelihood likelihood = likelihood_of(model, measured);
+    std::vector<SpectralDirection> directions;
     for (const ArrayParameter& parameter : parameters)
       directions.push_back(direction_of(model, parameter, measured.frequency));
-    const CrossSpectra spectra(model, measured.frequency);
-    Eigen::MatrixXd left(entries, n);
-    Eigen::MatrixXd right(entries, n);
-    for (Eigen::Index b = 0; b < measured.frequency.size(); ++b) {
-      const Eigen::MatrixXd expected = spectra(b);
-      const Eigen::MatrixXd inverse = positive_inverse(expected).matrix;
-      const Eigen::MatrixXd excess =
-          inverse * (measured.power[static_cast<std::size_t>(b)] - expected) * inverse;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const Direction& direction = directions[static_cast<std::size_t>(i)];
-        const Eigen::MatrixXd moved = direction.spectrum(b) * (inverse * direction.matrix);
-        left.col(i) = moved.reshaped();
-        right.col(i) = moved.transpose().reshaped();
-        out.score(i) += 0.5 * measured.count(b) * direction.spectrum(b) *
-                        excess.cwiseProduct(direction.matrix).sum();
-      }
-      // tr(Σ⁻¹ D_i Σ⁻¹ D_j)
-      out.information.noalias() += 0.5 * measured.count(b) * (left.transpose() * right);
-    }
+    const Eigen::MatrixXd slopes = likelihood.slopes(directions);
+    out.information += slopes.transpose() * slopes;
+    out.score += slopes.transpose() * likelihood.excess(over_bands(measured.power, model.sensors));
   }
   return out;
 }
@@ -151,20 +130,17 @@ class ArrayLikelihood {
 
 // Inverse information of the parameters as they are (not on their search scale), were the noise
 // that of `scatter`.
-ArrayCovariance bound(const ArrayFit& fit, const ArrayModel& scatter,
-                      std::span<const CrossPower> replicates) {
+ParameterCovariance bound(const ArrayFit& fit, const ArrayModel& scatter,
+                          std::span<const CrossPower> replicates) {
   const Curvature curvature = curvature_at(scatter, fit.parameters, replicates);
   Eigen::VectorXd per_value(curvature.score.size());
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const ArrayParameter& parameter = fit.parameters[i];
     per_value(static_cast<Eigen::Index>(i)) =
-        parameter.parameter == 0
-            ? 1.0
-            : 1.0 / scale_of(scatter, parameter).slope(value_of(scatter, parameter));
+        1.0 / searched_scale(process_of(scatter, parameter), parameter.parameter);
   }
-  const PseudoInverse inverse =
-      pseudo_inverse(per_value.asDiagonal() * curvature.information * per_value.asDiagonal());
-  return {inverse.matrix, inverse.null_share};
+  return inverse_information(per_value.asDiagonal() * curvature.information *
+                             per_value.asDiagonal());
 }
 
 }  // namespace
@@ -177,16 +153,8 @@ bool has_likelihood(const ArrayModel& model) {
 
 double whittle_objective(const ArrayModel& model, std::span<const CrossPower> replicates) {
   double out = 0.0;
-  for (const CrossPower& measured : replicates) {
-    const CrossSpectra spectra(model, measured.frequency);
-    for (Eigen::Index b = 0; b < measured.frequency.size(); ++b) {
-      const PositiveInverse inverse = positive_inverse(spectra(b));
-      if (!std::isfinite(inverse.log_determinant)) return std::numeric_limits<double>::infinity();
-      out += 0.5 * measured.count(b) *
-             (inverse.log_determinant +
-              inverse.matrix.cwiseProduct(measured.power[static_cast<std::size_t>(b)]).sum());
-    }
-  }
+  for (const CrossPower& measured : replicates)
+    out += likelihood_of(model, measured).objective(over_bands(measured.power, model.sensors));
   return out;
 }
 

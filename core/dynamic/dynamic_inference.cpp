@@ -13,27 +13,20 @@ namespace {
 using Kind = FreeNumber::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHidden = 0.2;  // share of a number that others can imitate
 
 // Sandwich of some numbers of a fit, were the moments to scatter as `covariances` say.
 ParameterCovariance sandwich(const DynamicFit& fit, const std::vector<FreeNumber>& numbers,
                              const std::vector<CovariateBin>& bins, const RunRoots& roots,
                              const BinCovariances& covariances) {
-  const auto n = static_cast<Eigen::Index>(numbers.size());
-  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n, n);
+  Sandwich out(static_cast<Eigen::Index>(numbers.size()));
   for (std::size_t b = 0; b < bins.size(); ++b) {
     const double at = fit.axis(bins[b].covariate);
     for (std::size_t k = 0; k < bins[b].runs.size(); ++k) {
-      const Eigen::MatrixXd& root = roots[b][k];
-      const Eigen::MatrixXd slope =
-          root * jacobian(fit.model, numbers, at, bins[b].runs[k].scales.half_widths());
-      bread += slope.transpose() * slope;
-      meat += slope.transpose() * (root * covariances[b][k] * root.transpose()) * slope;
+      out.add(roots[b][k], jacobian(fit.model, numbers, at, bins[b].runs[k].scales.half_widths()),
+              covariances[b][k]);
     }
   }
-  const PseudoInverse inverse = pseudo_inverse(bread);
-  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+  return out.covariance();
 }
 
 // Covariance of all numbers. A power at zero, or not clear of it, gets the variance that belongs to
@@ -60,16 +53,15 @@ void fill_covariance(DynamicFit& fit, const std::vector<CovariateBin>& bins, con
       const Eigen::Index other = place[static_cast<std::size_t>(j)];
       if (other >= 0) fit.covariance(i, j) = main.matrix(place[at], other);
     }
-    if (place[at] >= 0) fit.hidden[at] = main.null_share(place[at]) > kHidden;
+    if (place[at] >= 0) fit.hidden[at] = main.hidden(place[at]);
     if (number.kind == Kind::kLevel || number.kind == Kind::kSlope) continue;
     std::vector<FreeNumber> with = inside;
     if (place[at] < 0) with.push_back(number);
     const Eigen::Index own = place[at] < 0 ? main.matrix.rows() : place[at];
     const auto error_at = [&](double power) {
       const Model moved = with_power(fit.model, number, power);
-      const ParameterCovariance c =
-          sandwich(fit, with, bins, roots, bin_covariances(moved, fit.axis, bins));
-      return c.null_share(own) > kHidden ? kInfinity : std::sqrt(c.matrix(own, own));
+      return sandwich(fit, with, bins, roots, bin_covariances(moved, fit.axis, bins))
+          .standard_error(own);
     };
     const double value = power_of(fit.model, number);
     const double error = place[at] < 0 ? error_at(0.0) : std::sqrt(fit.covariance(i, i));

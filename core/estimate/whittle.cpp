@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/estimate/band_likelihood.h"
 #include "core/estimate/fisher_scoring.h"
-#include "core/process/parameter_scale.h"
+#include "core/estimate/searched_parameter.h"
 
 namespace imunoise {
 namespace {
@@ -28,27 +28,13 @@ Eigen::ArrayXd residual_power(const BandedPower& bands, const Eigen::ArrayXd& sp
   return bands.power - 2.0 * slope * bands.ramp_cross + ramp2 * bands.ramp_power;
 }
 
-// A free parameter, and the scale that the search moves it on: powers as they are, shapes on
-// theirs.
+// A free parameter.
 struct Coordinate {
   std::size_t term;
   std::size_t parameter;
-  ParameterInfo info;
-  ParameterScale scale() const { return {info, parameter}; }
   bool power() const { return parameter == 0; }
+  const Process& of(const Model& model) const { return model.terms[term].process; }
 };
-
-double get(const Model& model, const Coordinate& c) {
-  const double value = values(model.terms[c.term].process)[c.parameter];
-  return c.power() ? value : c.scale().to_scale(value);
-}
-
-void set(Model& model, const Coordinate& c, double at) {
-  Process& process = model.terms[c.term].process;
-  std::vector<double> v = values(process);
-  v[c.parameter] = c.power() ? at : std::clamp(c.scale().to_value(at), c.info.lower, c.info.upper);
-  set_values(process, v);
-}
 
 // The free parameters but those of ramps, which do not show in the spectrum.
 std::vector<Coordinate> coordinates_of(const Model& model) {
@@ -56,30 +42,16 @@ std::vector<Coordinate> coordinates_of(const Model& model) {
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     const Term& term = model.terms[t];
     if (std::holds_alternative<Drift>(term.process)) continue;
-    const std::vector<ParameterInfo> about = parameters(term.process);
-    for (std::size_t p = 0; p < about.size(); ++p) {
-      if (!term.given[p]) out.push_back({t, p, about[p]});
+    for (std::size_t p = 0; p < term.given.size(); ++p) {
+      if (!term.given[p]) out.push_back({t, p});
     }
   }
   return out;
 }
 
-// d spectrum / d coordinate.
-Eigen::ArrayXd slope_over(const Model& model, const Coordinate& c,
-                          const Eigen::ArrayXd& frequency) {
-  constexpr double kStep = 1e-4;
-  Model moved{{model.terms[c.term]}};
-  const Coordinate there{0, c.parameter, c.info};
-  if (c.power()) {
-    set(moved, there, 1.0);
-    return spectrum(moved, frequency);
-  }
-  const double at = get(moved, there);
-  const auto side = [&](double to) {
-    set(moved, there, to);
-    return spectrum(moved, frequency);
-  };
-  return (side(at + kStep) - side(at - kStep)) / (2.0 * kStep);
+SpectralDirection direction_of(const Model& model, const Coordinate& c,
+                               const Eigen::ArrayXd& frequency) {
+  return {searched_slope(c.of(model), c.parameter, frequency), Eigen::MatrixXd::Ones(1, 1)};
 }
 
 // The ramp's power at its best: the replicates' slopes, each with its sign taken off, averaged.
@@ -105,16 +77,14 @@ Curvature curvature_at(const Model& model, const std::vector<Coordinate>& coordi
   Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   for (const BandedPower& bands : replicates) {
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
-    const Eigen::ArrayXd root = (0.5 * bands.count).sqrt() / s;
-    Eigen::MatrixXd slopes(bands.frequency.size(), n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      slopes.col(i) =
-          (root * slope_over(model, coordinates[static_cast<std::size_t>(i)], bands.frequency))
-              .matrix();
-    }
-    const Eigen::ArrayXd excess = residual_power(bands, s, ramp_power(model)) - s;
+    const BandLikelihood likelihood(bands.count, s);
+    std::vector<SpectralDirection> directions;
+    for (const Coordinate& c : coordinates)
+      directions.push_back(direction_of(model, c, bands.frequency));
+    const Eigen::MatrixXd slopes = likelihood.slopes(directions);
     out.information += slopes.transpose() * slopes;
-    out.score += slopes.transpose() * (root * excess).matrix();
+    out.score +=
+        slopes.transpose() * likelihood.excess(residual_power(bands, s, ramp_power(model)));
   }
   return out;
 }
@@ -125,10 +95,9 @@ void for_each_column(const Model& model, const std::vector<Eigen::Index>& column
                      const Visit& visit) {
   Eigen::Index column = 0;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    const std::vector<ParameterInfo> about = parameters(model.terms[t].process);
-    for (std::size_t p = 0; p < about.size(); ++p, ++column) {
+    for (std::size_t p = 0; p < model.terms[t].given.size(); ++p, ++column) {
       const auto place = std::find(columns.begin(), columns.end(), column);
-      if (place != columns.end()) visit(Coordinate{t, p, about[p]}, place - columns.begin());
+      if (place != columns.end()) visit(Coordinate{t, p}, place - columns.begin());
     }
   }
 }
@@ -140,22 +109,21 @@ double whittle_objective(const Model& model, std::span<const BandedPower> replic
   const double ramp2 = ramp_power(model);
   for (const BandedPower& bands : replicates) {
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
-    if (!(s.minCoeff() > 0.0)) return std::numeric_limits<double>::infinity();
-    out += (0.5 * bands.count * (s.log() + residual_power(bands, s, ramp2) / s)).sum();
+    out += BandLikelihood(bands.count, s).objective(residual_power(bands, s, ramp2));
   }
   return out;
 }
 
 Eigen::MatrixXd whittle_slopes(const Model& model, const BandedPower& bands,
                                const std::vector<Eigen::Index>& columns) {
-  const Eigen::ArrayXd root = (0.5 * bands.count).sqrt() / spectrum(model, bands.frequency);
-  Eigen::MatrixXd out =
-      Eigen::MatrixXd::Zero(bands.frequency.size(), static_cast<Eigen::Index>(columns.size()));
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  const BandLikelihood likelihood(bands.count, spectrum(model, bands.frequency));
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(bands.frequency.size(), n);
   for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
-    if (std::holds_alternative<Drift>(model.terms[c.term].process)) return;
-    const double value = values(model.terms[c.term].process)[c.parameter];
-    const double per_value = c.power() ? 1.0 : 1.0 / c.scale().slope(value);
-    out.col(place) = (root * slope_over(model, c, bands.frequency) * per_value).matrix();
+    const Process& process = c.of(model);
+    if (std::holds_alternative<Drift>(process)) return;
+    const double per_value = 1.0 / searched_scale(process, c.parameter);
+    out.col(place) = per_value * likelihood.slopes({direction_of(model, c, bands.frequency)});
   });
   return out;
 }
@@ -169,7 +137,7 @@ Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPo
     out += slopes.transpose() * slopes;
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
-      const auto* drift = std::get_if<Drift>(&model.terms[c.term].process);
+      const auto* drift = std::get_if<Drift>(&c.of(model));
       if (drift == nullptr) return;
       out(place, place) += (bands.count * bands.ramp_power / s).sum() / (4.0 * drift->omega2);
     });
@@ -183,13 +151,15 @@ WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replica
   Eigen::VectorXd at(static_cast<Eigen::Index>(coordinates.size()));
   Likelihood likelihood;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    at(static_cast<Eigen::Index>(i)) = get(start, coordinates[i]);
+    at(static_cast<Eigen::Index>(i)) = searched(coordinates[i].of(start), coordinates[i].parameter);
     likelihood.cones.push_back(coordinates[i].power() ? 1 : Likelihood::kFree);
   }
   const auto model_at = [&](const Eigen::VectorXd& x) {
     Model out = start;
-    for (std::size_t i = 0; i < coordinates.size(); ++i)
-      set(out, coordinates[i], x(static_cast<Eigen::Index>(i)));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      const Coordinate& c = coordinates[i];
+      set_searched(out.terms[c.term].process, c.parameter, x(static_cast<Eigen::Index>(i)));
+    }
     fit_ramp(out, replicates);
     return out;
   };

@@ -9,8 +9,7 @@ namespace {
 
 ParameterCovariance bound(const Model& model, std::span<const BandedPower> powers,
                           const std::vector<Eigen::Index>& columns) {
-  const PseudoInverse inverse = pseudo_inverse(whittle_information(model, powers, columns));
-  return {inverse.matrix, inverse.null_share};
+  return inverse_information(whittle_information(model, powers, columns));
 }
 
 double weighted_misfit(const Estimate& estimate, std::span<const WaveletVariance> replicates) {

@@ -137,8 +137,8 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
     const ParameterCovariance c =
         parameter_covariance(model, longer, roots, covariances, sets.interior);
     const auto at = static_cast<Eigen::Index>(found - sets.interior.begin());
-    if (c.null_share(at) > 0.2) return 0.0;
-    const double now = z * std::sqrt(c.matrix(at, at));
+    if (c.hidden(at)) return 0.0;
+    const double now = z * c.standard_error(at);
     if (now < estimate.value) {  // between the two, on logarithmic scales
       const double share = std::log(before / estimate.value) / std::log(before / now);
       return factor_before * std::pow(factor / factor_before, std::isfinite(share) ? share : 1.0);

@@ -132,13 +132,13 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
         row.push_back({v[index], 0.0, v[index], v[index], Observability::kGiven});
       } else if (inside < sets.interior.size()) {
         const auto at = static_cast<Eigen::Index>(inside);
-        if (covariance.null_share(at) > 0.2) {
+        if (covariance.hidden(at)) {
           row.push_back({v[index], kInfinity, p == 0 ? 0.0 : about[index].lower,
                          p == 0 ? kInfinity : about[index].upper,
                          Observability::kIndistinguishable});
         } else {
-          row.push_back(interval(about[index], index, v[index],
-                                 std::sqrt(covariance.matrix(at, at)), fit.confidence));
+          row.push_back(interval(about[index], index, v[index], covariance.standard_error(at),
+                                 fit.confidence));
         }
         for (Eigen::Index q = 0; q < size; ++q) {
           const auto other = static_cast<std::size_t>(place(sets.interior, first + q));

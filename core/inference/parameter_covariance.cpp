@@ -34,24 +34,44 @@ Eigen::MatrixXd pick_columns(const Eigen::MatrixXd& matrix,
   return out;
 }
 
+double ParameterCovariance::standard_error(Eigen::Index parameter) const {
+  if (hidden(parameter)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(matrix(parameter, parameter), 0.0));
+}
+
+Sandwich::Sandwich(Eigen::Index parameters)
+    : bread_(Eigen::MatrixXd::Zero(parameters, parameters)), meat_(bread_) {}
+
+void Sandwich::add(const Eigen::MatrixXd& weight_root, const Eigen::MatrixXd& jacobian,
+                   const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd slope = weight_root * jacobian;
+  const Eigen::MatrixXd spread = weight_root * covariance * weight_root.transpose();
+  bread_ += slope.transpose() * slope;
+  meat_ += slope.transpose() * spread * slope;
+}
+
+ParameterCovariance Sandwich::covariance() const {
+  const PseudoInverse inverse = pseudo_inverse(bread_);
+  return {inverse.matrix * meat_ * inverse.matrix, inverse.null_share};
+}
+
+ParameterCovariance inverse_information(const Eigen::MatrixXd& information) {
+  const PseudoInverse inverse = pseudo_inverse(information);
+  return {inverse.matrix, inverse.null_share};
+}
+
 ParameterCovariance parameter_covariance(const Model& model,
                                          std::span<const WaveletVariance> replicates,
                                          const std::vector<Eigen::MatrixXd>& weight_roots,
                                          const MomentCovariances& covariances,
                                          const std::vector<Eigen::Index>& set) {
-  const auto n = static_cast<Eigen::Index>(set.size());
-  Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n, n);
+  Sandwich sandwich(static_cast<Eigen::Index>(set.size()));
   for (std::size_t k = 0; k < replicates.size(); ++k) {
-    const Eigen::MatrixXd& root = weight_roots[k];
-    const Eigen::MatrixXd slope =
-        root * pick_columns(jacobian(model, replicates[k].scales.half_widths()), set);
-    const Eigen::MatrixXd spread = root * covariances[k] * root.transpose();
-    bread += slope.transpose() * slope;
-    meat += slope.transpose() * spread * slope;
+    sandwich.add(weight_roots[k],
+                 pick_columns(jacobian(model, replicates[k].scales.half_widths()), set),
+                 covariances[k]);
   }
-  const PseudoInverse inverse = pseudo_inverse(bread);
-  return {inverse.matrix * meat * inverse.matrix, inverse.null_share};
+  return sandwich.covariance();
 }
 
 Model with_power(Model model, Eigen::Index column, double value) {
@@ -72,9 +92,7 @@ double error_among(
   auto found = std::find(interior.begin(), interior.end(), column);
   if (found == interior.end()) found = interior.insert(found, column);
   const auto at = static_cast<Eigen::Index>(found - interior.begin());
-  const ParameterCovariance covariance = covariance_of(interior);
-  if (covariance.null_share(at) > 0.2) return std::numeric_limits<double>::infinity();
-  return std::sqrt(covariance.matrix(at, at));
+  return covariance_of(interior).standard_error(at);
 }
 
 }  // namespace imunoise
