@@ -15,6 +15,7 @@
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/series.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
@@ -116,6 +117,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   FittedModel model = fit_full_model(subject, *start, progress.part(0.2, 0.25));
   out.set_model(print(model.fit.model));
   out.set_fitted_model(print_with_values(model.fit.model));
+  out.set_estimator(likelihood_estimator(moments_estimator(subject->replicates())));
   LeftOver left = left_over(model);
   *out.mutable_before() = budget_of(model, left);
   add_integrity(series_of(look.recorded, look.channel), out);

@@ -206,6 +206,8 @@ v1::Rung rung_of(const FittedModel& trial, const LeftOver& left, const Step& ste
     out.set_heldout_upper(heldout->mean_error() + reach);
   }
   out.set_fitted_model(print_with_values(trial.fit.model));
+  out.set_estimator(
+      likelihood_estimator(moments_estimator(trial.regression.subject().replicates())));
   const std::vector<EffectTerm>& effects = trial.regression.effects();
   for (std::size_t e = 0; e < effects.size(); ++e) {
     v1::FittedEffect& one = *out.add_effects();

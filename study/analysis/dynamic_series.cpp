@@ -238,6 +238,7 @@ Result<v1::DynamicReport> dynamic_series(const Series& series, const CovariateDa
   out.set_model(print(*model));
   out.set_termination(std::string(describe(fit.termination)));
   out.set_objective(fit.objective);
+  out.set_estimator("dynamic GMWM");
   out.set_confidence(fit.confidence);
   add_bins(fit, covariate.bins, out);
   add_trends(fit, *bins, quantity, out);

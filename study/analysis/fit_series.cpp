@@ -7,6 +7,7 @@
 #include "core/inference/efficient_fit.h"
 #include "core/spectrum/cross_power.h"
 #include "study/analysis/prepare.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
@@ -39,8 +40,8 @@ Fit estimate(const Series& series, const Model& model, const std::vector<Wavelet
 
 std::string name_of(Estimator estimator, std::size_t replicates) {
   if (estimator == Estimator::kAGmwm) return "AGMWM";
-  const std::string moments = replicates > 1 ? "MuGMWM" : "GMWM";
-  return estimator == Estimator::kWhittle ? moments + " + Whittle" : moments;
+  const std::string moments = moments_estimator(replicates);
+  return estimator == Estimator::kWhittle ? likelihood_estimator(moments) : moments;
 }
 
 // Terms of which moments at dyadic scales see little (docs/efficiency.md).

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "study/analysis/prepare.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
@@ -141,6 +142,7 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   out.set_contiguous_blocks(blocks);
   out.set_splits(options.choice.splits == Splits::kHalf ? "half" : "leave one out");
   out.set_split_count(static_cast<std::uint32_t>(choice.splits));
+  out.set_estimator(moments_estimator(series.replicates.size()));
   out.set_weights(options.choice.weighting == Weighting::kFull ? "full" : "diag");
   for (const Candidate& candidate : choice.candidates) add_candidate(candidate, out);
   const v1::CandidateModel& best = out.candidates(0);

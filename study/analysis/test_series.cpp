@@ -138,6 +138,7 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
   out.set_rate_hz(series.replicates.front().rate().value);
   out.set_model(print(result.pooled.model));
   out.set_fitted_model(print_with_values(result.pooled.model));
+  out.set_estimator(moments_estimator(series.replicates.size()));
   out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
   fill(result.misfit, *out.mutable_misfit());
   fill(result.heterogeneity, *out.mutable_heterogeneity());

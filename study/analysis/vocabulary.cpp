@@ -48,6 +48,9 @@ std::string label_of(const Model& model, std::size_t term) {
   return count > 1 ? fmt::format("{} ({})", name, number) : name;
 }
 
+std::string moments_estimator(std::size_t replicates) { return replicates > 1 ? "MuGMWM" : "GMWM"; }
+std::string likelihood_estimator(const std::string& moments) { return moments + " + Whittle"; }
+
 std::string chance_words(double p) {
   return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
 }

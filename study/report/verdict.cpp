@@ -65,7 +65,11 @@ std::string facts(const v1::FitReport& report) {
   if (const int n = report.replicates_size(); n > 0) {
     fact(fmt::format("{} replicate{}", n, n == 1 ? "" : "s"));
   }
-  return out;
+  return out + estimator_fact(report.estimator());
+}
+
+std::string estimator_fact(const std::string& estimator) {
+  return estimator.empty() ? "" : " · by " + estimator;
 }
 
 std::string channel_name(const std::string& channel) {

@@ -27,6 +27,8 @@ std::string verdict_sentence(const v1::FitReport& report);
 
 /// The model and what it was fitted to: "WN + RW · angular rate · 100 Hz · 6 replicates".
 std::string facts(const v1::FitReport& report);
+/// " · by MuGMWM", to follow other facts; "" where none was named, as in old files.
+std::string estimator_fact(const std::string& estimator);
 
 /// The channel's name, or words in its place.
 std::string channel_name(const std::string& channel);

@@ -14,6 +14,7 @@
 
 #include "core/model/model.h"
 #include "study/analysis/diagnose_series.h"
+#include "study/analysis/fit_series.h"
 #include "study/analysis/judge.h"
 #include "study/ladder/study_file.h"
 namespace imunoise::study {
@@ -84,6 +85,30 @@ TEST(Study, WhatIsAddedMakesTheErrorFallAndCanBeTakenBack) {
   ASSERT_TRUE(other) << other.error().message;
   EXPECT_EQ(other->current(), 2u);
   EXPECT_EQ(other->attempts(2).parent(), 1u);
+}
+
+// One story of estimation: a study reports the likelihood's estimate, the one of fit --estimator
+// whittle, and fit's own default agrees with it within its interval.
+TEST(Study, ItsNumbersAreThoseOfAFitByLikelihood) {
+  const v1::Rung rung = opened().attempts(0).rung();
+  const std::vector<recording::Replicate> replicates = *read({}, "");
+  const Series series = series_of(replicates, 0);
+  FitOptions options;
+  options.model = "WN + RW";
+  const v1::FitReport by_moments = *fit_series(series, options);
+  options.estimator = Estimator::kWhittle;
+  const v1::FitReport by_likelihood = *fit_series(series, options);
+  EXPECT_EQ(by_moments.estimator(), "MuGMWM");
+  EXPECT_EQ(by_likelihood.estimator(), "MuGMWM + Whittle");
+  EXPECT_EQ(rung.estimator(), by_likelihood.estimator());
+  const Model studied = parse_model(rung.fitted_model(), Hertz{50.0}).value();
+  for (int t = 0; t < 2; ++t) {
+    const double value = values(studied.terms[static_cast<std::size_t>(t)].process)[0];
+    const v1::Parameter& fitted = by_likelihood.terms(t).parameters(0);
+    EXPECT_NEAR(value, fitted.value(), 1e-3 * (fitted.upper() - fitted.lower()));
+    EXPECT_GT(value, by_moments.terms(t).parameters(0).lower());
+    EXPECT_LT(value, by_moments.terms(t).parameters(0).upper());
+  }
 }
 
 // What was worked out with the candidates, or tried before, is what adding would give, to the bit.

@@ -193,6 +193,7 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   out.set_model(print(written));
   out.set_termination(std::string(describe(fit.termination)));
   out.set_objective(fit.objective);
+  out.set_estimator(options.efficient ? likelihood_estimator("MGMWM") : "MGMWM");
   out.set_joint_weights(fit.joint_weights);
   for (v1::ArrayParameter& one : array_parameters(fit, written, sensors, options.confidence))
     *out.add_parameters() = std::move(one);

@@ -113,6 +113,7 @@ Result<v1::MixedReport> mixed_series(const std::vector<Series>& channels,
   out.set_samples(static_cast<std::uint64_t>(data.response.rows()));
   out.set_model(print(*written));
   out.set_termination(std::string(describe(found.noise.termination)));
+  out.set_estimator(likelihood_estimator("MiGMWM"));
   out.set_bootstraps(options.regression.bootstraps);
   out.set_seed(options.regression.seed);
   for (std::size_t j = 0; j < names.size(); ++j) {

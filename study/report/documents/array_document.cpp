@@ -72,7 +72,8 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   section.mood = shared ? Mood::kDoubtful : Mood::kGood;
   section.facts = fmt::format("{} · {:g} Hz · {} sensors · {} replicates · {}", report.model(),
                               report.rate_hz(), report.sensors_size(), report.replicates(),
-                              report.termination());
+                              report.termination()) +
+                  estimator_fact(report.estimator());
   section.summary = report.summary();
   if (auto figure = gain_chart(report.virtual_sensor())) {
     section.figures.push_back(std::move(*figure));

@@ -32,7 +32,8 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
   out.facts = fmt::format("{:g} Hz · {} {} · {} splits ({}) · weights {}", report.rate_hz(),
                           report.replicates(),
                           report.contiguous_blocks() ? "contiguous blocks" : "replicates",
-                          report.split_count(), report.splits(), report.weights());
+                          report.split_count(), report.splits(), report.weights()) +
+              estimator_fact(report.estimator());
   out.summary = report.summary();
   Table table{"Models by the error of their predictions (noise floor = 1)",
               {"model", "error", "above the best", "free", ""},

@@ -198,7 +198,8 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   for (const std::string& name : report.witnesses())
     witnesses += (witnesses.empty() ? "" : ", ") + name;
   out.facts = fmt::format("{:g} Hz · model {} · witnesses {}", report.rate_hz(), report.model(),
-                          witnesses.empty() ? "none" : witnesses);
+                          witnesses.empty() ? "none" : witnesses) +
+              estimator_fact(report.estimator());
   out.badge = diagnosis_words(report).badge;
   out.mood = diagnosis_words(report).mood;
   out.summary = report.summary();
@@ -264,7 +265,8 @@ Document document(const v1::Study& study, Digits digits) {
   if (!study.has_diagnosis()) {
     out.badge.clear();
     out.mood = Mood::kNeutral;
-    out.facts = "model " + path.back()->rung().model();
+    const v1::Rung& now = path.back()->rung();
+    out.facts = "model " + now.model() + estimator_fact(now.estimator());
     out.summary = "Ask for candidates to learn what this model lacks.";
     out.figures.clear();
     const v1::Rung& last = path.back()->rung();

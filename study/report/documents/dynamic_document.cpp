@@ -128,7 +128,8 @@ Section section(const v1::DynamicReport& report, Digits digits) {
   out.facts =
       fmt::format("{} · {:g} Hz · {} recording{} · {} bins · {}", report.model(), report.rate_hz(),
                   report.recordings(), report.recordings() == 1 ? "" : "s", report.bins_size(),
-                  report.termination());
+                  report.termination()) +
+      estimator_fact(report.estimator());
   out.summary = report.summary();
   out.tables.push_back(trends(report, digits));
   for (const v1::DynamicQuantity& one : report.quantities()) {

@@ -2,6 +2,7 @@
 
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
+#include "study/report/verdict.h"
 
 namespace imunoise::report {
 namespace {
@@ -51,7 +52,8 @@ Document document(const v1::MixedReport& report, Digits digits) {
   section.mood = effect ? Mood::kGood : Mood::kNeutral;
   section.facts =
       fmt::format("{} · {:g} Hz · {} series of {} samples · {}{}", report.model(), report.rate_hz(),
-                  report.series_size(), report.samples(), report.termination(),
+                  report.series_size(), report.samples(),
+                  report.termination() + estimator_fact(report.estimator()),
                   report.bootstraps() > 0
                       ? fmt::format(" · {} bootstraps, seed {}", report.bootstraps(), report.seed())
                       : "");

@@ -67,7 +67,8 @@ Section section(const v1::StationarityReport& report, Digits digits) {
              : both_tested ? Mood::kGood
                            : Mood::kNeutral;
   out.facts = fmt::format("{} · {:g} Hz · {} replicates", report.model(), report.rate_hz(),
-                          report.replicates());
+                          report.replicates()) +
+              estimator_fact(report.estimator());
   if (report.bootstrap_sets() > 0) {
     out.facts +=
         fmt::format(" · {} bootstrap sets, seed {}", report.bootstrap_sets(), report.seed());
