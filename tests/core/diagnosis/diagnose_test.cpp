@@ -87,6 +87,24 @@ TEST(Diagnose, QuantisationNoise) {
                "quantisation");
 }
 
+// Both roots real: no resonance, and no sum of Markov processes falls off as fast.
+TEST(Diagnose, NoiseBehindTwoLags) {
+  const Diagnosis diagnosis =
+      of({.model = "WN(sigma2=1) + RW(gamma2=1e-5) + AR2(sigma2=2e-4, rho1=0.998398, phi2=-0.873)",
+          .seed = 18});
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  EXPECT_EQ(best.cause, "second_order");
+  EXPECT_NE(diagnosis.verdict, DiagnosisVerdict::kUnknown);
+  const Model& noise = best.fitted.fit.model.noise;
+  const auto found = std::find_if(noise.terms.begin(), noise.terms.end(), [](const Term& term) {
+    return std::holds_alternative<Ar2>(term.process);
+  });
+  ASSERT_NE(found, noise.terms.end());
+  EXPECT_NEAR(std::get<Ar2>(found->process).rho1, 0.998398, 0.002);
+  EXPECT_NEAR(std::get<Ar2>(found->process).phi2, -0.873, 0.1);
+}
+
 // A supply that wanders would look the same, and nobody recorded it. Heat is not so fast.
 TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
   const Diagnosis diagnosis =
@@ -94,6 +112,7 @@ TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
   EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kOneOf);
+  for (const RankedTerm& one : diagnosis.effects) EXPECT_NE(one.tried.cause, "second_order");
   const auto& confused = diagnosis.effects[0].confused_with;
   EXPECT_EQ(std::count(confused.begin(), confused.end(), "supply_voltage"), 1);
   EXPECT_EQ(std::count(confused.begin(), confused.end(), "temperature"), 0);
