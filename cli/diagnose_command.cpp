@@ -2,7 +2,8 @@
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
-#include "study/report/diagnosis_figures.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/diagnosis_pictures.h"
 
 namespace imunoise::cli {
 namespace {
@@ -33,7 +34,7 @@ Result<void> write_pictures(const v1::DiagnosisReports& reports,
     const auto base = reports.channels_size() > 1 ? with_word(path, one.channel()) : path;
     for (const report::Picture& picture : report::pictures(one)) {
       const std::filesystem::path out = with_word(base, picture.word);
-      if (auto done = write_file(out, picture.svg); !done) return done;
+      if (auto done = write_file(out, figure::svg(picture.figure)); !done) return done;
       fmt::print(stderr, "wrote {}\n", out.string());
     }
   }

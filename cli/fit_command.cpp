@@ -4,9 +4,10 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/budget_figure.h"
 #include "study/report/html/fit_page.h"
 #include "study/report/json.h"
-#include "study/report/svg_plot.h"
 
 namespace imunoise::cli {
 namespace {
@@ -16,7 +17,7 @@ Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem
   for (const v1::FitReport& one : reports.channels()) {
     const std::filesystem::path out =
         reports.channels_size() > 1 ? with_word(path, one.channel()) : path;
-    if (auto done = write_file(out, report::budget_svg(one)); !done) return done;
+    if (auto done = write_file(out, figure::svg(report::budget_figure(one))); !done) return done;
     fmt::print(stderr, "wrote {}\n", out.string());
   }
   return {};

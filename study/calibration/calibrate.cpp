@@ -12,7 +12,7 @@
 #include "study/calibration/calibrate_array.h"
 #include "study/calibration/calibrate_channel.h"
 #include "study/calibration/calibration_file.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::study {
 namespace {

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "study/report/history_chart.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/history_figure.h"
 #include "study/words/text.h"
 #include "tests/study/markup_check.h"
 
@@ -59,10 +60,11 @@ std::size_t count_of(const std::string& svg, const std::string& words) {
 }
 
 TEST(HistoryChart, HasADotForEachCalibrationAndAccusesTheNewest) {
-  const auto quiet = history_chart(history(false).parameters(0));
+  const auto quiet = history_figure(history(false).parameters(0));
   ASSERT_TRUE(quiet);
   EXPECT_EQ(quiet->title, "gyro_x: angle random walk of WN");
-  for (const std::string& svg : {quiet->wide, quiet->narrow}) {
+  for (const double width : {920.0, 388.0}) {
+    const std::string svg = figure::svg(*quiet, {figure::SvgVariant::kInline, width});
     EXPECT_EQ(read_markup(svg).error, "");
     EXPECT_EQ(count_of(svg, "<circle"), 4U);
     EXPECT_EQ(count_of(svg, "class=\"whisker\""), 4U);
@@ -71,8 +73,8 @@ TEST(HistoryChart, HasADotForEachCalibrationAndAccusesTheNewest) {
     EXPECT_NE(svg.find("2024-10-"), std::string::npos) << "days on the axis";
     EXPECT_NE(svg.find("0.7"), std::string::npos) << "in the datasheet's unit";
   }
-  const auto alarm = history_chart(history(true).parameters(0));
-  EXPECT_EQ(count_of(alarm->wide, "measured outside"), 1U);
+  const auto alarm = history_figure(history(true).parameters(0));
+  EXPECT_EQ(count_of(figure::svg(*alarm, {figure::SvgVariant::kInline}), "measured outside"), 1U);
 }
 
 TEST(HistoryChart, WideIntervalsDoNotFlattenTheValues) {
@@ -80,7 +82,8 @@ TEST(HistoryChart, WideIntervalsDoNotFlattenTheValues) {
   wide.mutable_points(1)->set_upper(1.0);
   wide.mutable_points(2)->clear_upper();
   wide.mutable_points(2)->clear_lower();
-  const Markup svg = read_markup(history_chart(wide)->wide);
+  const Markup svg =
+      read_markup(figure::svg(*history_figure(wide), {figure::SvgVariant::kInline, 920.0}));
   ASSERT_EQ(svg.error, "");
   double highest = 1e9;
   double lowest = -1e9;
@@ -93,11 +96,11 @@ TEST(HistoryChart, WideIntervalsDoNotFlattenTheValues) {
 }
 
 TEST(HistoryChart, OneDayIsNoHistory) {
-  EXPECT_FALSE(history_chart(parameter({2e-4})));
+  EXPECT_FALSE(history_figure(parameter({2e-4})));
   v1::ParameterHistory at_once = parameter({2e-4, 3e-4});
   at_once.mutable_points(1)->set_started_ns(kStart);
-  EXPECT_FALSE(history_chart(at_once));
-  EXPECT_TRUE(history_chart(parameter({2e-4, 2e-4}))) << "values that are all alike";
+  EXPECT_FALSE(history_figure(at_once));
+  EXPECT_TRUE(history_figure(parameter({2e-4, 2e-4}))) << "values that are all alike";
 }
 
 TEST(CatalogueDocuments, SayWhatDrifts) {

@@ -1,11 +1,12 @@
 // The figures of a model beside the data, drawn from numbers that are known.
 
-#include "study/report/comparison_figures.h"
+#include "study/report/figures/comparison_figures.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "study/figure/svg.h"
 #include "tests/study/figure_geometry.h"
 
 namespace imunoise::report {
@@ -75,6 +76,10 @@ v1::DiagnosisReport sample() {
   return out;
 }
 
+std::string page_svg(const figure::Figure& figure, double width = 920.0) {
+  return svg(figure, {figure::SvgVariant::kInline, width});
+}
+
 std::size_t count_of_class(const std::string& svg, const std::string& css_class) {
   std::size_t out = 0;
   const std::string wanted = "class=\"" + css_class + "\"";
@@ -86,9 +91,9 @@ TEST(ComparisonFigures, AreSoundInEveryWidth) {
   const v1::DiagnosisReport report = sample();
   auto figures = comparison_figures(report, report.compared_before());
   ASSERT_EQ(figures.size(), 5U);
-  figures.push_back(*curve_figure(spectrum_chart(report, report.compared_before(), "Spectrum")));
-  for (const Figure& one : figures) {
-    for (const std::string& svg : {one.wide, one.narrow}) {
+  figures.push_back(*spectrum_figure(report, report.compared_before(), "Spectrum"));
+  for (const figure::Figure& one : figures) {
+    for (const std::string& svg : {page_svg(one), page_svg(one, 388.0)}) {
       expect_sound(svg, one.title);
       expect_texts_apart(svg, one.title);
       EXPECT_EQ(svg.find("gyro<x>"), std::string::npos);
@@ -98,7 +103,7 @@ TEST(ComparisonFigures, AreSoundInEveryWidth) {
 
 TEST(ComparisonFigures, TheSpectrumMarksWhatDeviatesAndWhatWasTested) {
   const v1::DiagnosisReport report = sample();
-  const std::string svg = curve_svg(spectrum_chart(report, report.compared_before(), "Spectrum"));
+  const std::string svg = page_svg(*spectrum_figure(report, report.compared_before(), "Spectrum"));
   expect_sound(svg, "spectrum");
   EXPECT_EQ(count_of_class(svg, "measured outside"), 1U);
   EXPECT_EQ(count_of_class(svg, "measured"), 59U);
@@ -108,17 +113,17 @@ TEST(ComparisonFigures, TheSpectrumMarksWhatDeviatesAndWhatWasTested) {
 TEST(ComparisonFigures, TheStretchThatDeviatesIsColoured) {
   const v1::DiagnosisReport report = sample();
   const auto figures = comparison_figures(report, report.compared_before());
-  EXPECT_EQ(count_of_class(figures[1].wide, "cell plus4"), 1U);
-  EXPECT_NE(figures[1].wide.find("+8.0"), std::string::npos);
-  EXPECT_EQ(count_of_class(figures[3].wide, "cell minus4"), 3U);
-  EXPECT_NE(figures[3].wide.find("-0.92"), std::string::npos);
-  EXPECT_NE(figures[3].wide.find("0.0020 Hz"), std::string::npos);  // the middle, however slow
+  EXPECT_EQ(count_of_class(page_svg(figures[1]), "cell plus4"), 1U);
+  EXPECT_NE(page_svg(figures[1]).find("+8.0"), std::string::npos);
+  EXPECT_EQ(count_of_class(page_svg(figures[3]), "cell minus4"), 3U);
+  EXPECT_NE(page_svg(figures[3]).find("-0.92"), std::string::npos);
+  EXPECT_NE(page_svg(figures[3]).find("0.0020 Hz"), std::string::npos);  // the middle, however slow
 }
 
 TEST(ComparisonFigures, NothingIsDrawnOfNothing) {
   const v1::DiagnosisReport empty;
   EXPECT_TRUE(comparison_figures(empty, empty.compared_before()).empty());
-  EXPECT_EQ(curve_svg(spectrum_chart(empty, empty.compared_before(), "")), "");
+  EXPECT_FALSE(spectrum_figure(empty, empty.compared_before(), ""));
 }
 
 TEST(ComparisonFigures, NumbersWithoutAPlaceAreLeftOut) {
@@ -127,9 +132,9 @@ TEST(ComparisonFigures, NumbersWithoutAPlaceAreLeftOut) {
   zero.set_frequency_hz(60.0);
   zero.set_measured(NAN);
   report.mutable_compared_before()->mutable_kurtosis(3)->set_excess(INFINITY);
-  expect_sound(curve_svg(spectrum_chart(report, report.compared_before(), "Spectrum")), "zero");
-  for (const Figure& one : comparison_figures(report, report.compared_before()))
-    expect_sound(one.wide, one.title);
+  expect_sound(page_svg(*spectrum_figure(report, report.compared_before(), "Spectrum")), "zero");
+  for (const figure::Figure& one : comparison_figures(report, report.compared_before()))
+    expect_sound(page_svg(one), one.title);
 }
 
 }  // namespace

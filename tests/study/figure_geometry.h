@@ -6,10 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "study/report/svg_writer.h"
+#include "study/figure/geometry.h"
 #include "tests/study/markup_check.h"
 
 namespace imunoise::report {
+
+using figure::Box;
+using figure::Point;
 
 double value(const Element& element, const std::string& name);
 

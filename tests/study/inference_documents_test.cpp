@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "study/figure/svg.h"
 #include "study/words/text.h"
 #include "tests/study/markup_check.h"
 
@@ -192,7 +193,8 @@ TEST(InferenceDocuments, NoiseOverACovariateIsDrawnForDeskPhoneAndTerminal) {
   const v1::DynamicReports report = dynamic("gyro");
   const Section shown = document(report, Digits::kPlain).sections.at(0);
   ASSERT_EQ(shown.figures.size(), 1U);
-  for (const std::string& svg : {shown.figures[0].wide, shown.figures[0].narrow}) {
+  for (const double width : {920.0, 388.0}) {
+    const std::string svg = figure::svg(shown.figures[0], {figure::SvgVariant::kInline, width});
     EXPECT_EQ(read_markup(svg).error, "");
     std::size_t circles = 0;  // a value that is not finite or below zero has no place
     for (auto at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
@@ -210,7 +212,7 @@ TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
   const Document shown = document(hostile_faults(), Digits::kTypeset);
   ASSERT_EQ(shown.sections[0].figures.size(), 1U) << "one a replicate";
   for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
-    EXPECT_NE(shown.sections[0].figures[0].wide.find(kind), std::string::npos) << kind;
+    EXPECT_NE(figure::svg(shown.sections[0].figures[0]).find(kind), std::string::npos) << kind;
   }
   EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
 }

@@ -2,14 +2,31 @@
 
 #include <cmath>
 
-#include "study/report/budget_layout.h"
-#include "study/report/label_layout.h"
-#include "study/report/svg_plot.h"
+#include "study/figure/label_layout.h"
+#include "study/figure/layout.h"
+#include "study/figure/scale.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/budget_figure.h"
 #include "tests/study/figure_geometry.h"
 #include "tests/study/sample_report.h"
 
 namespace imunoise::report {
 namespace {
+
+using figure::AxisKind;
+using figure::Scale;
+using figure::SvgOptions;
+using figure::SvgVariant;
+using figure::Tick;
+
+std::string budget_svg(const v1::FitReport& report, const SvgOptions& options = {}) {
+  return svg(budget_figure(report), options);
+}
+
+std::string replicates_svg(const v1::FitReport& report, const SvgOptions& options) {
+  const auto figure = replicates_figure(budget_view(report).replicates, report.channel());
+  return figure ? svg(*figure, options) : "";
+}
 
 std::vector<v1::FitReport> all_samples() {
   return {good_gyro(),          misfit_gyro(),   bounded_gyro(),  accelerometer(),
@@ -17,9 +34,10 @@ std::vector<v1::FitReport> all_samples() {
 }
 
 std::vector<SvgOptions> all_options() {
-  return {{SvgVariant::kStandalone, 900.0, "a"},
-          {SvgVariant::kInline, 920.0, "b"},
-          {SvgVariant::kInline, 388.0, "c"}};
+  return {{SvgVariant::kStandalone, 900.0},
+          {SvgVariant::kInline, 920.0},
+          {SvgVariant::kInline, 388.0},
+          {SvgVariant::kInline, 640.0, 360.0}};
 }
 
 std::size_t count_class(const Markup& markup, const std::string& css_class) {
@@ -33,8 +51,8 @@ std::size_t count_class(const Markup& markup, const std::string& css_class) {
 
 // The advance widths of DejaVu Sans, the widest font asked for, in em.
 TEST(Figures, NamesOfModelsAreNotWiderThanReckoned) {
-  EXPECT_GE(text_width("WN + AR1 + RW", 1.0), 8.342);
-  EXPECT_GE(text_width("2*AR1 + WN + RW", 1.0), 9.478);
+  EXPECT_GE(figure::text_width("WN + AR1 + RW", 1.0), 8.342);
+  EXPECT_GE(figure::text_width("2*AR1 + WN + RW", 1.0), 9.478);
 }
 
 TEST(Figures, AreWellFormedAndInsideTheCanvas) {
@@ -51,14 +69,20 @@ TEST(Figures, AreWellFormedAndInsideTheCanvas) {
 TEST(Figures, TextsDoNotOverlapOrLeaveTheCanvas) {
   for (const v1::FitReport& report : all_samples()) {
     for (const SvgOptions& options : all_options())
-      expect_texts_apart(budget_svg(report, options), report.channel());
+      for (const std::string& svg :
+           {budget_svg(report, options), replicates_svg(report, options)}) {
+        if (!svg.empty()) expect_texts_apart(svg, report.channel());
+      }
   }
 }
 
 TEST(Figures, PointsStandWhereTheirNumbersSay) {
   const v1::FitReport report = good_gyro();
   const BudgetView view = budget_view(report);
-  const BudgetLayout layout = budget_layout(view, 900.0, 82.0);
+  const figure::Figure described = budget_figure(report);
+  const figure::Layout layout = figure::layout(described, {});
+  const Box& frame = layout.panels.at(0).frame;
+  const Scale& variance = layout.panels.at(0).y;
   const Markup markup = read_markup(budget_svg(report));
   std::vector<Point> measured;
   for (const Element& element : markup.elements) {
@@ -69,38 +93,61 @@ TEST(Figures, PointsStandWhereTheirNumbersSay) {
   measured.erase(measured.begin());  // the key's
   ASSERT_EQ(measured.size(), view.scales.size());
   // Read back from the frame's edges, without the axis class.
-  const double log_low = std::log(layout.variance.low());
-  const double log_high = std::log(layout.variance.high());
+  const double log_low = std::log(variance.low());
+  const double log_high = std::log(variance.high());
   for (std::size_t k = 0; k < measured.size(); ++k) {
-    const double up =
-        (layout.budget.bottom - measured[k].y) / (layout.budget.bottom - layout.budget.top);
+    const double up = (frame.bottom - measured[k].y) / frame.height();
     const double read = std::exp(log_low + up * (log_high - log_low));
     EXPECT_NEAR(read / view.scales[k].measured, 1.0, 0.001);
   }
 }
 
-TEST(Axis, KnownPositions) {
-  const LogAxis axis(0.01, 100.0, 0.0, 400.0);
-  EXPECT_DOUBLE_EQ(axis(0.01), 0.0);
-  EXPECT_NEAR(axis(1.0), 200.0, 1e-9);
-  EXPECT_NEAR(axis(100.0), 400.0, 1e-9);
-  int major = 0;
-  for (const Tick& tick : axis.decade_ticks(40.0)) major += tick.major ? 1 : 0;
-  EXPECT_EQ(major, 5);
-  const SigmaAxis sigma(20.0, 50.0, 40.0);
-  EXPECT_DOUBLE_EQ(sigma(0.0), 50.0);
-  EXPECT_NEAR(sigma(20.0), 10.0, 1e-9);
-  EXPECT_NEAR(sigma(-20.0), 90.0, 1e-9);
-  EXPECT_EQ(sigma.ticks(), (std::vector<double>{0, 2, -2, 5, -5, 10, -10, 20, -20}));
+std::vector<std::string> labels(const std::vector<Tick>& ticks) {
+  std::vector<std::string> out;
+  for (const Tick& tick : ticks) {
+    if (tick.major) out.push_back(label_text(tick));
+  }
+  return out;
 }
 
-TEST(Axis, RangePassesOverWhatHasNoLogarithm) {
-  LogRange range;
-  for (const double x : {0.0, -1.0, std::nan(""), double{INFINITY}}) range.include(x);
-  EXPECT_TRUE(range.empty());
-  range.include(3.0);
-  EXPECT_EQ(range.low(), 3.0);
-  EXPECT_EQ(range.high(), 3.0);
+TEST(Scale, KnownPositions) {
+  const Scale decades(AxisKind::kLogarithmic, 0.01, 100.0);
+  EXPECT_NEAR(decades(0.01), 0.0, 1e-12);
+  EXPECT_NEAR(decades(1.0), 0.5, 1e-12);
+  EXPECT_NEAR(decades(100.0), 1.0, 1e-12);
+  EXPECT_EQ(labels(decades.ticks(400.0, 40.0, 14.0)),
+            (std::vector<std::string>{"0.01", "0.1", "1", "10", "100"}));
+  const Scale sigma(AxisKind::kSigma, -20.0, 20.0);
+  EXPECT_NEAR(sigma(0.0), 0.5, 1e-12);
+  EXPECT_NEAR(sigma(20.0), 1.0, 1e-12);
+  EXPECT_NEAR(sigma(-20.0), 0.0, 1e-12);
+  EXPECT_EQ(labels(sigma.ticks(400.0, 12.0, 14.0)),
+            (std::vector<std::string>{"0", "+2", "−2", "+5", "−5", "+10", "−10", "+20", "−20"}));
+  const Scale rows(std::vector<std::string>{"a", "b"});
+  EXPECT_EQ(rows(0.0), 0.25);
+  EXPECT_EQ(rows(1.0), 0.75);
+}
+
+TEST(Scale, TicksAreWhatPeopleCountIn) {
+  EXPECT_EQ(labels(Scale(AxisKind::kLinear, -0.1, 1.05).ticks(300.0, 60.0, 14.0)),
+            (std::vector<std::string>{"0", "0.5", "1"}));
+  EXPECT_EQ(labels(Scale(AxisKind::kDuration, 0.0, 290.0).ticks(800.0, 72.0, 14.0)),
+            (std::vector<std::string>{"0", "30 s", "60 s", "90 s", "2 min", "2.5 min", "3 min",
+                                      "3.5 min", "4 min", "4.5 min"}));
+  constexpr double kDay = 86400.0;
+  EXPECT_EQ(
+      labels(Scale(AxisKind::kTime, 20000.2 * kDay, 20003.1 * kDay).ticks(600.0, 130.0, 14.0)),
+      (std::vector<std::string>{"2024-10-05", "2024-10-06", "2024-10-07"}));
+  // Less than a decade is read in round steps.
+  EXPECT_EQ(labels(Scale(AxisKind::kLogarithmic, 0.95, 1.3).ticks(400.0, 60.0, 14.0)),
+            (std::vector<std::string>{"1", "1.1", "1.2", "1.3"}));
+}
+
+TEST(Scale, HasNoPlaceForWhatHasNoLogarithm) {
+  for (const double x : {0.0, -1.0, std::nan(""), double{INFINITY}, 1e300})
+    EXPECT_FALSE(has_place(AxisKind::kLogarithmic, x)) << x;
+  EXPECT_TRUE(has_place(AxisKind::kLogarithmic, 3.0));
+  EXPECT_TRUE(has_place(AxisKind::kLinear, -1.0));
 }
 
 TEST(Figures, MarkTheMisfitOnlyWhenTheTestFails) {
@@ -123,9 +170,9 @@ TEST(Figures, PaperHasItsOwnColoursAndNoScript) {
   EXPECT_EQ(svg.find("<script"), std::string::npos);
   EXPECT_EQ(svg.find("class=\"column\""), std::string::npos);
   EXPECT_NE(svg.find("#1259a6"), std::string::npos);  // the model's blue
-  const std::string page = budget_svg(good_gyro(), {SvgVariant::kInline, 900.0, "x"});
+  const std::string page = budget_svg(good_gyro(), {SvgVariant::kInline, 900.0});
   EXPECT_EQ(page.find("<style"), std::string::npos);
-  EXPECT_NE(page.find("data-scale=\"17\""), std::string::npos);
+  EXPECT_NE(page.find("data-index=\"17\""), std::string::npos);
 }
 
 TEST(Labels, CrowdedCurvesKeepTheirNamesApart) {
@@ -136,7 +183,7 @@ TEST(Labels, CrowdedCurvesKeepTheirNamesApart) {
     curves.push_back({{0.0, 150.0 + i}, {400.0, 150.0 + i}});
     names.push_back("TERM" + std::to_string(i));
   }
-  const auto labels = place_labels(curves, names, {}, frame, 12.0);
+  const auto labels = figure::place_labels(curves, names, {}, frame, 12.0);
   ASSERT_EQ(labels.size(), 6U);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     EXPECT_TRUE(frame.contains(labels[i].box));

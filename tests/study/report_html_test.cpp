@@ -3,7 +3,7 @@
 #include <set>
 
 #include "study/report/html/fit_page.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 #include "tests/study/markup_check.h"
 #include "tests/study/sample_report.h"
 

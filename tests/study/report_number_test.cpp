@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "study/report/budget_view.h"
+#include "study/report/view/budget_view.h"
 #include "study/words/number.h"
 #include "study/words/text.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "study/figure/canvas.h"
 #include "study/report/terminal/fit_text.h"
 #include "study/report/terminal/table.h"
-#include "study/report/terminal_canvas.h"
 #include "study/words/text.h"
 #include "tests/study/sample_report.h"
 
@@ -77,7 +77,7 @@ TEST(Terminal, EmptyReportsSaySo) {
 }
 
 TEST(TerminalCanvas, DotsFollowUnicodesNumbering) {
-  TerminalCanvas canvas(2, 1, {});
+  figure::TerminalCanvas canvas(2, 1, {});
   canvas.line(0, 0, 0, 0);
   canvas.line(3, 3, 3, 3);
   EXPECT_EQ(canvas.lines().at(0), "⠁⢀");

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "study/report/cross_chart.h"
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
-#include "study/report/interval_chart.h"
-#include "study/report/verdict.h"
+#include "study/report/figures/cross_figure.h"
+#include "study/report/figures/interval_figure.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {
@@ -46,14 +46,14 @@ Table gains(const v1::VirtualSensor& sensor, Digits digits) {
   return out;
 }
 
-std::optional<Figure> gain_chart(const v1::VirtualSensor& sensor) {
+std::optional<figure::Figure> gain_figure(const v1::VirtualSensor& sensor) {
   std::vector<IntervalRow> rows;
   for (const v1::ScaleGain& one : sensor.scale_gains()) {
     const double seen = one.has_measured() ? one.measured() : one.predicted();
     rows.push_back({duration(one.tau_s()), seen, std::min(seen, one.predicted()),
                     std::max(seen, one.predicted()), seen > 1.0});
   }
-  return interval_chart(
+  return interval_figure(
       "What the virtual sensor gains", "wavelet variance over that of the sensors' mean",
       "A dot a scale: measured on replicates that the weights were not made from where there are "
       "any, else by the model; the whisker runs to what the model predicts. Left of 1 the virtual "
@@ -75,10 +75,10 @@ Document document(const v1::ArrayReport& report, Digits digits) {
                               report.termination()) +
                   estimator_fact(report.estimator());
   section.summary = report.summary();
-  if (auto figure = gain_chart(report.virtual_sensor())) {
+  if (auto figure = gain_figure(report.virtual_sensor())) {
     section.figures.push_back(std::move(*figure));
   }
-  if (auto figure = cross_chart(report)) section.figures.push_back(std::move(*figure));
+  if (auto figure = cross_figure(report)) section.figures.push_back(std::move(*figure));
   section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
                     gains(report.virtual_sensor(), digits),
                     sensor_budgets("What explains each sensor's noise, over all averaging times",

@@ -3,7 +3,7 @@
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/documents/diagnosis_words.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {

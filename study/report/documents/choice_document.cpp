@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "study/report/documents/inference_documents.h"
-#include "study/report/interval_chart.h"
-#include "study/report/verdict.h"
+#include "study/report/figures/interval_figure.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {
@@ -53,11 +53,11 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
     out.badge = report.candidates(0).model();
     out.mood = report.far_from_floor() ? Mood::kDoubtful : Mood::kGood;
   }
-  auto figure = interval_chart(
+  auto figure = interval_figure(
       "Error of prediction", "held-out error, 1 = noise floor",
       "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
       "noise alone makes; orange models are significantly worse than the best.",
-      std::move(rows), 1.0);
+      rows, 1.0);
   if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {std::move(table)};
   out.notes.assign(report.notes().begin(), report.notes().end());

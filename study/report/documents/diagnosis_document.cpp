@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "study/report/comparison_figures.h"
-#include "study/report/diagnosis_figures.h"
 #include "study/report/documents/diagnosis_words.h"
 #include "study/report/documents/inference_documents.h"
-#include "study/report/interval_chart.h"
-#include "study/report/verdict.h"
+#include "study/report/figures/comparison_figures.h"
+#include "study/report/figures/diagnosis_pictures.h"
+#include "study/report/figures/interval_figure.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {
@@ -140,52 +140,45 @@ Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
   return out;
 }
 
-using Drawing = std::string (*)(const v1::DiagnosisReport&, const SvgOptions&);
-
-Figure budget_figure(const v1::DiagnosisReport& report, Drawing drawing, const std::string& title,
-                     const std::string& model, const std::string& id) {
-  const auto drawn = [&](double width, const char* kind) {
-    return of_kind(drawing(report, {SvgVariant::kInline, width, id + kind}), kind);
-  };
-  return {title, drawn(900.0, "wide"), drawn(380.0, "narrow"), "Model: " + model};
+figure::Figure titled(figure::Figure figure, const std::string& title, const std::string& model) {
+  figure.title = title;
+  figure.caption = "Model: " + model;
+  return figure;
 }
 
 void add_spectrum(const v1::DiagnosisReport& report, const v1::Comparison& compared,
                   const std::string& title, Section& to) {
-  if (auto figure = curve_figure(spectrum_chart(report, compared, title)))
+  if (auto figure = spectrum_figure(report, compared, title))
     to.figures.push_back(std::move(*figure));
 }
 
-std::optional<Figure> ladder_figure(const v1::DiagnosisReport& report) {
+std::optional<figure::Figure> ladder_figure(const v1::DiagnosisReport& report) {
   std::vector<IntervalRow> rows;
   for (const v1::Rung& rung : report.ladder()) {
     if (!rung.has_heldout_error()) continue;
     rows.push_back({name_of(rung), rung.heldout_error(), rung.heldout_lower(), rung.heldout_upper(),
                     rung.misfit_p() < 0.01});
   }
-  return interval_chart(
+  return interval_figure(
       "The error falling", "held-out error, 1 = noise floor",
       "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
       "noise alone makes; orange models do not fit.",
-      std::move(rows), 1.0);
+      rows, 1.0);
 }
 
 void add_figures(const v1::DiagnosisReport& report, Section& to) {
-  const std::string id = "d" + report.channel();
   if (report.ladder_size() == 0) return;
   const bool grown = report.has_compared_after();
-  to.figures.push_back(budget_figure(report, before_svg,
-                                     grown ? "Before" : "The model beside the data", report.model(),
-                                     id + "b"));
+  to.figures.push_back(titled(before_figure(report), grown ? "Before" : "The model beside the data",
+                              report.model()));
   add_spectrum(report, report.compared_before(), grown ? "Spectrum before" : "Spectrum", to);
-  for (Figure& one : comparison_figures(report, report.compared_before()))
+  for (figure::Figure& one : comparison_figures(report, report.compared_before()))
     to.figures.push_back(std::move(one));
   if (report.ladder_size() < 2) return;
   if (grown) {
     const v1::Rung& last = report.ladder(report.ladder_size() - 1);
-    to.figures.push_back(budget_figure(report, after_svg,
-                                       "After: the effects taken out of the measurements",
-                                       last.model(), id + "a"));
+    to.figures.push_back(titled(after_figure(report),
+                                "After: the effects taken out of the measurements", last.model()));
     add_spectrum(report, report.compared_after(), "Spectrum after", to);
   }
   if (auto ladder = ladder_figure(report)) to.figures.push_back(std::move(*ladder));

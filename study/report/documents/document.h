@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "study/report/terminal_canvas.h"
+#include "study/figure/figure.h"
+#include "study/words/terminal_style.h"
 
 namespace imunoise::report {
 
@@ -18,21 +19,13 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A figure for the page, drawn for a desk and for a phone; the terminal shows the tables only.
-struct Figure {
-  std::string title;
-  std::string wide;    ///< SVG
-  std::string narrow;  ///< SVG
-  std::string caption;
-};
-
 struct Section {
   std::string title;
   std::string badge;  ///< a word or two; empty for none
   Mood mood = Mood::kNeutral;
   std::string facts;  ///< one line: what it was made from
   std::string summary;
-  std::vector<Figure> figures;
+  std::vector<figure::Figure> figures;  ///< for the page; the terminal shows the tables
   std::vector<Table> tables;
   std::vector<std::string> notes;
 };
@@ -42,7 +35,7 @@ struct Document {
   std::vector<Section> sections;
 };
 
-/// One self-contained page. All text is escaped; figures are SVG of our own making. Thread-safe.
+/// One self-contained page. All text is escaped. Thread-safe.
 std::string html_page(const Document& document);
 
 /// For the terminal, no line wider than the style says. Thread-safe.

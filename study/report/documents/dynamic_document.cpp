@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "study/report/covariate_chart.h"
 #include "study/report/documents/inference_documents.h"
-#include "study/report/verdict.h"
+#include "study/report/figures/covariate_figure.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {
@@ -24,7 +24,7 @@ std::string probability(const v1::TestResult& test, Digits digits) {
   return test.p_value() < 1e-4 ? "< 0.0001" : number(test.p_value(), 2, digits);
 }
 
-ChartPoint chart_point(const v1::CovariatePoint& from) {
+CovariateValue covariate_value(const v1::CovariatePoint& from) {
   return {from.covariate(), from.value(), from.has_lower() ? from.lower() : kMissing,
           from.has_upper() ? from.upper() : kMissing};
 }
@@ -37,8 +37,9 @@ std::string value_words(const v1::CovariatePoint& point, Digits digits) {
   return with_interval(point.value(), point.lower(), point.upper(), digits);
 }
 
-std::optional<Figure> figure(const v1::DynamicReport& report, const v1::DynamicQuantity& quantity) {
-  CovariateChart chart;
+std::optional<figure::Figure> figure_of(const v1::DynamicReport& report,
+                                        const v1::DynamicQuantity& quantity) {
+  CovariateValues chart;
   chart.title = name_of(quantity) + ": " + quantity.title();
   chart.covariate_title = covariate_title(report);
   chart.value_title = in_unit(name_of(quantity), quantity.unit());
@@ -47,9 +48,10 @@ std::optional<Figure> figure(const v1::DynamicReport& report, const v1::DynamicQ
       "with its interval; grey where only the upper end means something. Where those intervals "
       "miss the band, the link is wrong.",
       100.0 * report.confidence());
-  for (const v1::CovariatePoint& one : quantity.curve()) chart.curve.push_back(chart_point(one));
+  for (const v1::CovariatePoint& one : quantity.curve())
+    chart.curve.push_back(covariate_value(one));
   for (const v1::CovariatePoint& one : quantity.separate()) {
-    chart.points.push_back(chart_point(one));
+    chart.points.push_back(covariate_value(one));
   }
   return covariate_figure(chart);
 }
@@ -134,7 +136,7 @@ Section section(const v1::DynamicReport& report, Digits digits) {
   out.tables.push_back(trends(report, digits));
   for (const v1::DynamicQuantity& one : report.quantities()) {
     if (!one.varies()) continue;
-    if (auto drawn = figure(report, one)) out.figures.push_back(std::move(*drawn));
+    if (auto drawn = figure_of(report, one)) out.figures.push_back(std::move(*drawn));
     out.tables.push_back(values(report, one, digits));
   }
   out.tables.push_back(constants(report, digits));

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "study/report/documents/inference_documents.h"
-#include "study/report/fault_chart.h"
+#include "study/report/figures/fault_figure.h"
 
 namespace imunoise::report {
 namespace {
@@ -68,7 +68,7 @@ Document document(const v1::FaultReport& report, Digits digits) {
   std::set<std::string> drawn;
   for (const v1::SensorFault& fault : report.faults()) {
     if (!drawn.insert(fault.replicate()).second) continue;
-    if (auto figure = fault_chart(report, fault.replicate())) {
+    if (auto figure = fault_figure(report, fault.replicate())) {
       section.figures.push_back(std::move(*figure));
     }
   }

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "study/report/documents/catalogue_documents.h"
-#include "study/report/history_chart.h"
+#include "study/report/figures/history_figure.h"
 
 namespace imunoise::report {
 namespace {
@@ -106,7 +106,7 @@ Document document(const v1::History& history, Digits digits) {
   section.summary = history.summary();
   section.tables = {overview(history, digits), trends(history, digits)};
   for (const v1::ParameterHistory& one : history.parameters()) {
-    if (auto figure = history_chart(one)) section.figures.push_back(std::move(*figure));
+    if (auto figure = history_figure(one)) section.figures.push_back(std::move(*figure));
     if (history.parameters_size() <= kMostTables) section.tables.push_back(points(one, digits));
   }
   section.notes.assign(history.notes().begin(), history.notes().end());

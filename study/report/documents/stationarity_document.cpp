@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "study/report/documents/inference_documents.h"
-#include "study/report/interval_chart.h"
-#include "study/report/verdict.h"
+#include "study/report/figures/interval_figure.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {
@@ -79,12 +79,12 @@ Section section(const v1::StationarityReport& report, Digits digits) {
     rows.push_back({one.term() + " " + one.parameter(), 100.0 * one.relative(),
                     100.0 * one.relative_lower(), 100.0 * one.relative_upper(), one.moves()});
   }
-  auto figure = interval_chart(
+  auto figure = interval_figure(
       "Spread between replicates", "standard deviation between replicates, %",
       "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
       "runs to the left edge includes zero. Orange: moves by more than chance. Parameters without "
       "any excess spread are left out.",
-      std::move(rows), std::nullopt);
+      rows, std::nullopt);
   if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {tests(report, digits), spread(report, digits)};
   out.notes.assign(report.notes().begin(), report.notes().end());

@@ -39,10 +39,9 @@ std::string table(const Table& from) {
       escape_markup(from.title), table_head(from.head), rows);
 }
 
-std::string figure(const Figure& from) {
-  return fmt::format("<h3>{}</h3>\n<figure>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-                     escape_markup(from.title), from.wide, from.narrow,
-                     escape_markup(from.caption));
+std::string shown(const figure::Figure& from) {
+  return fmt::format("<h3>{}</h3>\n<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n",
+                     escape_markup(from.title), two_widths(from), escape_markup(from.caption));
 }
 
 std::string section(const Section& from, std::size_t index) {
@@ -56,7 +55,7 @@ std::string section(const Section& from, std::size_t index) {
   }
   out += fmt::format("</div>\n<p class=\"facts\">{}</p>\n<p class=\"summary\">{}</p>\n",
                      escape_markup(from.facts), escape_markup(from.summary));
-  for (const Figure& one : from.figures) out += figure(one);
+  for (const figure::Figure& one : from.figures) out += shown(one);
   for (const Table& one : from.tables) out += table(one);
   if (!from.notes.empty()) {
     out += "<h3>Notes</h3>\n<ul class=\"notes\">\n";

@@ -2,18 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "study/report/assets.h"
+#include "study/report/figures/budget_figure.h"
 #include "study/report/html/fit_tables.h"
 #include "study/report/html/page_frame.h"
-#include "study/report/svg_plot.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 #include "study/words/text.h"
 
 namespace imunoise::report {
 namespace {
-
-constexpr double kWide = 920.0;   // px, of figures on a desk
-constexpr double kPhone = 388.0;  // px, of figures on a phone
 
 std::string css_class(Verdict verdict) {
   switch (verdict) {
@@ -42,15 +38,6 @@ const char* sign(Verdict verdict) {
       break;
   }
   return "–";
-}
-
-// The same figure for desk and phone; the style sheet shows one of them.
-template <class Figure>
-std::string two_widths(Figure figure, const v1::FitReport& report, const std::string& id) {
-  const auto one = [&](double width, const char* kind) {
-    return of_kind(figure(report, {SvgVariant::kInline, width, id + kind}), kind);
-  };
-  return one(kWide, "wide") + one(kPhone, "narrow");
 }
 
 std::string heading(const v1::FitReport& report) {
@@ -86,31 +73,29 @@ std::string legend(const v1::FitReport& report, const BudgetView& view) {
         R"(<button type="button" aria-pressed="true" data-term="{}"><span class="swatch )"
         "term-{}\">"
         "</span>{} {}</button>",
-        t, t % kTermStyles, escape_markup(view.terms[t]),
+        escape_markup(view.terms[t]), t % figure::kTermStyles, escape_markup(view.terms[t]),
         escape_markup(report.terms(static_cast<int>(t)).title()));
   }
   return out + "</div>\n";
 }
 
-std::string budget_figure(const v1::FitReport& report, const BudgetView& view,
-                          const std::string& id) {
+std::string budget(const v1::FitReport& report, const BudgetView& view) {
+  const figure::Figure drawn = budget_figure(report);
   return "<figure class=\"budget\">\n" + legend(report, view) +
          R"(<div class="plot" tabindex="0" role="group" )"
          "aria-label=\"noise budget; arrow keys read the scales one by one\">\n" +
-         two_widths(budget_svg, report, id + "b") +
+         two_widths(drawn) +
          "</div>\n<div class=\"readout\" role=\"status\"><span class=\"hint\">Point at the figure, "
          "or "
          "use the arrow keys, to read a scale.</span></div>\n<figcaption>" +
-         escape_markup(budget_caption(report)) + "</figcaption>\n</figure>\n";
+         escape_markup(drawn.caption) + "</figcaption>\n</figure>\n";
 }
 
-std::string replicates(const v1::FitReport& report, const std::string& id) {
-  if (report.replicates_size() < 2) return {};
-  return "<h3>Replicates</h3>\n<figure class=\"replicates\">\n" +
-         two_widths(replicates_svg, report, id + "r") +
-         "<figcaption>Residual of each replicate in standard deviations under the model: orange "
-         "above "
-         "it, blue below; a sign marks those beyond ±2 σ.</figcaption>\n</figure>\n";
+std::string replicates(const v1::FitReport& report, const BudgetView& view) {
+  const auto drawn = replicates_figure(view.replicates, report.channel());
+  if (view.replicates.size() < 2 || !drawn) return {};
+  return "<h3>Replicates</h3>\n<figure class=\"replicates\">\n" + two_widths(*drawn) +
+         "<figcaption>" + escape_markup(drawn->caption) + "</figcaption>\n</figure>\n";
 }
 
 std::string notes(const v1::FitReport& report) {
@@ -132,9 +117,9 @@ std::string section(const v1::FitReport& report, int index) {
   const BudgetView view = budget_view(report);
   return fmt::format("<section id=\"{}\" aria-label=\"{}\">\n", id,
                      escape_markup(channel_name(report.channel()))) +
-         heading(report) + misfit_list(report, view) + budget_figure(report, view, id) +
+         heading(report) + misfit_list(report, view) + budget(report, view) +
          scale_table(report, view) + coefficient_table(report) + parameter_table(report) +
-         replicates(report, id) + notes(report) + "<h3>How it was fitted</h3>\n" +
+         replicates(report, view) + notes(report) + "<h3>How it was fitted</h3>\n" +
          fitted_model(report) + provenance(report) + "</section>\n";
 }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "study/report/assets.h"
+#include "study/figure/figure.h"
 #include "study/report/html/page_frame.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 #include "study/words/number.h"
 #include "study/words/text.h"
 
@@ -45,12 +45,12 @@ std::string parameter_table(const v1::FitReport& report) {
   std::string rows;
   for (std::size_t t = 0; t < names.size(); ++t) {
     const v1::Term& term = report.terms(static_cast<int>(t));
-    const std::string title =
-        fmt::format(R"(<td class="term" rowspan="{}"><span class="swatch )"
-                    "term-{}\"></span><strong>{}</strong> {}"
-                    R"(<span class="explain">{}</span></td>)",
-                    std::max(1, term.parameters_size()), t % kTermStyles, escape_markup(names[t]),
-                    escape_markup(term.title()), escape_markup(term.meaning()));
+    const std::string title = fmt::format(
+        R"(<td class="term" rowspan="{}"><span class="swatch )"
+        "term-{}\"></span><strong>{}</strong> {}"
+        R"(<span class="explain">{}</span></td>)",
+        std::max(1, term.parameters_size()), t % figure::kTermStyles, escape_markup(names[t]),
+        escape_markup(term.title()), escape_markup(term.meaning()));
     if (term.parameters().empty()) rows += "<tr>" + title + "<td colspan=\"5\"></td></tr>\n";
     for (int p = 0; p < term.parameters_size(); ++p) {
       rows += "<tr>" + (p == 0 ? title : "") + parameter_cells(term.parameters(p)) + "</tr>\n";

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "study/report/budget_view.h"
+#include "study/report/view/budget_view.h"
 
 namespace imunoise::report {
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "study/report/assets.h"
+#include "study/figure/assets.h"
+#include "study/figure/svg.h"
+#include "study/report/html/assets.h"
 #include "study/words/text.h"
 
 namespace imunoise::report {
@@ -14,7 +16,17 @@ std::string page_frame(std::string_view title, std::string_view brand, std::stri
       "initial-scale=1\">\n<title>{}</title>\n"
       "<style>\n{}{}{}</style>\n</head>\n<body>\n<h1 class=\"brand\">imunoise: {}</h1>\n{}"
       "<script>\n{}</script>\n</body>\n</html>\n",
-      escape_markup(title), kPaletteCss, kPlotCss, kPageCss, escape_markup(brand), body, kPageJs);
+      escape_markup(title), figure::kPaletteCss, figure::kPlotCss, kPageCss, escape_markup(brand),
+      body, kPageJs);
+}
+
+std::string two_widths(const figure::Figure& figure) {
+  constexpr double kDesk = 920.0;   // px
+  constexpr double kPhone = 388.0;  // px
+  const auto one = [&](double width, const char* kind) {
+    return svg(figure, {figure::SvgVariant::kInline, width, 0.0, kind});
+  };
+  return one(kDesk, "wide") + one(kPhone, "narrow");
 }
 
 std::string markup_cell(std::string_view css_class, std::string_view markup) {

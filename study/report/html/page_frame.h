@@ -6,11 +6,16 @@
 #include <string_view>
 #include <vector>
 
+#include "study/figure/figure.h"
+
 namespace imunoise::report {
 
 /// The page around a report's body: style and script inside, no network. `title` and `brand` are
 /// escaped here, `body` is markup.
 std::string page_frame(std::string_view title, std::string_view brand, std::string_view body);
+
+/// A figure for desk and phone: the style sheet shows one of the two.
+std::string two_widths(const figure::Figure& figure);
 
 /// A cell whose contents are markup already.
 std::string markup_cell(std::string_view css_class, std::string_view markup);

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/figure/characters.h"
+#include "study/report/figures/budget_figure.h"
 #include "study/report/terminal/lines.h"
 #include "study/report/terminal/table.h"
-#include "study/report/terminal_plot.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 #include "study/words/number.h"
 
 namespace imunoise::report {
@@ -29,11 +30,10 @@ Ink ink_of(Verdict verdict) {
   return Ink::kQuiet;
 }
 
-std::string marks(const v1::FitReport& report, const TerminalStyle& style) {
-  const std::string text =
-      "ν in " + squared(report.unit()) + " over averaging time; " +
-      (style.unicode ? "● measured, ◆ beyond 2 σ, ⠤ model" : "o measured, x beyond 2 sd, . model") +
-      "; digits: residual in standard deviations, # above 9";
+std::string marks(const TerminalStyle& style) {
+  const std::string text = std::string(style.unicode ? "● measured, ◆ beyond 2 σ, ⠤ model"
+                                                     : "o measured, x beyond 2 sd, . model") +
+                           "; digits: residual in standard deviations, # above 9";
   return paragraph(text, Ink::kQuiet, style);
 }
 
@@ -69,17 +69,10 @@ std::string parameters(const v1::FitReport& report, const TerminalStyle& style) 
   return "\n" + terminal_table({"term", "parameter", "per sample", "unit", ""}, rows, style);
 }
 
-BudgetView measured_view(const v1::WaveletVarianceReport& report) {
-  BudgetView view;
-  for (int i = 0; i < std::min(report.scales_s_size(), report.variance_size()); ++i) {
-    ScaleView scale;
-    scale.seconds = report.scales_s(i);
-    scale.measured = report.variance(i);
-    scale.lower = i < report.lower_size() ? report.lower(i) : kMissing;
-    scale.upper = i < report.upper_size() ? report.upper(i) : kMissing;
-    view.scales.push_back(scale);
-  }
-  return view;
+// The figure of a budget in characters, or that there is none.
+std::string drawn(const figure::Figure& figure, const TerminalStyle& style) {
+  const std::string out = characters(figure, style);
+  return out.empty() ? wrapped("(nothing to draw: no positive variance)", 2, style) : out;
 }
 
 }  // namespace
@@ -92,7 +85,7 @@ std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
       channel_name(report.channel()) + " " + std::string(verdict_words(v)) + ": " + facts(report),
       style);
   if (!report.summary().empty()) out += paragraph(report.summary(), Ink::kPlain, style);
-  out += "\n" + terminal_plot(view, true, style) + marks(report, style);
+  out += "\n" + drawn(budget_figure(report), style) + marks(style);
   out += "\n" + paragraph(verdict_sentence(report), ink_of(v), style);
   if (v == Verdict::kFails || v == Verdict::kDoubtful) {
     for (const Misfit& misfit : misfits(view)) out += wrapped(misfit_words(view, misfit), 2, style);
@@ -105,7 +98,7 @@ std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
 
 std::string wv_text(const v1::WaveletVarianceReport& report, const TerminalStyle& wanted) {
   const TerminalStyle style = usable(wanted);
-  const BudgetView view = measured_view(report);
+  const BudgetView view = budget_view(report);
   const AllanUnit allan = allan_unit(report.unit());
   std::vector<std::vector<std::string>> rows;
   for (const ScaleView& scale : view.scales) {
@@ -117,7 +110,7 @@ std::string wv_text(const v1::WaveletVarianceReport& report, const TerminalStyle
   std::string out = title_line(fmt::format("{}: wavelet variance, {} estimator",
                                            channel_name(report.channel()), report.estimator()),
                                style);
-  out += "\n" + terminal_plot(view, false, style) + "\n";
+  out += "\n" + drawn(budget_figure(view, {.unit = report.unit()}), style) + "\n";
   if (rows.empty()) return out;
   return out + terminal_table(
                    {"over", "variance, " + squared(report.unit()), "Allan tau", "Allan deviation"},

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "imunoise/v1/noise.pb.h"
-#include "study/report/terminal_canvas.h"
+#include "study/words/terminal_style.h"
 
 namespace imunoise::report {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "study/report/terminal_canvas.h"
+#include "study/words/terminal_style.h"
 
 namespace imunoise::report {
 

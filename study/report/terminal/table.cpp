@@ -74,11 +74,6 @@ std::string row_lines(const std::vector<std::string>& row, const std::vector<std
 
 }  // namespace
 
-std::string terminal_text(std::string_view text, const TerminalStyle& style) {
-  const std::string clean = clean_text(text);
-  return style.unicode ? clean : to_ascii(clean);
-}
-
 std::string wrapped(std::string_view text, int indent, const TerminalStyle& style) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
   const auto room = static_cast<std::size_t>(std::max(10, style.width - indent));

@@ -4,12 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "study/report/terminal_canvas.h"
+#include "study/words/terminal_style.h"
 
 namespace imunoise::report {
-
-/// Text made safe for a terminal: no control characters, and ASCII where the style asks for it.
-std::string terminal_text(std::string_view text, const TerminalStyle& style);
 
 /// Words broken into lines no wider than the terminal, each after `indent` spaces.
 std::string wrapped(std::string_view text, int indent, const TerminalStyle& style);

@@ -10,7 +10,8 @@
 
 #include "core/array/array_estimate.h"
 #include "core/support/parallel.h"
-#include "study/report/interval_chart.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/interval_figure.h"
 #include "tests/core/array/simulated_array.h"
 #include "tests/core/array/vaccaro_zaki.h"
 
@@ -105,14 +106,15 @@ TEST_P(Mgmwm, BeatsGls2ForEveryParameter) {
     // 95 % within four binomial standard errors of 500 runs.
     EXPECT_NEAR(mean.covered(at), 0.95, 4.0 * std::sqrt(0.95 * 0.05 / kRuns)) << kNames[p];
   }
-  const std::string figure = fmt::format("mgmwm-against-gls2-{:g}.svg", GetParam());
-  std::ofstream(figure) << report::interval_svg(
+  const std::string file = fmt::format("mgmwm-against-gls2-{:g}.svg", GetParam());
+  auto drawn = report::interval_figure(
       fmt::format("MGMWM against Vaccaro and Zaki's GLS(2), random walk in units of {:g}",
                   GetParam()),
-      fmt::format("{} runs of three sensors with {} samples; 95 % intervals of the ratio", kRuns,
-                  kSamples),
-      "mean square error over that of GLS(2)", rows, 1.0);
-  std::printf("drawn in %s\n", figure.c_str());
+      "mean square error over that of GLS(2)", "", rows, 1.0);
+  drawn->subtitle = fmt::format(
+      "{} runs of three sensors with {} samples; 95 % intervals of the ratio", kRuns, kSamples);
+  std::ofstream(file) << figure::svg(*drawn);
+  std::printf("drawn in %s\n", file.c_str());
 }
 
 INSTANTIATE_TEST_SUITE_P(WalkUnits, Mgmwm, ::testing::Values(1e-6, 1e-9));

@@ -10,7 +10,8 @@
 
 #include "core/array/mixed_regression.h"
 #include "core/array/simulate_array.h"
-#include "study/report/interval_chart.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/interval_figure.h"
 
 namespace imunoise {
 namespace {
@@ -85,13 +86,15 @@ TEST(MixedTrial, ANullCoefficientIsFoundAtTheLevelOnly) {
     rows.push_back({kTitles[m], 100.0 * rejected[m], 100.0 * (rejected[m] - reach),
                     100.0 * (rejected[m] + reach), rejected[m] - reach > 0.05});
   }
-  const char* const figure = "mixed-null-coefficient.svg";
-  std::ofstream(figure) << report::interval_svg(
+  const char* const file = "mixed-null-coefficient.svg";
+  auto drawn = report::interval_figure(
       "How often a coefficient that is zero is called an effect, at a level of 5 %",
+      "rejected, % of the sets", "", rows, 5.0);
+  drawn->subtitle =
       "Four series that share slow noise, regressed on slow series that have nothing to do with "
-      "them",
-      "rejected, % of the sets", rows, 5.0);
-  std::printf("drawn in %s\n", figure);
+      "them";
+  std::ofstream(file) << figure::svg(*drawn);
+  std::printf("drawn in %s\n", file);
   const double allowance = 3.3 * std::sqrt(0.05 * 0.95 / kSets);
   EXPECT_GT(rejected[0], 0.3);
   for (const std::size_t m : {std::size_t{1}, std::size_t{2}}) {

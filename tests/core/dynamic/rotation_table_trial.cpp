@@ -10,7 +10,8 @@
 #include <string>
 
 #include "core/support/parallel.h"
-#include "study/report/covariate_chart.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/covariate_figure.h"
 #include "tests/core/dynamic/rotation_table.h"
 
 namespace imunoise {
@@ -47,10 +48,10 @@ void draw(const DynamicFit& fit, std::size_t term, const char* file) {
   const Coefficient coefficient = estimates_at(fit, 30.0)[term].derived[0].coefficient;
   const CoefficientUnits units = coefficient_units(coefficient, Quantity::kAngularRate);
   const auto point = [&](double rate, const DerivedEstimate& from) {
-    return report::ChartPoint{rate, from.value * units.to_datasheet,
-                              from.lower * units.to_datasheet, from.upper * units.to_datasheet};
+    return report::CovariateValue{rate, from.value * units.to_datasheet,
+                                  from.lower * units.to_datasheet, from.upper * units.to_datasheet};
   };
-  report::CovariateChart chart;
+  report::CovariateValues chart;
   chart.title = std::string(units.title) + " on a simulated rotation table";
   chart.covariate_title = "rate, °/s";
   chart.value_title = std::string(units.symbol) + ", " + units.datasheet;
@@ -64,7 +65,7 @@ void draw(const DynamicFit& fit, std::size_t term, const char* file) {
   for (std::size_t b = 0; b < rates.size(); ++b) {
     chart.points.push_back(point(rates[b], fit.separate[b]->derived[term][0]));
   }
-  std::ofstream(file) << report::covariate_svg(chart);
+  std::ofstream(file) << figure::svg(*report::covariate_figure(chart));
   std::printf("drawn in %s\n", file);
 }
 

@@ -16,7 +16,8 @@
 #include "core/process/parameter_scale.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
-#include "study/report/interval_chart.h"
+#include "study/figure/svg.h"
+#include "study/report/figures/interval_figure.h"
 #include "tests/core/inference/simulated_sets.h"
 
 namespace imunoise {
@@ -161,10 +162,12 @@ TEST_P(Efficiency, AgainstTheCramerRaoBound) {
       ++at;
     }
   }
-  std::ofstream("efficiency.svg") << report::interval_svg(
+  auto drawn = report::interval_figure(
       "Median square error over the Cramér-Rao bound",
-      "Dots: moments with full weights at one scale an octave; the line leads to the Whittle step",
-      "median square error over that of a normal error at the bound", figure_rows(), 1.0);
+      "median square error over that of a normal error at the bound", "", figure_rows(), 1.0);
+  drawn->subtitle =
+      "Dots: moments with full weights at one scale an octave; the line leads to the Whittle step";
+  std::ofstream("efficiency.svg") << figure::svg(*drawn);
 }
 
 INSTANTIATE_TEST_SUITE_P(

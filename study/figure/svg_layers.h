@@ -1,0 +1,24 @@
+#pragma once
+
+#include "study/figure/layout.h"
+#include "study/figure/svg_writer.h"
+
+namespace imunoise::figure {
+
+/// True of layers that lie behind the grid.
+bool is_background(Shape shape);
+
+/// One layer, as a group that carries its name (data-term) and role, its places with data-x, data-y
+/// and data-sigma.
+void draw_layer(SvgWriter& svg, const PanelPlace& place, const Layer& layer);
+
+/// A layer's sign in the key, left end and baseline at `at`.
+void draw_sign(SvgWriter& svg, const Layer& layer, Point at);
+
+/// The places of a line, in px; those outside the panel as well.
+std::vector<Point> line_points(const PanelPlace& place, const Layer& layer);
+
+/// Style class of a cell: sign and strength.
+std::string cell_class(double sigma);
+
+}  // namespace imunoise::figure
