@@ -20,6 +20,7 @@ namespace {
 constexpr double kLabelSize = 12.5;  // px, of the names along lines
 constexpr double kLongName = 190.0;  // px
 constexpr double kShortName = 100.0;
+constexpr std::size_t kMostNames = 12;  // along lines; more cover what they name
 
 std::string opening(const Figure& figure, const SvgOptions& options, double height) {
   const std::string extra = options.css_class.empty() ? "" : " " + options.css_class;
@@ -75,6 +76,7 @@ std::string draw_line_names(SvgWriter& svg, const PanelPlace& place, bool narrow
       obstacles.insert(obstacles.end(), points.begin(), points.end());
     }
   }
+  if (names.size() > kMostNames) names.clear();
   lines.insert(lines.end(), others.begin(), others.end());
   for (const CurveLabel& label : place_labels(lines, names, obstacles, place.frame, kLabelSize)) {
     const Layer& layer = *named[label.curve];
@@ -89,12 +91,12 @@ std::string draw_line_names(SvgWriter& svg, const PanelPlace& place, bool narrow
 void draw_panel(SvgWriter& svg, const PanelPlace& place, const Axis& x, bool narrow) {
   svg.open("g class=\"panel\"");
   for (const Layer& layer : place.panel->layers) {
-    if (is_background(layer.shape)) draw_layer(svg, place, layer);
+    if (is_background(layer)) draw_layer(svg, place, layer);
   }
   draw_grid(svg, place);
   draw_names(svg, place, x, narrow);
   for (const Layer& layer : place.panel->layers) {
-    if (!is_background(layer.shape)) draw_layer(svg, place, layer);
+    if (!is_background(layer)) draw_layer(svg, place, layer);
   }
   for (const PlacedText& words : place.marks)
     svg.text("note", words.at, words.text, kNoteSize, Anchor::kMiddle);

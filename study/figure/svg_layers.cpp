@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/figure/svg_style.h"
 #include "study/words/text.h"
 
 namespace imunoise::figure {
@@ -13,62 +14,8 @@ namespace {
 constexpr double kRadius = 3.4;       // px
 constexpr double kSmallRadius = 2.4;  // px, in low panels
 constexpr double kCellGap = 2.0;      // px
-constexpr double kSteps = 4.0;        // steps of a cell's colour on either side
-constexpr double kFullColour = 6.0;   // σ
 constexpr double kHatchStep = 7.0;    // px
 constexpr double kBarShare = 0.6;     // of the room of a category
-
-const char* role_name(Role role) {
-  switch (role) {
-    case Role::kMeasured:
-      return "measured";
-    case Role::kModel:
-      return "model";
-    case Role::kTerm:
-      return "term";
-    case Role::kGhost:
-      return "ghost";
-    case Role::kReplicate:
-      return "replicate";
-    case Role::kInterval:
-      return "band";
-    case Role::kChance:
-      return "chance";
-    case Role::kMisfit:
-      return "misfit";
-    case Role::kUntested:
-      break;
-  }
-  return "untested";
-}
-
-std::string with_state(const char* css_class, State state) {
-  return std::string(css_class) + (state == State::kOutside    ? " outside"
-                                   : state == State::kUntested ? " untested"
-                                                               : "");
-}
-
-std::string line_class(const Layer& layer) {
-  if (layer.role == Role::kMeasured) return "trace";
-  if (layer.role != Role::kTerm) return role_name(layer.role);
-  return fmt::format("term term-{}", layer.style % kTermStyles);
-}
-
-const char* area_class(const Layer& layer) {
-  return layer.role == Role::kMeasured ? "extent" : role_name(layer.role);
-}
-
-std::string numbers(const Datum& one) {
-  std::string out;
-  const auto add = [&](const char* name, double value) {
-    if (std::isfinite(value))
-      out += fmt::format("{}data-{}=\"{:.6g}\"", out.empty() ? "" : " ", name, value);
-  };
-  add("x", one.x);
-  add("y", one.y);
-  add("sigma", one.sigma);
-  return out;
-}
 
 double radius_of(const PanelPlace& place) {
   return place.frame.height() < kLowPanel && place.y.kind() != AxisKind::kSigma ? kSmallRadius
@@ -114,7 +61,7 @@ void draw_points(SvgWriter& svg, const PanelPlace& place, const Layer& layer) {
   for (const Datum& one : layer.data) {
     if (!has_x(place, one.x) || !has_y(place, one.y)) continue;
     svg.circle(with_state("measured", one.state), place.frame.nearest(place.at(one.x, one.y)),
-               radius_of(place), numbers(one));
+               radius_of(place), data_attributes(one));
   }
 }
 
@@ -142,31 +89,30 @@ void draw_intervals(SvgWriter& svg, const PanelPlace& place, const Layer& layer)
         std::isfinite(one.upper) ? right_end(place, std::max(one.x, one.upper)) : at.x;
     const double left = std::isnan(one.lower) ? at.x : std::min(at.x, left_end(place, one.lower));
     svg.line(with_state("stem", one.state), {left, at.y}, {right, at.y});
-    svg.circle(with_state("residual", one.state), at, 4.0, numbers(one));
+    svg.circle(with_state("residual", one.state), at, 4.0, data_attributes(one));
   }
 }
 
 void draw_bar(SvgWriter& svg, const PanelPlace& place, const Layer& layer, const Datum& one) {
   const Box& frame = place.frame;
   const Point at = frame.nearest(place.at(one.x, one.y));
-  const std::string css_class =
-      with_state(layer.role == Role::kMeasured ? "bar" : role_name(layer.role), one.state);
+  const std::string css_class = with_state(bar_class(layer), one.state);
   if (place.y.kind() == AxisKind::kCategories) {
     const double zero = has_x(place, 0.0) ? left_end(place, 0.0) : frame.left;
     const double half = 0.5 * kBarShare * frame.height() / (place.y.high() - place.y.low());
     svg.rect(css_class, {std::min(zero, at.x), at.y - half, std::max(zero, at.x), at.y + half},
-             numbers(one));
+             data_attributes(one));
     return;
   }
   const double zero = has_y(place, 0.0) ? lower_end(place, 0.0) : frame.bottom;
   if (place.x.kind() == AxisKind::kCategories) {
     const double half = 0.5 * kBarShare * frame.width() / (place.x.high() - place.x.low());
     svg.rect(css_class, {at.x - half, std::min(zero, at.y), at.x + half, std::max(zero, at.y)},
-             numbers(one));
+             data_attributes(one));
     return;
   }
   svg.line(with_state("stem", one.state), {at.x, zero}, at);
-  svg.circle(with_state("residual", one.state), at, kRadius, numbers(one));
+  svg.circle(with_state("residual", one.state), at, kRadius, data_attributes(one));
 }
 
 void draw_marks(SvgWriter& svg, const PanelPlace& place, const Layer& layer) {
@@ -186,7 +132,7 @@ void draw_cells(SvgWriter& svg, const PanelPlace& place, const Layer& layer) {
             middle + 0.5 * pitch};
     box.right -= std::min(kCellGap, 0.2 * box.width());
     box.bottom -= std::min(kCellGap, 0.2 * pitch);
-    svg.rect(cell_class(one.sigma), box, numbers(one));
+    svg.rect(cell_class(one.sigma), box, data_attributes(one));
     if (one.words.empty() || pitch < kCellSize + 4.0) continue;
     const std::string sign = one.words.starts_with("−") ? "−" : one.words.substr(0, 1);
     const bool whole = text_width(one.words, kCellSize) <= box.width();
@@ -230,7 +176,10 @@ void draw_rows(SvgWriter& svg, const PanelPlace& place, const Layer& layer) {
 
 }  // namespace
 
-bool is_background(Shape shape) { return shape == Shape::kColumns || shape == Shape::kRows; }
+bool is_background(const Layer& layer) {
+  const bool wash = layer.shape == Shape::kBand && layer.role != Role::kMeasured;
+  return wash || layer.shape == Shape::kColumns || layer.shape == Shape::kRows;
+}
 
 std::vector<Point> line_points(const PanelPlace& place, const Layer& layer) {
   std::vector<Point> out;
@@ -313,15 +262,6 @@ void draw_sign(SvgWriter& svg, const Layer& layer, Point at) {
       svg.rect(cell_class(kFullColour), box);
       return;
   }
-}
-
-std::string cell_class(double sigma) {
-  const int step = static_cast<int>(std::min(kSteps, kSteps * std::abs(sigma) / kFullColour + 0.5));
-  return fmt::format("cell {}{}",
-                     step == 0     ? "zero"
-                     : sigma > 0.0 ? "plus"
-                                   : "minus",
-                     step == 0 ? "" : std::to_string(step));
 }
 
 }  // namespace imunoise::figure

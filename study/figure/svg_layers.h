@@ -6,7 +6,7 @@
 namespace imunoise::figure {
 
 /// True of layers that lie behind the grid.
-bool is_background(Shape shape);
+bool is_background(const Layer& layer);
 
 /// One layer, as a group that carries its name (data-term) and role, its places with data-x, data-y
 /// and data-sigma.
@@ -17,8 +17,5 @@ void draw_sign(SvgWriter& svg, const Layer& layer, Point at);
 
 /// The places of a line, in px; those outside the panel as well.
 std::vector<Point> line_points(const PanelPlace& place, const Layer& layer);
-
-/// Style class of a cell: sign and strength.
-std::string cell_class(double sigma);
 
 }  // namespace imunoise::figure

@@ -165,6 +165,24 @@ TEST(FigureEngine, NothingInASvgIsForbiddenByAStrictPolicy) {
   }
 }
 
+TEST(FigureEngine, ManyLinesAreNamedInTheKeyAlone) {
+  Figure lines = one_panel({});
+  lines.panels[0].layers.clear();
+  const auto labels = [&](int wanted) {
+    while (static_cast<int>(lines.panels[0].layers.size()) < wanted) {
+      const double y = static_cast<double>(lines.panels[0].layers.size());
+      lines.panels[0].layers.push_back(
+          {.role = Role::kTerm,
+           .name = "term " + std::to_string(lines.panels[0].layers.size()),
+           .labelled = true,
+           .data = {{.x = 0.0, .y = y}, {.x = 1.0, .y = y}}});
+    }
+    return of_class(read_markup(page_picture(lines)), "label term-0").size();
+  };
+  EXPECT_EQ(labels(12), 12U);
+  EXPECT_EQ(labels(13), 0U) << "they would cover what they name";
+}
+
 TEST(FigureEngine, APlaceCarriesItsNumbers) {
   Figure one =
       one_panel(layer_of(Shape::kPoints, Role::kMeasured, {{.x = 0.5, .y = -2e-9, .sigma = 3.25}}));
