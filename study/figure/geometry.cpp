@@ -90,7 +90,7 @@ std::string fitted(std::string_view text, double size, double width) {
   std::string out = report::clean_text(text);
   std::size_t columns = report::display_width(out);
   while (columns > 1 && text_width(out, size) > width) {
-    const double share = width / text_width(out, size);
+    const double share = std::max(0.0, width) / text_width(out, size);
     columns = std::min(
         columns - 1,
         std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(columns))));

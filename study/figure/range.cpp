@@ -35,8 +35,10 @@ class Reach {
       add(std::clamp(end, value / kMostStretch, value * kMostStretch));
     }
   }
-  // What has no value beside it counts in full.
+  // What has no value beside it counts in full; an end at zero has its room on a logarithmic axis.
   void add_interval(const Datum& from, double value) {
+    const bool to_zero = kind_ == AxisKind::kLogarithmic && from.lower <= 0.0;
+    if (to_zero && has(value)) add(value / kMostStretch);
     const bool known = has_place(kind_, value);
     for (const double end : {from.lower, from.upper}) {
       if (known) {

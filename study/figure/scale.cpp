@@ -14,6 +14,7 @@ constexpr double kMinute = 60.0;
 constexpr double kHour = 3600.0;
 constexpr double kDay = 86400.0;
 constexpr double kFewDecades = 3.0;
+constexpr double kLatest = 8e9;     // s, of which the nanoseconds can be counted
 constexpr double kLargest = 1e290;  // margins still are finite
 
 double power_of_ten(int exponent) { return std::pow(10.0, exponent); }
@@ -49,11 +50,16 @@ std::string moment(double seconds, double step) {
   return step < kDay ? report::minute(ns) : report::day(ns);
 }
 
-// Labels of a few digits stay as they are; large and small ones get an exponent.
-std::string number_label(double value) {
+// Labels of a few digits stay as they are; large and small ones get an exponent, and the digits
+// that tell one step from the next.
+std::string number_label(double value, double step) {
   const double size = std::abs(value);
-  if (size > 0.0 && (size < 1e-3 || size >= 1e5))
-    return report::number(value, 2, report::Digits::kTypeset);
+  if (size > 0.0 && (size < 1e-3 || size >= 1e5)) {
+    const double digits =
+        std::floor(std::log10(size) + 1e-9) - std::floor(std::log10(step) + 1e-9) + 1.0;
+    return report::number(value, static_cast<int>(std::clamp(digits, 1.0, 9.0)),
+                          report::Digits::kTypeset);
+  }
   return (value < 0.0 ? "−" : "") + report::tick_label(size);
 }
 
@@ -73,6 +79,7 @@ void label_on_decades(Tick& tick) {
 }  // namespace
 
 bool has_place(AxisKind kind, double value) {
+  if (kind == AxisKind::kTime) return std::abs(value) < kLatest;
   return std::abs(value) < kLargest && (kind != AxisKind::kLogarithmic || value > 1.0 / kLargest);
 }
 
@@ -83,7 +90,8 @@ std::string label_text(const Tick& tick, bool unicode) {
 }
 
 Scale::Scale(AxisKind kind, double low, double high) : kind_(kind), low_(low), high_(high) {
-  assert(has_place(kind, low) && has_place(kind, high) && low < high);
+  assert(std::isfinite(low) && std::isfinite(high) && low < high);
+  assert(kind != AxisKind::kLogarithmic || low > 0.0);
 }
 
 Scale::Scale(std::vector<std::string> categories)
@@ -143,7 +151,7 @@ std::vector<Tick> Scale::steps(double least) const {
     out.push_back({value, true,
                    kind_ == AxisKind::kTime                       ? moment(value, step)
                    : kind_ == AxisKind::kDuration && value != 0.0 ? report::duration(value)
-                                                                  : number_label(value)});
+                                                                  : number_label(value, step)});
   }
   return out;
 }

@@ -17,17 +17,18 @@
 namespace imunoise::figure {
 namespace {
 
-constexpr double kLabelSize = 12.5;  // px, of the names along lines
-constexpr double kLongName = 190.0;  // px
+constexpr double kLeastWidth = 200.0;  // px
+constexpr double kLabelSize = 12.5;    // px, of the names along lines
+constexpr double kLongName = 190.0;    // px
 constexpr double kShortName = 100.0;
 constexpr std::size_t kMostNames = 12;  // along lines; more cover what they name
 
-std::string opening(const Figure& figure, const SvgOptions& options, double height) {
+std::string opening(const Figure& figure, const SvgOptions& options, const Layout& places) {
   const std::string extra = options.css_class.empty() ? "" : " " + options.css_class;
   std::string out = fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" class="figure{0}" viewBox="0 0 {1} {2:.0f}" )"
       "width=\"{1}\" height=\"{2:.0f}\" role=\"img\" aria-label=\"{3}\">\n",
-      report::escape_markup(extra), options.width, std::ceil(height),
+      report::escape_markup(extra), places.width, std::ceil(places.height),
       report::escape_markup(figure.sentence.empty() ? figure.title : figure.sentence));
   if (options.variant == SvgVariant::kStandalone) {
     out += "<style>\n" + plot_style_for_paper() + "</style>\n";
@@ -135,11 +136,11 @@ void draw_cursor(SvgWriter& svg, const PanelPlace& place) {
 
 std::string svg(const Figure& figure, const SvgOptions& options) {
   const bool standalone = options.variant == SvgVariant::kStandalone;
-  const Paper paper{options.width, options.height, standalone};
+  const Paper paper{std::max(options.width, kLeastWidth), options.height, standalone};
   const Layout places = layout(figure, paper);
   SvgWriter out;
-  out.raw(opening(figure, options, places.height));
-  if (standalone) draw_heading(out, figure, options.width);
+  out.raw(opening(figure, options, places));
+  if (standalone) draw_heading(out, figure, paper.width);
   draw_key(out, places);
   const Axis* x = nullptr;
   for (const PanelPlace& place : places.panels) {

@@ -13,7 +13,7 @@ enum class SvgVariant {
 
 struct SvgOptions {
   SvgVariant variant = SvgVariant::kStandalone;
-  double width = 900.0;     ///< px; below 600 the figure is laid out for phones
+  double width = 900.0;     ///< px, at least 200; below 600 the figure is laid out for phones
   double height = 0.0;      ///< px; 0: as the panels ask for
   std::string css_class{};  ///< of the figure, beside "figure"
 };

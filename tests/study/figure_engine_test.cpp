@@ -122,6 +122,9 @@ std::vector<Figure> hard_cases() {
                                      .words = "+3.1"});
   }
   out.push_back({.title = "rows", .panels = {std::move(rows)}});
+  Figure late = one_panel(single, AxisKind::kTime);
+  late.panels[0].layers[0].data = {point(1e9, 1.0), point(2e9, 2.0), point(1e18, 3.0)};
+  out.push_back(std::move(late));
   Layer crowd{.shape = Shape::kMarks};
   for (int k = 0; k < 40; ++k)
     crowd.data.push_back({.x = 1.0 + 0.01 * k, .words = "13.7 Hz (chance)"});
@@ -143,7 +146,7 @@ TEST(FigureEngine, EveryShapeIsSoundOnEveryAxis) {
 
 TEST(FigureEngine, HardCasesKeepTheirTextsApart) {
   for (const Figure& one : hard_cases()) {
-    for (const double width : {920.0, 388.0, 250.0}) {
+    for (const double width : {920.0, 388.0, 250.0, 1.0}) {
       expect_sound(page_picture(one, width), one.title);
       expect_texts_apart(page_picture(one, width), one.title);
     }

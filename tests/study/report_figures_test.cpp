@@ -138,6 +138,8 @@ TEST(Scale, TicksAreWhatPeopleCountIn) {
   EXPECT_EQ(
       labels(Scale(AxisKind::kTime, 20000.2 * kDay, 20003.1 * kDay).ticks(600.0, 130.0, 14.0)),
       (std::vector<std::string>{"2024-10-05", "2024-10-06", "2024-10-07"}));
+  EXPECT_EQ(labels(Scale(AxisKind::kLinear, 0.95e-14, 1.05e-14).ticks(300.0, 72.0, 14.0)),
+            (std::vector<std::string>{"9.5×10⁻¹⁵", "1.00×10⁻¹⁴", "1.05×10⁻¹⁴"}));
   // Less than a decade is read in round steps.
   EXPECT_EQ(labels(Scale(AxisKind::kLogarithmic, 0.95, 1.3).ticks(400.0, 60.0, 14.0)),
             (std::vector<std::string>{"1", "1.1", "1.2", "1.3"}));
