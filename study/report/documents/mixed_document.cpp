@@ -2,7 +2,7 @@
 
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
-#include "study/report/verdict.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::report {
 namespace {
