@@ -21,8 +21,8 @@ for recording in "$out"/recordings/*/; do
   jq -r '.streams[] | [.replicate, .device, .stream, .received, .stored, ([.refused[].samples | tonumber] | add // 0),
       .lost, .gap_count, .duplicates, .in_journal, .nominal_rate_hz] | @tsv' "$out/verify.json" >> "$out/streams.tsv"
   jq -r '.defects[]?' "$out/verify.json"
-  jq -r '.replicates[] | [.replicate, .state, .started_ns, .ended_ns] | @tsv' "$recording/manifest.json" \
-    >> "$out/replicates.tsv"
+  jq -r --slurp 'sort_by(.note.replicate)[].note | [.replicate, .state, .started_ns, .ended_ns] | @tsv' \
+    "$recording"/replicate-*.json >> "$out/replicates.tsv"
 done
 injected=$(grep -m 1 'options.fault' "$out/soak.toml" | grep -o 'sample=' | wc -l)
 

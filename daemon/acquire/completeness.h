@@ -24,7 +24,8 @@ struct DeviceCourse {
 
 /// What a device lacks of `planned_s` s: nothing if rows were stored to about the end (a tenth of
 /// the time, between 1 s and 5 s, or 20 samples, may be missing there), or as many as the time
-/// holds; and no rows were discarded for want of room. A device that joined too late for 20
+/// holds; if at least nine tenths of what its nominal rate promises before that end came, stored or
+/// rejected; and no rows were discarded for want of room. A device that joined too late for 20
 /// samples, or whose period is longer than the time, lacks nothing without any. Without a planned
 /// end only the latter counts. Names the device.
 std::string shortfall(const DeviceCourse& course, std::optional<double> planned_s);

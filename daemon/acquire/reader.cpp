@@ -16,9 +16,6 @@ using Steady = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPatience{100};  // of one read
 constexpr std::size_t kBlockRows = 1024;
 constexpr std::chrono::milliseconds kDiskSlice{250};  // of waiting for the disk's room
-// Between attempts on a disk that fails: as long as the first, then twice as long each time.
-constexpr std::chrono::milliseconds kFirstDiskPause{50};
-constexpr std::chrono::milliseconds kLongestDiskPause{2000};
 constexpr std::chrono::seconds kLastDiskPatience{2};  // once somebody wants the reader's end
 
 }  // namespace
@@ -31,17 +28,20 @@ Reader::Reader(recording::Recorder& recorder, ReaderPlan plan,
       lost_(static_cast<std::size_t>(plan_.device.streams_size()), false),
       pause_(plan_.reopening.first),
       disk_patience_(plan_.disk_patience),
-      disk_pause_(kFirstDiskPause),
       device_(std::move(device)),
       thread_([this] { run(); }) {}
 
-void Reader::stop() {
+void Reader::request_stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_.request_stop();
     if (device_) device_->cancel();
   }
   stopping_.notify_all();
+}
+
+void Reader::stop() {
+  request_stop();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -95,19 +95,25 @@ bool Reader::push(const drivers::Block& block) {
 }
 
 // Whatever the disk does, the device is read on in the end, and every row is counted. False when
-// the block does not fit the device's description.
+// the block does not fit the device's description: the disk is not asked for that.
 bool Reader::deliver(const recording::Block& block) {
+  if (auto good = recording::check_block(plan_.device, block); !good) {
+    failure_ = Error{fmt::format(
+        "driver {}: {} rows do not fit what it said of the device ({}) and are not recorded; this "
+        "is a fault of the driver, report it to its author",
+        plan_.driver, block.rows.received, good.error().message)};
+    return false;
+  }
   if (Steady::now() >= disk_next_) {
     const auto taken = push_patiently(block);
     if (taken && *taken) {
       disk_patience_ = plan_.disk_patience;
-      disk_pause_ = kFirstDiskPause;
+      disk_pause_.reset();
       return true;
     }
     disk_failure_ = taken ? "it took nothing for too long" : taken.error().message;
     disk_patience_ = {};  // enough was waited; from now on what finds no room is counted
-    disk_next_ = Steady::now() + disk_pause_;
-    disk_pause_ = std::min(2 * disk_pause_, kLongestDiskPause);
+    disk_next_ = Steady::now() + disk_pause_.next();
   }
   const auto room = recorder_.offer(plan_.index, block);
   if (!room) {
@@ -121,7 +127,7 @@ bool Reader::deliver(const recording::Block& block) {
 // False: there was no room in time. Error: the disk's.
 Result<bool> Reader::push_patiently(const recording::Block& block) {
   const Steady::time_point begin = Steady::now();
-  auto pause = kFirstDiskPause;
+  recording::BackOff pause;
   while (true) {
     auto taken = recorder_.push_for(plan_.index, block, kDiskSlice);
     const Steady::duration patience =
@@ -129,8 +135,7 @@ Result<bool> Reader::push_patiently(const recording::Block& block) {
                                : disk_patience_;
     if ((taken && *taken) || Steady::now() - begin >= patience) return taken;
     if (taken) continue;  // that was a wait
-    std::this_thread::sleep_for(pause);
-    pause = std::min(2 * pause, kLongestDiskPause);
+    std::this_thread::sleep_for(pause.next());
   }
 }
 

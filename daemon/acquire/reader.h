@@ -17,6 +17,7 @@
 #include "daemon/acquire/stillness.h"
 #include "daemon/acquire/stream_clocks.h"
 #include "drivers/host/device.h"
+#include "recording/store/back_off.h"
 #include "recording/store/recorder.h"
 
 namespace imunoise::acquire {
@@ -52,8 +53,10 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// From any thread; waits for the reader's end: for the driver's answer to cancel(), or to the
-  /// end of an attempt to open it.
+  /// From any thread; returns at once.
+  void request_stop();
+  /// The same, and waits for the reader's end: for the driver's answer to cancel(), or to the end
+  /// of an attempt to open it.
   void stop();
   /// Nothing will come any more.
   bool ended() const { return ended_; }
@@ -96,7 +99,7 @@ class Reader {
   std::uint64_t discarded_ = 0;
   std::string disk_failure_;
   std::chrono::milliseconds disk_patience_;
-  std::chrono::milliseconds disk_pause_;  // before the disk is tried the next time
+  recording::BackOff disk_pause_;
   std::chrono::steady_clock::time_point disk_next_ = {};
   std::atomic<bool> ended_ = false;
 

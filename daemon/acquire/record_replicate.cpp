@@ -128,11 +128,13 @@ class Replicate {
       if (opened.devices[i]) {
         start_reading(recorder, i, std::move(opened.devices[i]), 0.0);
       } else if (plan_.reopening) {
-        latecomers_[i] = std::make_unique<Latecomer>(
+        latecomers_[i].latecomer = std::make_unique<Latecomer>(
             [this, i](const std::stop_token& stop) { return open(i, stop); }, *plan_.reopening);
       }
     }
     wait(recorder);
+    for (const auto& [device, late] : latecomers_) late.latecomer->request_stop();
+    for (const auto& reader : readers_) reader->request_stop();
     latecomers_.clear();
     for (const auto& reader : readers_) reader->stop();
   }
@@ -158,17 +160,24 @@ class Replicate {
     from_s_.push_back(from_s);
   }
 
-  // Those that have come take part from now on.
+  // Those that have come take part from now on, or as soon as the disk lets them.
   void welcome(recording::Recorder& recorder) {
-    std::erase_if(latecomers_, [&](auto& one) {
-      auto device = one.second->take();
-      const bool came = device != nullptr;
-      if (came) join(recorder, one.first, std::move(device));
-      return came;
-    });
+    for (auto one = latecomers_.begin(); one != latecomers_.end();) {
+      Late& late = one->second;
+      if (!late.device) late.device = late.latecomer->take();
+      const bool due = late.device && Steady::now() >= late.next;
+      if (due && join(recorder, one->first, late.device)) {
+        one = latecomers_.erase(one);
+        continue;
+      }
+      if (due) late.next = Steady::now() + late.pause.next();
+      ++one;
+    }
   }
 
-  void join(recording::Recorder& recorder, std::size_t i, std::unique_ptr<drivers::Device> device) {
+  // False: the disk failed, and the device is still there.
+  bool join(recording::Recorder& recorder, std::size_t i,
+            std::unique_ptr<drivers::Device>& device) {
     v1::RecordedDevice described = describe(i, *device);
     v1::MissingDevice& missing =
         *std::find_if(note_.mutable_missing()->begin(), note_.mutable_missing()->end(),
@@ -179,12 +188,14 @@ class Replicate {
     if (!added) {
       missing.clear_joined_ns();
       missing.set_reason(added.error().message);
-      return;
+      recorder.annotate(note_);
+      return false;
     }
     recorded_.devices.push_back(std::move(described));
     if (plan_.observer != nullptr) plan_.observer->join(recorded_.devices.back());
     start_reading(recorder, i, std::move(device),
                   std::chrono::duration<double>(Steady::now() - began_).count());
+    return true;
   }
 
   std::function<void(const recording::Block&)> observer_of(std::size_t device) const {
@@ -328,7 +339,14 @@ class Replicate {
   Steady::time_point began_;  // when all readers had
   std::optional<LeapWatch> leaps_;
   std::int64_t shift_ns_ = 0;  // from the host's clock to this replicate's time stamps
-  std::map<std::size_t, std::unique_ptr<Latecomer>> latecomers_;  // by device of the plan
+  // One that did not answer in time.
+  struct Late {
+    std::unique_ptr<Latecomer> latecomer;
+    std::unique_ptr<drivers::Device> device;  // it came, and the disk failed when it was to join
+    recording::BackOff pause;
+    Steady::time_point next = {};  // when it is tried again
+  };
+  std::map<std::size_t, Late> latecomers_;  // by device of the plan
 };
 
 }  // namespace

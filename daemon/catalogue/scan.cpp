@@ -58,7 +58,7 @@ Result<std::vector<std::string>> find_recordings(const recording::FileSystem& fi
 }
 
 std::string stamp_of(const recording::FileSystem& files, const std::filesystem::path& recording) {
-  return recording::crc32c_text(contents(files, recording / recording::kManifestName)) + " " +
+  return recording::manifest_stamp(files, recording) + " " +
          recording::crc32c_text(contents(files, recording / study::kCalibrationName));
 }
 

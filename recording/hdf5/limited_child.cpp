@@ -24,6 +24,8 @@ namespace {
 
 constexpr int kFailed = 3;         // exit status of a child that an exception ended
 constexpr int kPatience_ms = 100;  // between two questions whether to stop
+constexpr int kLine = 3;           // the child's end of the line
+constexpr int kLooks = 50;         // at a child that should end by itself, 10 ms apart
 
 void set_soft_limit(__rlimit_resource resource, std::uint64_t value) {
   rlimit limit = {};
@@ -44,14 +46,14 @@ void prepare_signals() {
   ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
 }
 
-// Whatever a library says when it crashes, the parent says it better.
+// Keeps this file alone, as kLine. Whatever a library says when it crashes, the parent says it
+// better. closefrom() ends the child where it can close nothing.
 void close_all_but(int descriptor) {
+  if (descriptor != kLine) ::dup2(descriptor, kLine);
+  ::closefrom(kLine + 1);
   const int nowhere = ::open("/dev/null", O_RDWR);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (standard != descriptor) ::dup2(nowhere, standard);
-  const auto kept = static_cast<unsigned>(descriptor);
-  if (kept > 3) ::close_range(3, kept - 1, 0);
-  ::close_range(kept + 1, ~0U, 0);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
+  ::close(nowhere);
 }
 
 [[noreturn]] void run_child(const std::function<void(const Line&)>& work, int descriptor,
@@ -63,7 +65,7 @@ void close_all_but(int descriptor) {
   set_soft_limit(RLIMIT_CORE, 0);
   set_soft_limit(RLIMIT_FSIZE, 0);
   try {
-    const Line line(descriptor);
+    const Line line(kLine);
     work(line);
   } catch (...) {
     ::_exit(kFailed);
@@ -120,13 +122,18 @@ bool Line::send(std::span<const char> bytes) const {
   return true;
 }
 
-bool Line::receive(std::span<char> bytes, const std::function<bool()>& stopped) const {
+bool Line::receive(std::span<char> bytes, const std::function<bool()>& stopped,
+                   std::chrono::nanoseconds patience) const {
+  using Steady = std::chrono::steady_clock;
+  Steady::time_point heard = Steady::now();
   while (!bytes.empty()) {
-    if (stopped) {
-      pollfd ready = {descriptor_, POLLIN, 0};
-      if (stopped()) return false;
-      if (::poll(&ready, 1, kPatience_ms) <= 0) continue;
+    pollfd ready = {descriptor_, POLLIN, 0};
+    if (stopped && stopped()) return false;
+    if (::poll(&ready, 1, kPatience_ms) <= 0) {
+      if (Steady::now() - heard >= patience) return false;
+      continue;
     }
+    heard = Steady::now();
     const ssize_t done = ::recv(descriptor_, bytes.data(), bytes.size(), 0);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) return false;
@@ -146,8 +153,14 @@ Result<LimitedChild> LimitedChild::start(const std::function<void(const Line&)>&
   const Line theirs(ends[1]);
   Fork made{work, theirs.descriptor()};
   // Any class with a property will do: what counts is to be called from inside the library.
-  H5Piterate(H5P_FILE_ACCESS, nullptr, fork_inside, &made);
-  if (made.pid < 0) return trouble(made.error);
+  const bool called = H5Piterate(H5P_FILE_ACCESS, nullptr, fork_inside, &made) >= 0;
+  if (made.pid < 0 && made.error != 0) return trouble(made.error);
+  if (made.pid < 0) {
+    return fail(
+        fmt::format("no process can be made to read it: HDF5 {} (H5Piterate); check the "
+                    "installation of libhdf5",
+                    called ? "knows no property of a file" : "reports an error"));
+  }
   return LimitedChild(made.pid, std::move(ours));
 }
 
@@ -165,9 +178,28 @@ int LimitedChild::wait() {
   return status;
 }
 
+bool LimitedChild::ends_soon(int& status) {
+  constexpr timespec kPause = {0, 10'000'000};
+  for (int look = 0; look < kLooks; ++look) {
+    const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
+    if (ended == pid_) {
+      pid_ = -1;
+      return true;
+    }
+    if (ended < 0 && errno != EINTR) return false;
+    ::nanosleep(&kPause, nullptr);
+  }
+  return false;
+}
+
 std::string LimitedChild::cause_of_death() {
   ::shutdown(line_.descriptor(), SHUT_RDWR);  // one that still lives waits for nothing more
-  const int status = wait();
+  int status = 0;
+  if (!ends_soon(status)) {
+    ::kill(pid_, SIGKILL);
+    wait();
+    return "it did nothing for too long";
+  }
   if (!WIFSIGNALED(status)) return "it ended early";
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU) return "it computed without an end";

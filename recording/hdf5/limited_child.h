@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -30,9 +31,10 @@ class Line {
 
   int descriptor() const { return descriptor_; }
   /// All of the bytes. False: the other end is closed, or `stopped` says so (asked ten times a
-  /// second).
+  /// second), or nothing came for as long as `patience`.
   bool send(std::span<const char> bytes) const;
-  bool receive(std::span<char> bytes, const std::function<bool()>& stopped = nullptr) const;
+  bool receive(std::span<char> bytes, const std::function<bool()>& stopped = nullptr,
+               std::chrono::nanoseconds patience = std::chrono::nanoseconds::max()) const;
 
  private:
   int descriptor_ = -1;
@@ -58,12 +60,13 @@ class LimitedChild {
   ~LimitedChild();
 
   const Line& line() const { return line_; }
-  /// What the child died of. Precondition: the line broke off.
+  /// What the child died of. Precondition: the line broke off. One that still lives is ended.
   std::string cause_of_death();
 
  private:
   LimitedChild(pid_t pid, Line line) : pid_(pid), line_(std::move(line)) {}
   int wait();
+  bool ends_soon(int& status);
 
   pid_t pid_;
   Line line_;

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <new>
 #include <system_error>
@@ -21,6 +23,7 @@ constexpr std::uint64_t kMemory = std::uint64_t{256} << 20U;
 constexpr std::uint64_t kCopies = 4;  // of the numbers of one dataset, while they are converted
 constexpr std::uint64_t kSeconds = 2;
 constexpr std::uint64_t kBytesASecond = std::uint64_t{2} << 20U;  // at the slowest
+constexpr std::chrono::seconds kLongestSilence{60};  // the disk's and the machine's other work too
 constexpr std::uint64_t kLongestMessage = std::uint64_t{64} << 20U;
 
 template <class Number>
@@ -134,6 +137,11 @@ bool unpack(Unpacker& in, Hdf5Facts& facts) {
   return in.good();
 }
 
+// s
+std::uint64_t computing_limit(std::uint64_t file_bytes, std::uint64_t number_bytes) {
+  return kSeconds + (file_bytes + number_bytes) / kBytesASecond;
+}
+
 template <class Numbers>
 std::span<const char> bytes_of(const Numbers& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0])};
@@ -147,7 +155,7 @@ std::span<char> room_of(Numbers& numbers) {
 
 void limit(std::uint64_t file_bytes, std::uint64_t number_bytes) {
   limit_memory(kMemory + file_bytes + kCopies * number_bytes);
-  limit_computing(kSeconds + (file_bytes + number_bytes) / kBytesASecond);
+  limit_computing(computing_limit(file_bytes, number_bytes));
 }
 
 // Message: "", index of the type in Samples, count; then the numbers. Or what went wrong.
@@ -224,6 +232,13 @@ class Hdf5Process : public Hdf5Reader {
   }
 
  private:
+  // It has to compute within its limit, and may be one of many programs meanwhile.
+  std::chrono::nanoseconds silence() const {
+    std::uint64_t numbers = 0;
+    for (const Hdf5Column& one : facts_.datasets) numbers = std::max(numbers, one.size);
+    return kLongestSilence +
+           10 * std::chrono::seconds(computing_limit(bytes_, numbers * sizeof(double)));
+  }
   tl::unexpected<Error> nonsense() const {
     return fail("HDF5 read nonsense: it is damaged; copy it again");
   }
@@ -236,16 +251,16 @@ class Hdf5Process : public Hdf5Reader {
   }
   Result<std::string> receive_message() {
     std::array<std::uint64_t, 1> length = {};
-    if (!child_.line().receive(room_of(length), stopped_)) return broken_off();
+    if (!child_.line().receive(room_of(length), stopped_, silence())) return broken_off();
     if (length[0] > kLongestMessage) return nonsense();
     std::string out(length[0], '\0');
-    if (!child_.line().receive(out, stopped_)) return broken_off();
+    if (!child_.line().receive(out, stopped_, silence())) return broken_off();
     return out;
   }
   template <class Number>
   Result<Samples> receive_numbers(std::size_t count) {
     std::vector<Number> out(count);
-    if (!child_.line().receive(room_of(out), stopped_)) return broken_off();
+    if (!child_.line().receive(room_of(out), stopped_, silence())) return broken_off();
     return Samples(std::move(out));
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "recording/store/crc32c.h"
 #include "recording/store/layout.h"
@@ -14,6 +15,18 @@ namespace {
 std::uint64_t leading_number(const std::string& name) {
   const std::string digits = name.substr(0, name.find('.'));
   return number_of(digits, "").value_or(0);
+}
+
+Result<void> add_device_folders(const FileSystem& files, const std::filesystem::path& root,
+                                std::uint32_t replicate, std::vector<DeviceFolder>& to) {
+  const std::string folder = replicate_folder(replicate);
+  const auto devices = files.list(root / folder);
+  if (!devices) return tl::make_unexpected(devices.error());
+  for (const std::string& device : *devices) {
+    if (device.ends_with('/'))
+      to.push_back({root, folder + "/" + device.substr(0, device.size() - 1)});
+  }
+  return {};
 }
 
 }  // namespace
@@ -37,26 +50,32 @@ Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem
 }
 
 Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
-                                                      const std::filesystem::path& root,
-                                                      const std::set<std::uint32_t>& left_out) {
+                                                      const std::filesystem::path& root) {
   const auto names = files.list(root);
   if (!names) return tl::make_unexpected(names.error());
-  std::map<std::uint32_t, std::string> replicates;
+  std::set<std::uint32_t> replicates;
   for (const std::string& name : *names) {
     if (!name.ends_with('/')) continue;
-    const std::string folder = name.substr(0, name.size() - 1);
-    const auto number = replicate_of(folder);
-    if (number && !left_out.contains(*number)) replicates[*number] = folder;
+    if (const auto number = replicate_of(name.substr(0, name.size() - 1)))
+      replicates.insert(*number);
   }
   std::vector<DeviceFolder> out;
-  for (const auto& [number, folder] : replicates) {
-    const auto devices = files.list(root / folder);
-    if (!devices) return tl::make_unexpected(devices.error());
-    for (const std::string& device : *devices) {
-      if (device.ends_with('/'))
-        out.push_back({root, folder + "/" + device.substr(0, device.size() - 1)});
-    }
+  for (const std::uint32_t replicate : replicates) {
+    if (auto done = add_device_folders(files, root, replicate, out); !done)
+      return tl::make_unexpected(done.error());
   }
+  return out;
+}
+
+Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
+                                                      const std::filesystem::path& root,
+                                                      std::uint32_t replicate) {
+  std::vector<DeviceFolder> out;
+  const auto there = files.exists(root / replicate_folder(replicate));
+  if (!there) return tl::make_unexpected(there.error());
+  if (!*there) return out;
+  if (auto done = add_device_folders(files, root, replicate, out); !done)
+    return tl::make_unexpected(done.error());
   return out;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -19,11 +18,14 @@ using Checksums = std::map<std::string, std::string>;
 Result<DeviceFolder> make_device_folder(FileSystem& files, const std::filesystem::path& root,
                                         std::uint32_t replicate, const std::string& device);
 
-/// The folders of all devices in all replicates but those left out, replicates in order. Error: a
-/// folder cannot be listed.
+/// The folders of all devices in all replicates, replicates in order. Error: a folder cannot be
+/// listed.
+Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
+                                                      const std::filesystem::path& root);
+/// Those of one replicate; none when it has no folder.
 Result<std::vector<DeviceFolder>> find_device_folders(const FileSystem& files,
                                                       const std::filesystem::path& root,
-                                                      const std::set<std::uint32_t>& left_out = {});
+                                                      std::uint32_t replicate);
 
 struct DeviceFiles {
   std::vector<std::uint64_t> chunks;    ///< Numbers, in order.

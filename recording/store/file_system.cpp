@@ -54,6 +54,17 @@ class PosixFile final : public WritableFile {
   Descriptor descriptor_;
 };
 
+// What a name in a folder stands for; links are followed, one that leads nowhere is no folder.
+Result<bool> is_folder(const Path& folder, const dirent& entry) {
+  if (entry.d_type == DT_DIR) return true;
+  if (entry.d_type == DT_REG) return false;
+  struct stat found {};
+  const Path path = folder / entry.d_name;
+  if (::stat(path.c_str(), &found) == 0) return S_ISDIR(found.st_mode);
+  if (errno == ENOENT) return false;
+  return trouble(path, "cannot be looked at", errno);
+}
+
 class PosixLock final : public FolderLock {
  public:
   explicit PosixLock(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
@@ -84,16 +95,19 @@ class PosixFileSystem final : public FileSystem {
 
   Result<std::vector<std::string>> list(const Path& folder) const override {
     std::vector<std::string> out;
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-      std::error_code unknown;
-      const bool is_folder = entry->is_directory(unknown);
-      const bool gone = unknown == std::errc::no_such_file_or_directory;
-      if (unknown && !gone) return trouble(entry->path(), "cannot be looked at", unknown.value());
-      out.push_back(entry->path().filename().string() + (is_folder ? "/" : ""));
+    const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
+    if (!open) return trouble(folder, "cannot be listed", errno);
+    errno = 0;
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): each call has a stream of its own
+    while (const dirent* const entry = ::readdir(open.get())) {
+      const std::string_view name = entry->d_name;
+      if (name == "." || name == "..") continue;
+      const auto inner = is_folder(folder, *entry);
+      if (!inner) return tl::make_unexpected(inner.error());
+      out.emplace_back(name) += *inner ? "/" : "";
+      errno = 0;
     }
-    if (error) return trouble(folder, "cannot be listed", error.value());
+    if (errno != 0) return trouble(folder, "cannot be listed", errno);
     std::sort(out.begin(), out.end());
     return out;
   }

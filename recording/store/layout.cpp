@@ -8,6 +8,7 @@ namespace imunoise::recording {
 namespace {
 
 constexpr std::string_view kFolderPrefix = "replicate-";
+constexpr std::string_view kReplicateManifestSuffix = ".json";
 
 template <class Number>
 std::optional<Number> positive(std::string_view digits) {
@@ -38,6 +39,15 @@ std::string replicate_folder(std::uint32_t replicate) {
 std::optional<std::uint32_t> replicate_of(std::string_view folder) {
   if (!folder.starts_with(kFolderPrefix)) return std::nullopt;
   return positive<std::uint32_t>(folder.substr(kFolderPrefix.size()));
+}
+
+std::string replicate_manifest(std::uint32_t replicate) {
+  return replicate_folder(replicate).append(kReplicateManifestSuffix);
+}
+
+std::optional<std::uint32_t> replicate_of_manifest(std::string_view name) {
+  if (!name.ends_with(kReplicateManifestSuffix)) return std::nullopt;
+  return replicate_of(name.substr(0, name.size() - kReplicateManifestSuffix.size()));
 }
 
 std::string numbered(std::uint64_t number, std::string_view suffix) {

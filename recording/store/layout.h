@@ -26,6 +26,12 @@ std::string replicate_folder(std::uint32_t replicate);
 /// The inverse; nothing for another name.
 std::optional<std::uint32_t> replicate_of(std::string_view folder);
 
+/// "replicate-1.json", the manifest of the replicate; beside its folder, so that the one is there
+/// when the other is lost
+std::string replicate_manifest(std::uint32_t replicate);
+/// The inverse; nothing for another name.
+std::optional<std::uint32_t> replicate_of_manifest(std::string_view name);
+
 /// "000012.h5": segment and chunk of one number hold the same samples.
 std::string numbered(std::uint64_t number, std::string_view suffix);
 /// The number of "000012.h5"; nothing for another name or suffix.

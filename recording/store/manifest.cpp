@@ -1,10 +1,8 @@
 #include "recording/store/manifest.h"
 
 #include <fmt/core.h>
-#include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
-#include <cassert>
 
 #include "recording/store/crc32c.h"
 #include "recording/store/format_version.h"
@@ -16,91 +14,138 @@ namespace {
 constexpr const char* kNotClosed =
     "it was not closed: the program, the machine, its power or its disk failed while it was "
     "recorded";
-constexpr std::uint64_t kLargestManifest = std::uint64_t{256} << 20U;  // bytes; a million chunks
+constexpr std::uint64_t kLargestManifest = std::uint64_t{256} << 20U;  // bytes
 
-// A path that a manifest may name: replicate-N/DEVICE/NNNNNN.h5.
-bool is_chunk_path(const std::string& file) {
-  const std::size_t first = file.find('/');
-  const std::size_t last = file.rfind('/');
-  return first != std::string::npos && last > first && replicate_of(file.substr(0, first)) &&
-         file.find('/', first + 1) == last && file[first + 1] != '.' &&
-         number_of(file.substr(last + 1), kChunkSuffix);
+void add_replicate(v1::Manifest& whole, const v1::ReplicateManifest& replicate) {
+  if (replicate.has_note()) *whole.add_replicates() = replicate.note();
+  whole.mutable_chunks()->MergeFrom(replicate.chunks());
+  for (const v1::DamagedFile& one : replicate.damaged()) set_damaged(*whole.mutable_damaged(), one);
+}
+
+v1::Manifest without_replicates(const v1::RecordingManifest& recording) {
+  v1::Manifest out;
+  out.set_version(recording.version());
+  out.set_campaign(recording.campaign());
+  out.set_started_ns(recording.started_ns());
+  out.set_closed(recording.closed());
+  *out.mutable_devices() = recording.devices();
+  *out.mutable_metadata() = recording.metadata();
+  *out.mutable_damaged() = recording.damaged();
+  return out;
+}
+
+// Puts on record what is promised and has no manifest.
+void tell_missing(const v1::RecordingManifest& recording, WholeManifest& to) {
+  for (const v1::ReplicateRange& range : recording.settled()) {
+    for (std::uint64_t i = range.first(); i <= range.last(); ++i) {
+      const auto replicate = static_cast<std::uint32_t>(i);
+      if (to.replicates.contains(replicate)) continue;
+      to.missing.insert(replicate);
+      to.defects.push_back(replicate_manifest(replicate) +
+                           ": is missing; put it back, or imunoise verify --repair makes it again "
+                           "from the chunks");
+    }
+  }
+}
+
+// Replicates that have a manifest, among the names in a recording's folder.
+std::set<std::uint32_t> with_manifest(const std::vector<std::string>& names) {
+  std::set<std::uint32_t> out;
+  for (const std::string& name : names) {
+    if (const auto replicate = replicate_of_manifest(name)) out.insert(*replicate);
+  }
+  return out;
+}
+
+// Adds what the manifests of replicates say.
+Result<void> add_replicates(const FileSystem& files, const std::filesystem::path& root,
+                            WholeManifest& to) {
+  for (const std::uint32_t replicate : to.replicates) {
+    const std::filesystem::path file = root / replicate_manifest(replicate);
+    const auto text = read_manifest_text(files, file);
+    if (!text) return tl::make_unexpected(text.error());
+    const auto part = parse_replicate_manifest(file.string(), *text, replicate);
+    if (part) {
+      add_replicate(to.manifest, *part);
+    } else {
+      to.defects.push_back(part.error().message);
+    }
+  }
+  return {};
 }
 
 }  // namespace
 
-Result<v1::Manifest> parse_manifest(std::string_view file, std::string_view json) {
-  const auto trouble = [&](const std::string& what) {
-    return fail(
-        fmt::format("{}: {}; imunoise verify --repair makes it again from the chunks", file, what));
-  };
-  v1::Manifest out;
-  google::protobuf::util::JsonParseOptions strict;
-  strict.ignore_unknown_fields = false;
-  const auto status = google::protobuf::util::JsonStringToMessage(
-      google::protobuf::StringPiece(json.data(), json.size()), &out, strict);
-  if (!status.ok()) return trouble(status.message().ToString());
-  if (out.version() != kFormatVersion)
-    return fail(fmt::format("{}: {}", file, other_version(out.version())));
-  for (const v1::RecordedDevice& device : out.devices()) {
-    if (auto good = check_device(device); !good) {
-      return trouble(fmt::format("device {}: {}", device.name(), good.error().message));
-    }
-  }
-  for (const v1::ChunkEntry& chunk : out.chunks()) {
-    if (!is_chunk_path(chunk.file())) {
-      return trouble(fmt::format("'{}' is no chunk of this folder", chunk.file()));
-    }
-  }
-  return out;
+Result<std::string> read_manifest_text(const FileSystem& files, const std::filesystem::path& file) {
+  return files.read(file, kLargestManifest);
 }
 
-std::string print_manifest(const v1::Manifest& manifest) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.add_whitespace = true;
-  options.always_print_primitive_fields = true;
-  options.preserve_proto_field_names = true;
-  std::string out;
-  const auto status = google::protobuf::util::MessageToJsonString(manifest, &out, options);
-  assert(status.ok());
-  (void)status;
-  return out;
+Result<void> write_recording_manifest(FileSystem& files, const std::filesystem::path& root,
+                                      v1::RecordingManifest& manifest) {
+  manifest.set_version(kManifestVersion);
+  return replace_file(files, root / kManifestName, print_manifest(manifest));
 }
 
-Result<std::optional<std::string>> read_manifest_text(const FileSystem& files,
-                                                      const std::filesystem::path& root) {
-  const auto there = contains(files, root, kManifestName);
-  if (!there) return tl::make_unexpected(there.error());
-  if (!*there) return std::optional<std::string>();
-  auto text = files.read(root / kManifestName, kLargestManifest);
+Result<void> write_replicate_manifest(FileSystem& files, const std::filesystem::path& root,
+                                      std::uint32_t replicate, v1::ReplicateManifest& manifest) {
+  manifest.set_version(kManifestVersion);
+  return replace_file(files, root / replicate_manifest(replicate), print_manifest(manifest));
+}
+
+Result<std::optional<WholeManifest>> read_whole_manifest(const FileSystem& files,
+                                                         const std::filesystem::path& root) {
+  const auto names = files.list(root);
+  if (!names) return tl::make_unexpected(names.error());
+  if (std::find(names->begin(), names->end(), kManifestName) == names->end())
+    return std::optional<WholeManifest>();
+  const std::filesystem::path file = root / kManifestName;
+  const auto text = read_manifest_text(files, file);
   if (!text) return tl::make_unexpected(text.error());
-  return std::optional(std::move(*text));
+  const auto found = parse_recording_manifest(file.string(), *text);
+  if (!found) return tl::make_unexpected(found.error());
+  WholeManifest out{without_replicates(found->recording), with_manifest(*names), {}, {}};
+  if (found->replicates) {
+    out.replicates.clear();
+    for (const auto& [replicate, part] : *found->replicates) {
+      add_replicate(out.manifest, part);
+      out.replicates.insert(replicate);
+    }
+    return std::optional(std::move(out));
+  }
+  tell_missing(found->recording, out);
+  if (auto done = add_replicates(files, root, out); !done) return tl::make_unexpected(done.error());
+  return std::optional(std::move(out));
 }
 
 Result<std::optional<v1::Manifest>> read_manifest(const FileSystem& files,
                                                   const std::filesystem::path& root) {
-  const auto text = read_manifest_text(files, root);
-  if (!text) return tl::make_unexpected(text.error());
-  if (!*text) return std::optional<v1::Manifest>();
-  Result<v1::Manifest> manifest = parse_manifest((root / kManifestName).string(), **text);
-  if (!manifest) return tl::make_unexpected(manifest.error());
-  return std::optional(std::move(*manifest));
+  auto whole = read_whole_manifest(files, root);
+  if (!whole) return tl::make_unexpected(whole.error());
+  if (!*whole) return std::optional<v1::Manifest>();
+  if (!(*whole)->defects.empty())
+    return fail(fmt::format("{}: {}", root.string(), (*whole)->defects.front()));
+  return std::optional(std::move((*whole)->manifest));
 }
 
-bool of_other_version(const std::string& json) {
-  v1::Manifest out;
-  google::protobuf::util::JsonParseOptions lenient;  // later versions have fields of their own
-  lenient.ignore_unknown_fields = true;
-  const auto status = google::protobuf::util::JsonStringToMessage(json, &out, lenient);
-  return status.ok() && out.version() != 0 && out.version() != kFormatVersion;
+std::string manifest_stamp(const FileSystem& files, const std::filesystem::path& root) {
+  std::string all;
+  const auto names = files.list(root);
+  if (!names) return crc32c_text(all);
+  for (const std::string& name : *names) {
+    if (name == kManifestName || replicate_of_manifest(name))
+      all += read_manifest_text(files, root / name).value_or("");
+  }
+  return crc32c_text(all);
 }
 
-Result<void> write_manifest(FileSystem& files, const std::filesystem::path& root,
-                            const v1::Manifest& manifest) {
-  return replace_file(files, root / kManifestName, print_manifest(manifest));
+v1::Manifest whole_manifest(const v1::RecordingManifest& recording,
+                            const v1::ReplicateManifest& replicate) {
+  v1::Manifest out = without_replicates(recording);
+  add_replicate(out, replicate);
+  return out;
 }
 
-void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device) {
+void add_device(v1::RecordingManifest& manifest, const v1::RecordedDevice& device) {
   const auto& devices = manifest.devices();
   if (std::none_of(devices.begin(), devices.end(), [&](const v1::RecordedDevice& other) {
         return other.name() == device.name();
@@ -109,43 +154,22 @@ void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device) {
   }
 }
 
-void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note) {
-  auto& notes = *manifest.mutable_replicates();
-  const auto same = std::find_if(notes.begin(), notes.end(), [&](const v1::ReplicateNote& one) {
-    return one.replicate() == note.replicate();
-  });
-  if (same != notes.end()) {
-    *same = note;
-    return;
-  }
-  *notes.Add() = note;
-  std::sort(notes.begin(), notes.end(), [](const v1::ReplicateNote& a, const v1::ReplicateNote& b) {
-    return a.replicate() < b.replicate();
-  });
+void end_open_replicate(v1::ReplicateNote& note, const std::string& reason) {
+  if (note.state() != v1::open) return;
+  note.set_state(v1::interrupted);
+  note.set_reason(reason.empty() ? kNotClosed : "it was not closed: " + reason);
 }
 
-void end_open_replicates(v1::Manifest& manifest, const std::string& reason) {
-  for (v1::ReplicateNote& note : *manifest.mutable_replicates()) {
-    if (note.state() != v1::open) continue;
-    note.set_state(v1::interrupted);
-    note.set_reason(reason.empty() ? kNotClosed : "it was not closed: " + reason);
-  }
-}
-
-void sort_chunks(v1::Manifest& manifest) {
-  const auto place = [](const v1::ChunkEntry& chunk) {
-    const std::string& file = chunk.file();
-    return std::pair(replicate_of(file.substr(0, file.find('/'))), std::string_view(file));
-  };
+void sort_chunks(v1::ReplicateManifest& manifest) {
   std::sort(manifest.mutable_chunks()->begin(), manifest.mutable_chunks()->end(),
-            [&](const auto& a, const auto& b) { return place(a) < place(b); });
+            [](const auto& a, const auto& b) { return a.file() < b.file(); });
 }
 
-void set_damaged(v1::Manifest& manifest, const v1::DamagedFile& damaged) {
+void set_damaged(google::protobuf::RepeatedPtrField<v1::DamagedFile>& all,
+                 const v1::DamagedFile& damaged) {
   const auto place = [](const v1::DamagedFile& one) {
     return std::pair(std::string_view(one.file()), std::string_view(one.kept_as()));
   };
-  auto& all = *manifest.mutable_damaged();
   const auto same = std::find_if(all.begin(), all.end(), [&](const v1::DamagedFile& one) {
     return place(one) == place(damaged);
   });

@@ -1,49 +1,60 @@
 #pragma once
 
-// manifest.json: what a recording is, and which chunks belong to it. Chunks are authoritative; a
-// manifest that is lost is made again from them.
+// What a recording is, and which chunks belong to it: manifest.json has what the replicates have in
+// common, replicate-N.json what one of them holds, so that a replicate costs the same however many
+// came before. Chunks are authoritative; a manifest that is lost is made again from them.
 
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "recording/store/device_folder.h"
+#include "recording/store/manifest_text.h"
 
 namespace imunoise::recording {
 
-/// `file` is for messages. Error: not JSON, an unknown field, another version, a device that cannot
-/// be, a chunk's path that leaves the folder.
-Result<v1::Manifest> parse_manifest(std::string_view file, std::string_view json);
-std::string print_manifest(const v1::Manifest& manifest);
+/// The text of a manifest. Error: the disk's, or a file too large to be a manifest.
+Result<std::string> read_manifest_text(const FileSystem& files, const std::filesystem::path& file);
+/// Replaces a manifest; after a power cut there is the old or the new one. The version is set.
+Result<void> write_recording_manifest(FileSystem& files, const std::filesystem::path& root,
+                                      v1::RecordingManifest& manifest);
+Result<void> write_replicate_manifest(FileSystem& files, const std::filesystem::path& root,
+                                      std::uint32_t replicate, v1::ReplicateManifest& manifest);
 
-/// Nothing when there is none.
+/// The whole manifest, and what of it is lost.
+struct WholeManifest {
+  v1::Manifest manifest;
+  std::set<std::uint32_t> replicates;  ///< Those with a manifest; of version 1: all in the file.
+  std::set<std::uint32_t> missing;     ///< Those that should have one.
+  std::vector<std::string> defects;    ///< Of replicates' manifests; each with the way out.
+};
+/// Reads all manifests of a recording; nothing when there is no manifest.json. Error: the disk's,
+/// or that of manifest.json.
+Result<std::optional<WholeManifest>> read_whole_manifest(const FileSystem& files,
+                                                         const std::filesystem::path& root);
+/// The same where all of it is needed: a defect is an error.
 Result<std::optional<v1::Manifest>> read_manifest(const FileSystem& files,
                                                   const std::filesystem::path& root);
-/// The same before it is parsed. Error: the disk's, or a file too large to be a manifest.
-Result<std::optional<std::string>> read_manifest_text(const FileSystem& files,
-                                                      const std::filesystem::path& root);
-/// True for a manifest of another version of the format: nothing may be repaired then.
-bool of_other_version(const std::string& json);
-/// Replaces the manifest; after a power cut there is the old or the new one.
-Result<void> write_manifest(FileSystem& files, const std::filesystem::path& root,
-                            const v1::Manifest& manifest);
+/// Changes when any of the manifests does. What cannot be read is told when it is understood.
+std::string manifest_stamp(const FileSystem& files, const std::filesystem::path& root);
 
+/// The whole of a recording whose only replicate this is.
+v1::Manifest whole_manifest(const v1::RecordingManifest& recording,
+                            const v1::ReplicateManifest& replicate);
 /// Adds the device unless it is listed; what is listed stays.
-void add_device(v1::Manifest& manifest, const v1::RecordedDevice& device);
+void add_device(v1::RecordingManifest& manifest, const v1::RecordedDevice& device);
 
-/// Replaces the note of its replicate, or adds it, in order.
-void set_note(v1::Manifest& manifest, const v1::ReplicateNote& note);
-/// Replicates that are open while nobody records them were interrupted.
-void end_open_replicates(v1::Manifest& manifest, const std::string& reason = {});
+/// A replicate that is open while nobody records it was interrupted.
+void end_open_replicate(v1::ReplicateNote& note, const std::string& reason);
 
-/// In order of replicates and file names.
-void sort_chunks(v1::Manifest& manifest);
+/// In order of their names.
+void sort_chunks(v1::ReplicateManifest& manifest);
 
 /// Replaces the record of the same file, or adds it, in order.
-void set_damaged(v1::Manifest& manifest, const v1::DamagedFile& damaged);
+void set_damaged(google::protobuf::RepeatedPtrField<v1::DamagedFile>& all,
+                 const v1::DamagedFile& damaged);
 
 /// Folders that hold something, as the manifest says: "replicate-1/imu0".
 std::set<std::string> promised_folders(const v1::Manifest& manifest);

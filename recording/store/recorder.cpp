@@ -9,32 +9,11 @@
 namespace imunoise::recording {
 namespace {
 
-// Recovers what is there and adds the plan's devices. Their chunks come when the recorder closes.
-Result<RecoveredRecording> open_manifest(FileSystem& files, const std::filesystem::path& folder,
-                                         const RecordingPlan& plan) {
-  auto recovered = recover_recording(files, folder, Recovery::kUnsettled);
-  if (!recovered) return recovered;
-  v1::Manifest& manifest = recovered->manifest;
-  if (manifest.started_ns() == 0) manifest.set_started_ns(plan.started_ns);
-  if (manifest.campaign().empty()) manifest.set_campaign(plan.campaign);
-  for (const v1::RecordedDevice& device : plan.devices) add_device(manifest, device);
-  end_open_replicates(manifest, plan.unfinished);
-  if (plan.note) {
-    v1::ReplicateNote note = *plan.note;
-    note.set_replicate(plan.replicate);
-    note.set_state(v1::open);
-    note.set_started_ns(plan.started_ns);
-    set_note(manifest, note);
-  }
-  manifest.set_closed(false);
-  return recovered;
-}
-
 // Makes the folder. Its name survives a power cut before anything in it is acknowledged: later than
 // the first manifest it is there for good.
 Result<void> make_root(FileSystem& files, const std::filesystem::path& folder) {
   if (auto done = files.make_folder(folder); !done) return done;
-  const auto begun = contains(files, folder, kManifestName);
+  const auto begun = files.exists(folder / kManifestName);
   if (!begun) return tl::make_unexpected(begun.error());
   if (*begun) return {};
   const std::filesystem::path name = folder.has_filename() ? folder : folder.parent_path();
@@ -64,10 +43,10 @@ Result<std::unique_ptr<Recorder>> Recorder::start(FileSystem& files,
   if (auto done = make_root(files, folder); !done) return tl::make_unexpected(done.error());
   auto lock = files.lock(folder);
   if (!lock) return tl::make_unexpected(lock.error());
-  auto recovered = open_manifest(files, folder, plan);
-  if (!recovered) return tl::make_unexpected(recovered.error());
-  auto threads = std::make_unique<Threads>(files, folder, std::move(*lock), std::move(*recovered),
-                                           plan.replicate, options);
+  auto manifests = RecorderManifests::open(files, folder, plan);
+  if (!manifests) return tl::make_unexpected(manifests.error());
+  auto threads =
+      std::make_unique<Threads>(files, folder, std::move(*lock), std::move(*manifests), options);
   if (auto done = threads->add_devices(plan.devices); !done) {
     return tl::make_unexpected(done.error());
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "recording/store/back_off.h"
 #include "recording/store/replicate_counts.h"
 
 namespace imunoise::recording {
@@ -24,19 +25,17 @@ Result<void> check_new(const v1::RecordedDevice& device, std::set<std::string>& 
 }
 
 Recorder::Threads::Threads(FileSystem& files, std::filesystem::path folder,
-                           std::unique_ptr<FolderLock> lock, RecoveredRecording recovered,
-                           std::uint32_t replicate, const RecorderOptions& options)
+                           std::unique_ptr<FolderLock> lock, RecorderManifests manifests,
+                           const RecorderOptions& options)
     : files_(files, calls_),
       folder_(std::move(folder)),
       lock_(std::move(lock)),
-      manifest_(std::move(recovered.manifest)),
-      repaired_(std::move(recovered.repaired)),
-      replicate_(replicate),
+      manifests_(std::move(manifests)),
       options_(options) {}
 
 Result<void> Recorder::Threads::add_devices(const std::vector<v1::RecordedDevice>& devices) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    auto where = make_device_folder(files_, folder_, replicate_, devices[i].name());
+    auto where = make_device_folder(files_, folder_, manifests_.replicate(), devices[i].name());
     if (!where) return tl::make_unexpected(where.error());
     const double share = static_cast<double>(i + 1) / static_cast<double>(devices.size());
     append(devices[i], std::move(*where), share);
@@ -48,17 +47,15 @@ Result<std::size_t> Recorder::Threads::add(const v1::RecordedDevice& device) {
   std::set<std::string> names;  // only this function adds to them, once it records
   for (const Line& line : lines_) names.insert(line.device.name());
   if (auto good = check_new(device, names); !good) return tl::make_unexpected(good.error());
-  auto where = make_device_folder(files_, folder_, replicate_, device.name());
+  auto where = make_device_folder(files_, folder_, manifests_.replicate(), device.name());
   if (!where) return tl::make_unexpected(where.error());
-  add_device(manifest_, device);
-  if (auto done = write_manifest(files_, folder_, manifest_); !done)
-    return tl::make_unexpected(done.error());
+  if (auto done = manifests_.add(files_, device); !done) return tl::make_unexpected(done.error());
   append(device, std::move(*where), 1.0);
   return lines_.size() - 1;
 }
 
 Result<void> Recorder::Threads::run() {
-  if (auto done = write_manifest(files_, folder_, manifest_); !done) return done;
+  if (auto done = manifests_.begin(files_); !done) return done;
   journal_thread_ = std::thread([this] { run_journals(); });
   chunk_thread_ = std::thread([this] { run_chunks(); });
   return {};
@@ -140,8 +137,8 @@ Result<void> Recorder::Threads::close(const Conclusion& conclude) {
 // `first_share` of the limits ends its first segment.
 void Recorder::Threads::append(const v1::RecordedDevice& device, DeviceFolder where,
                                double first_share) {
-  Journal journal(files_, where.path(), device, JournalPlace{replicate_, 1, 1}, options_.segments,
-                  first_share);
+  Journal journal(files_, where.path(), device, JournalPlace{manifests_.replicate(), 1, 1},
+                  options_.segments, first_share);
   const std::lock_guard guard(mutex_);
   lines_.emplace_back(device, std::move(where), std::move(journal),
                       Intake(device, options_.waiting_rows));
@@ -166,9 +163,11 @@ void Recorder::Threads::wake_journals(bool urgent) {
   urgent_ = urgent_ || urgent;
 }
 
-// Rounds over all journals, sync_every apart: syncs cost the same however little they carry.
+// Rounds over all journals, sync_every apart: syncs cost the same however little they carry. After
+// a failure the next round comes by itself, whether more is delivered or not.
 void Recorder::Threads::run_journals() {
   auto next = std::chrono::steady_clock::now();
+  BackOff pauses;
   for (bool last = false; !last;) {
     std::size_t devices = 0;
     {
@@ -180,21 +179,32 @@ void Recorder::Threads::run_journals() {
       last = closing_;
       devices = lines_.size();
     }
-    next = std::chrono::steady_clock::now() + options_.sync_every;
-    for (std::size_t i = 0; i < devices; ++i) write_journal(found(i), last);
+    next = std::chrono::steady_clock::now();
+    bool written = true;
+    for (std::size_t i = 0; i < devices; ++i) written = write_journal(found(i), last) && written;
+    if (written) {
+      pauses.reset();
+      next += options_.sync_every;
+    } else {
+      next += pauses.next();
+      const std::lock_guard guard(mutex_);
+      wake_journals(false);
+    }
   }
 }
 
-void Recorder::Threads::write_journal(Line& line, bool last) {
+// False when something of the device still waits.
+bool Recorder::Threads::write_journal(Line& line, bool last) {
   int attempts = last ? kLastAttempts : 1;
-  while (!write_waiting(line) && --attempts > 0) {
-  }
+  bool written = write_waiting(line);
+  while (!written && --attempts > 0) written = write_waiting(line);
   if (last) line.journal.end_segment();
   const std::vector<std::uint64_t> ended = line.journal.take_ended();
-  if (ended.empty()) return;
+  if (ended.empty()) return written;
   const std::lock_guard guard(mutex_);
   line.segments.insert(line.segments.end(), ended.begin(), ended.end());
   chunks_.notify_one();
+  return written;
 }
 
 // Writes what waits of one device; false when something still does. After a failure nothing more is
@@ -226,10 +236,13 @@ Result<void> Recorder::Threads::synced(Line& line) {
 
 void Recorder::Threads::run_chunks() {
   std::unique_lock guard(mutex_);
+  BackOff pauses;
   for (bool last = false; !last;) {
-    const std::size_t seen = queued();
-    if (seen == 0 || failed_ == seen) {  // what failed is tried again with the next segment
-      chunks_.wait(guard, [&] { return journals_done_ || queued() > failed_; });
+    const auto more = [&] { return journals_done_ || queued() > failed_; };
+    if (failed_ == 0) {
+      chunks_.wait(guard, more);
+    } else {
+      chunks_.wait_for(guard, pauses.next(), more);
     }
     last = journals_done_;
     for (int attempts = last ? kLastAttempts : 1; attempts > 0; --attempts) {
@@ -238,6 +251,7 @@ void Recorder::Threads::run_chunks() {
       for (std::size_t i = 0; i < lines_.size(); ++i) seal_line(lines_[i], guard);
       if (failed_ == 0) break;
     }
+    if (failed_ == 0) pauses.reset();
   }
 }
 
@@ -273,43 +287,34 @@ void Recorder::Threads::seal_line(Line& line, std::unique_lock<std::mutex>& guar
 // Both threads have ended.
 Result<void> Recorder::Threads::finish(const Conclusion& conclude) {
   const RecorderState state = this->state();
-  if (conclude) {
-    v1::ReplicateNote note = conclude(state);
-    note.set_replicate(replicate_);
-    set_note(manifest_, note);
-  }
+  if (conclude) manifests_.set_note(conclude(state));
+  v1::ReplicateManifest& manifest = manifests_.own();
   bool leftover = false;
   std::vector<v1::RecordedDevice> devices;
   for (const Line& line : lines_) {
     devices.push_back(line.device);
     leftover = leftover || line.journal.leftover();
-    manifest_.mutable_chunks()->Add(line.chunks.begin(), line.chunks.end());
-    for (const v1::DamagedFile& one : line.damaged) set_damaged(manifest_, one);
+    manifest.mutable_chunks()->Add(line.chunks.begin(), line.chunks.end());
+    for (const v1::DamagedFile& one : line.damaged) set_damaged(*manifest.mutable_damaged(), one);
   }
-  sort_chunks(manifest_);
   const Result<void> closed = check_closed(state);
-  manifest_.set_closed(closed.has_value());
-  for (v1::ReplicateNote& note : *manifest_.mutable_replicates()) {
-    if (note.replicate() != replicate_) continue;
-    settle_note(note, devices, state);
+  if (manifest.has_note()) {
+    settle_note(*manifest.mutable_note(), devices, state);
     for (const Line& line : lines_) {
-      if (auto back = check_back(line); !back) interrupt(note, back.error());
+      if (auto back = check_back(line); !back) interrupt(*manifest.mutable_note(), back.error());
     }
-    note.set_settled(closed && !leftover);
   }
   Result<void> written;
   for (int i = 0; i < kLastAttempts; ++i) {
-    written = write_manifest(files_, folder_, manifest_);
+    written = manifests_.end(files_, closed.has_value(), closed && !leftover);
     if (written) break;
   }
   return closed ? written : closed;
 }
 
 std::optional<v1::ReplicateNote> Recorder::Threads::note() const {
-  for (const v1::ReplicateNote& note : manifest_.replicates()) {
-    if (note.replicate() == replicate_) return note;
-  }
-  return std::nullopt;
+  if (!manifests_.own().has_note()) return std::nullopt;
+  return manifests_.own().note();
 }
 
 // Every row is in a chunk. Error: the first device that lacks some, with its disk's error.

@@ -13,7 +13,7 @@
 #include "recording/store/disk_log.h"
 #include "recording/store/intake.h"
 #include "recording/store/recorder.h"
-#include "recording/store/recover.h"
+#include "recording/store/recorder_manifests.h"
 
 namespace imunoise::recording {
 
@@ -23,7 +23,7 @@ Result<void> check_new(const v1::RecordedDevice& device, std::set<std::string>& 
 class Recorder::Threads {
  public:
   Threads(FileSystem& files, std::filesystem::path folder, std::unique_ptr<FolderLock> lock,
-          RecoveredRecording recovered, std::uint32_t replicate, const RecorderOptions& options);
+          RecorderManifests manifests, const RecorderOptions& options);
   ~Threads() { (void)close({}); }
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
@@ -36,9 +36,9 @@ class Recorder::Threads {
   Result<bool> push(std::size_t device, const Block& block,
                     std::optional<std::chrono::milliseconds> patience);
   RecorderState state() const;
-  const std::vector<std::string>& repaired() const { return repaired_; }
+  const std::vector<std::string>& repaired() const { return manifests_.repaired(); }
   std::optional<v1::ReplicateNote> note() const;
-  void annotate(const v1::ReplicateNote& note) { set_note(manifest_, note); }
+  void annotate(const v1::ReplicateNote& note) { manifests_.set_note(note); }
   Result<void> close(const Conclusion& conclude);
 
  private:
@@ -70,7 +70,7 @@ class Recorder::Threads {
 
   void wake_journals(bool urgent);
   void run_journals();
-  void write_journal(Line& line, bool last);
+  bool write_journal(Line& line, bool last);
   bool write_waiting(Line& line);
   Result<void> synced(Line& line);
 
@@ -86,9 +86,7 @@ class Recorder::Threads {
   WatchedFiles files_;
   std::filesystem::path folder_;
   std::unique_ptr<FolderLock> lock_;
-  v1::Manifest manifest_;
-  const std::vector<std::string> repaired_;
-  const std::uint32_t replicate_;
+  RecorderManifests manifests_;
   const RecorderOptions options_;
   Result<void> outcome_;
 

@@ -5,176 +5,192 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
-#include "recording/store/format_version.h"
 #include "recording/store/layout.h"
+#include "recording/store/replicate_set.h"
 
 namespace imunoise::recording {
 namespace {
 
-// Recovers a recording, whose manifest may be lost.
+using google::protobuf::util::MessageDifferencer;
+
+// Recovers a recording, any of whose manifests may be lost.
 class RecordingRecovery {
  public:
-  RecordingRecovery(FileSystem& files, const std::filesystem::path& root, Recovery how)
-      : files_(files), root_(root), how_(how) {}
+  RecordingRecovery(FileSystem& files, const std::filesystem::path& root, Recovery how,
+                    const std::string& unfinished)
+      : files_(files), root_(root), how_(how), unfinished_(unfinished) {}
 
   Result<RecoveredRecording> run() {
+    auto names = files_.list(root_);
+    if (!names) return tl::make_unexpected(names.error());
+    names_ = std::move(*names);
     if (auto done = take_manifest(); !done) return tl::make_unexpected(done.error());
-    out_.manifest = before_.value_or(v1::Manifest());
-    out_.manifest.set_version(kFormatVersion);
-    out_.manifest.clear_chunks();
-    for (const v1::DamagedFile& one : damaged_) set_damaged(out_.manifest, one);
-    if (auto done = recover_folders(); !done) return tl::make_unexpected(done.error());
-    accept_damage();
-    sort_chunks(out_.manifest);
+    record_broken_manifests();
+    for (const std::uint32_t replicate : to_recover()) {
+      if (auto done = recover_one(replicate); !done) return tl::make_unexpected(done.error());
+    }
+    if (how_ == Recovery::kEverything) {
+      for (v1::DamagedFile& one : *out_.manifest.mutable_damaged()) one.set_accepted(true);
+    }
     out_.manifest.set_closed(true);
-    using google::protobuf::util::MessageDifferencer;
-    if (before_ && MessageDifferencer::Equals(*before_, out_.manifest)) return std::move(out_);
-    if (auto done = write_manifest(files_, root_, out_.manifest); !done)
-      return tl::make_unexpected(done.error());
-    out_.repaired.push_back(fmt::format("{}: {}", (root_ / kManifestName).string(),
-                                        before_ ? "brought up to date" : "made from the chunks"));
+    out_.changed = !before_ || one_file_ || !MessageDifferencer::Equals(*before_, out_.manifest);
     return std::move(out_);
   }
 
  private:
-  // Reads the manifest; a damaged one is set aside.
+  bool there(const std::string& name) const {
+    return std::binary_search(names_.begin(), names_.end(), name);
+  }
+
+  // A damaged manifest.json is set aside.
   Result<void> take_manifest() {
-    const auto text = read_manifest_text(files_, root_);
+    const std::string name(kManifestName);
+    if (!there(name)) return {};
+    const auto text = read_manifest_text(files_, root_ / name);
     if (!text) return tl::make_unexpected(text.error());
-    if (!*text) return {};
-    auto manifest = parse_manifest((root_ / kManifestName).string(), **text);
-    if (manifest) {
-      before_ = std::move(*manifest);
-      return {};
-    }
-    if (of_other_version(**text)) return tl::make_unexpected(manifest.error());
-    const auto aside = set_aside(files_, root_, std::string(kManifestName));
+    auto manifest = parse_recording_manifest((root_ / name).string(), *text);
+    if (!manifest) return set_manifest_aside(name, *text, manifest.error());
+    before_ = out_.manifest = std::move(manifest->recording);
+    one_file_ = manifest->replicates.has_value();
+    if (one_file_) known_ = std::move(*manifest->replicates);
+    return {};
+  }
+
+  Result<void> set_manifest_aside(const std::string& name, const std::string& text,
+                                  const Error& error) {
+    if (of_other_version(text)) return tl::make_unexpected(error);
+    const auto aside = set_aside(files_, root_, name);
     if (!aside) return tl::make_unexpected(aside.error());
-    out_.repaired.push_back(fmt::format("{}: set aside as {}", manifest.error().message, *aside));
-    v1::DamagedFile& damaged = damaged_.emplace_back();
-    damaged.set_file(std::string(kManifestName));
-    damaged.set_kept_as(*aside);
-    damaged.set_reason(manifest.error().message);
+    out_.repaired.push_back(fmt::format("{}: set aside as {}", error.message, *aside));
+    record(name, *aside, error.message);
     return {};
   }
 
-  // Replicates whose every row is in a listed chunk; what became of them later is for `verify`.
-  std::set<std::uint32_t> settled() const {
+  void record(const std::string& name, const std::string& aside, const std::string& reason) {
+    v1::DamagedFile damaged;
+    damaged.set_file(name);
+    damaged.set_kept_as(aside);
+    damaged.set_reason(reason);
+    set_damaged(*out_.manifest.mutable_damaged(), damaged);
+  }
+
+  // Those that an earlier recovery set aside, and could not put on record.
+  void record_broken_manifests() {
+    for (const std::string& name : names_) {
+      if (!is_broken(name)) continue;
+      const std::string before(name_before(name));
+      const auto& damaged = out_.manifest.damaged();
+      const bool known = std::any_of(damaged.begin(), damaged.end(),
+                                     [&](const auto& one) { return one.kept_as() == name; });
+      if (!known && (before == kManifestName || replicate_of_manifest(before)))
+        record(before, name, "was damaged and set aside before");
+    }
+  }
+
+  bool settled(std::uint32_t replicate) const {
+    return how_ == Recovery::kUnsettled && before_ && holds(before_->settled(), replicate);
+  }
+
+  // All that have a folder or a manifest, or should have one. Those that are settled are only
+  // converted.
+  std::set<std::uint32_t> to_recover() const {
     std::set<std::uint32_t> out;
-    if (!before_ || how_ == Recovery::kEverything) return out;
-    for (const v1::ReplicateNote& note : before_->replicates()) {
-      if (note.settled() && note.state() != v1::open) out.insert(note.replicate());
+    for (const std::string& name : names_) {
+      const auto replicate = name.ends_with('/') ? replicate_of(name.substr(0, name.size() - 1))
+                                                 : replicate_of_manifest(name);
+      if (replicate && !settled(*replicate)) out.insert(*replicate);
+    }
+    for (const auto& [replicate, manifest] : known_) out.insert(replicate);
+    if (how_ == Recovery::kUnsettled || !before_) return out;
+    for (const v1::ReplicateRange& range : before_->settled()) {
+      for (std::uint64_t i = range.first(); i <= range.last(); ++i)
+        out.insert(static_cast<std::uint32_t>(i));
     }
     return out;
   }
 
-  Result<void> recover_folders() {
-    const std::set<std::uint32_t> left_out = settled();
-    const v1::Manifest known = before_.value_or(v1::Manifest());
-    for (const v1::ChunkEntry& chunk : known.chunks()) {
-      const auto replicate = replicate_of(chunk.file().substr(0, chunk.file().find('/')));
-      if (left_out.contains(replicate.value_or(0))) *out_.manifest.add_chunks() = chunk;
+  Result<void> recover_one(std::uint32_t replicate) {
+    const auto read = replicate_manifest_of(replicate);
+    if (!read) return tl::make_unexpected(read.error());
+    const v1::ReplicateManifest known = read->value_or(v1::ReplicateManifest());
+    RecoveredReplicate now{known, {}, true, {}};
+    if (!settled(replicate)) {
+      auto recovered =
+          recover_replicate(files_, root_, replicate, out_.manifest, known, how_, unfinished_);
+      if (!recovered) return tl::make_unexpected(recovered.error());
+      now = std::move(*recovered);
     }
-    auto folders = find_device_folders(files_, root_, left_out);
-    if (!folders) return tl::make_unexpected(folders.error());
-    for (const DeviceFolder& where : *folders) {
-      const auto device = recover_device(files_, where, known, how_);
-      if (!device) return tl::make_unexpected(device.error());
-      take(where, *device);
+    for (const v1::RecordedDevice& device : now.devices) add_device(out_.manifest, device);
+    out_.repaired.insert(out_.repaired.end(), now.repaired.begin(), now.repaired.end());
+    settle(replicate, now.settled);
+    if (*read && !one_file_ && MessageDifferencer::Equals(known, now.manifest)) return {};
+    if (!one_file_) {
+      out_.repaired.push_back(fmt::format("{}: {}", replicate_manifest(replicate),
+                                          *read ? "brought up to date" : "made from the chunks"));
     }
-    for (const std::string& folder : promised_folders(known)) {
-      const DeviceFolder where{root_, folder};
-      const bool there = std::any_of(folders->begin(), folders->end(),
-                                     [&](const auto& one) { return one.folder == folder; });
-      if (!there && !left_out.contains(where.replicate()))
-        take(where, missing_device(known, where));
-    }
-    for (v1::ReplicateNote& note : *out_.manifest.mutable_replicates()) {
-      if (!left_out.contains(note.replicate()))
-        note.set_settled(!unsettled_.contains(note.replicate()));
-    }
-    return {};
+    return write_replicate_manifest(files_, root_, replicate, now.manifest);
   }
 
-  // Of a folder that is not there.
-  RecoveredDevice missing_device(const v1::Manifest& known, const DeviceFolder& where) const {
-    RecoveredDevice out;
-    out.settled = how_ == Recovery::kEverything;
-    out.repaired.push_back(where.folder + ": is missing, with all its samples; put it back");
-    for (const v1::ChunkEntry& chunk : known.chunks()) {
-      if (!chunk.file().starts_with(where.folder + "/")) continue;
-      out.promised += chunk.samples();
-      if (how_ == Recovery::kUnsettled) {
-        out.chunks.push_back(chunk);
-        continue;
-      }
-      v1::DamagedFile& damaged = out.damaged.emplace_back();
-      damaged.set_file(chunk.file());
-      damaged.set_samples(chunk.samples());
-      damaged.set_reason(chunk.file() + ": is missing");
-    }
-    return out;
-  }
-
-  void take(const DeviceFolder& where, const RecoveredDevice& device) {
-    if (device.device) add_device(out_.manifest, *device.device);
-    for (const v1::ChunkEntry& chunk : device.chunks) *out_.manifest.add_chunks() = chunk;
-    for (const v1::DamagedFile& one : device.damaged) set_damaged(out_.manifest, one);
-    out_.repaired.insert(out_.repaired.end(), device.repaired.begin(), device.repaired.end());
-    if (!device.settled) unsettled_.insert(where.replicate());
-    for (v1::ReplicateNote& note : *out_.manifest.mutable_replicates()) {
-      if (note.replicate() == where.replicate()) account(where.device(), device, note);
+  void settle(std::uint32_t replicate, bool settled) {
+    auto& all = *out_.manifest.mutable_settled();
+    if (settled) {
+      insert(all, replicate);
+    } else {
+      erase(all, replicate);
     }
   }
 
-  // Compares a device's rows with those that the manifest promised.
-  void account(const std::string& name, const RecoveredDevice& device, v1::ReplicateNote& note) {
-    std::uint64_t promised = 0;
-    for (v1::StreamCount& count : *note.mutable_streams()) {
-      if (count.device() != name) continue;
-      promised += count.stored() - std::min(count.stored(), count.missing());
-      const std::uint64_t rows = rows_of(device, count.stream());
-      if (how_ == Recovery::kEverything && rows + count.missing() < count.stored())
-        count.set_missing(count.stored() - rows);
+  // Nothing: there is none. A damaged one is set aside.
+  Result<std::optional<v1::ReplicateManifest>> replicate_manifest_of(std::uint32_t replicate) {
+    using Found = std::optional<v1::ReplicateManifest>;
+    if (one_file_) {
+      const auto known = known_.find(replicate);
+      return known == known_.end() ? Found() : Found(known->second);
     }
-    promised = std::max(promised, device.promised);
-    std::uint64_t found = 0;
-    for (const std::uint64_t rows : device.rows) found += rows;
-    if (found >= promised || note.state() != v1::complete) return;
-    note.set_state(v1::interrupted);
-    note.set_reason(fmt::format(
-        "device {}: {} of {} stored samples are missing{}", name, promised - found, promised,
-        device.damaged.empty() ? "" : ": " + device.damaged.front().reason()));
-  }
-
-  static std::uint64_t rows_of(const RecoveredDevice& device, const std::string& stream) {
-    for (int i = 0; device.device && i < device.device->streams_size(); ++i) {
-      if (device.device->streams(i).name() == stream)
-        return device.rows[static_cast<std::size_t>(i)];
+    const std::string name = replicate_manifest(replicate);
+    if (!there(name)) {
+      if (before_ && holds(before_->settled(), replicate)) record(name, "", name + ": is missing");
+      return Found();
     }
-    return 0;
-  }
-
-  void accept_damage() {
-    if (how_ != Recovery::kEverything) return;
-    for (v1::DamagedFile& one : *out_.manifest.mutable_damaged()) one.set_accepted(true);
+    const auto text = read_manifest_text(files_, root_ / name);
+    if (!text) return tl::make_unexpected(text.error());
+    auto manifest = parse_replicate_manifest((root_ / name).string(), *text, replicate);
+    if (manifest) return Found(std::move(*manifest));
+    if (auto done = set_manifest_aside(name, *text, manifest.error()); !done)
+      return tl::make_unexpected(done.error());
+    return Found();
   }
 
   FileSystem& files_;
   const std::filesystem::path& root_;
   Recovery how_;
-  std::optional<v1::Manifest> before_;
-  std::vector<v1::DamagedFile> damaged_;  // outside of the devices' folders
-  std::set<std::uint32_t> unsettled_;     // replicates to be looked at again
+  const std::string& unfinished_;
+  std::vector<std::string> names_;  // in the folder, sorted
+  std::optional<v1::RecordingManifest> before_;
+  bool one_file_ = false;                                 // manifest.json has everything: version 1
+  std::map<std::uint32_t, v1::ReplicateManifest> known_;  // in that file
   RecoveredRecording out_;
 };
 
 }  // namespace
 
+Result<RecoveredRecording> recover_replicates(FileSystem& files, const std::filesystem::path& root,
+                                              Recovery how, const std::string& unfinished) {
+  return RecordingRecovery(files, root, how, unfinished).run();
+}
+
 Result<RecoveredRecording> recover_recording(FileSystem& files, const std::filesystem::path& root,
                                              Recovery how) {
-  return RecordingRecovery(files, root, how).run();
+  auto out = recover_replicates(files, root, how);
+  if (!out || !out->changed) return out;
+  const bool there = out->manifest.version() != 0;
+  if (auto done = write_recording_manifest(files, root, out->manifest); !done)
+    return tl::make_unexpected(done.error());
+  out->repaired.push_back(fmt::format("{}: {}", (root / kManifestName).string(),
+                                      there ? "brought up to date" : "made from the chunks"));
+  return out;
 }
 
 }  // namespace imunoise::recording

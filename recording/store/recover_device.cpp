@@ -60,8 +60,10 @@ class DeviceRecovery {
       case ChunkTrouble::Kind::kUnusable:
         out_.settled = false;
         out_.repaired.push_back(why + "; it is left as it is");
-        if (const auto known = listed_.find(number); known != listed_.end())
+        if (const auto known = listed_.find(number); known != listed_.end()) {
           chunks_[number] = known->second;
+          out_.unproven += known->second.samples();
+        }
         return {};
       case ChunkTrouble::Kind::kDamaged:
         break;
@@ -167,6 +169,7 @@ class DeviceRecovery {
       return record(damaged_file(numbered(number, kChunkSuffix), "", why));
     chunks_[number] = chunk;
     out_.settled = false;
+    out_.unproven += chunk.samples();
     out_.repaired.push_back(why + "; put it back");
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "recording/store/integrity.h"
 #include "recording/store/layout.h"
@@ -39,10 +40,27 @@ void finish(v1::VerifyReport& report) {
                                [](const v1::Defect& one) { return one.repaired(); }));
 }
 
-// The manifest, or an empty one and a defect.
+// Replicates that have samples and no manifest.
+void check_manifests(const WholeManifest& whole, const std::vector<DeviceFolder>& folders,
+                     v1::VerifyReport& report) {
+  if (whole.manifest.version() == 1) return;  // it had none
+  std::set<std::uint32_t> told = whole.missing;
+  for (const DeviceFolder& where : folders) {
+    const std::uint32_t replicate = where.replicate();
+    if (whole.replicates.contains(replicate)) continue;
+    if (!told.insert(replicate).second) continue;
+    add_defect(report,
+               replicate_manifest(replicate) +
+                   ": is missing; imunoise verify --repair makes it from the chunks",
+               false);
+  }
+}
+
+// The manifest, or what of it there is, and a defect for the rest.
 v1::Manifest manifest_or_defect(const FileSystem& files, const Path& root,
+                                const std::vector<DeviceFolder>& folders,
                                 v1::VerifyReport& report) {
-  auto manifest = read_manifest(files, root);
+  auto manifest = read_whole_manifest(files, root);
   const std::string name = (root / kManifestName).string();
   if (!manifest) {
     add_defect(report, manifest.error().message, false);
@@ -53,14 +71,17 @@ v1::Manifest manifest_or_defect(const FileSystem& files, const Path& root,
                false);
     return {};
   }
-  if (!(*manifest)->closed()) {
+  WholeManifest& whole = **manifest;
+  for (const std::string& defect : whole.defects) add_defect(report, defect, false);
+  check_manifests(whole, folders, report);
+  if (!whole.manifest.closed()) {
     add_defect(report,
                name +
                    ": the recording was not closed: it is still running, or was interrupted "
                    "(imunoise verify --repair closes it)",
                false);
   }
-  return std::move(**manifest);
+  return std::move(whole.manifest);
 }
 
 // Manifests that were set aside.
@@ -69,7 +90,9 @@ Result<std::vector<std::string>> broken_manifests(const FileSystem& files, const
   if (!names) return tl::make_unexpected(names.error());
   std::vector<std::string> out;
   for (const std::string& name : *names) {
-    if (is_broken(name) && name_before(name) == kManifestName) out.push_back(name);
+    if (!is_broken(name)) continue;
+    const std::string_view before = name_before(name);
+    if (before == kManifestName || replicate_of_manifest(before)) out.push_back(name);
   }
   return out;
 }
@@ -96,7 +119,7 @@ Result<v1::VerifyReport> verify_recording(FileSystem& files, const Path& folder,
     if (!recovered) return tl::make_unexpected(recovered.error());
     for (const std::string& what : recovered->repaired) add_defect(report, what, true);
   }
-  const v1::Manifest manifest = manifest_or_defect(files, folder, report);
+  const v1::Manifest manifest = manifest_or_defect(files, folder, *folders, report);
   std::uint32_t chunks = 0;
   auto broken = broken_manifests(files, folder);
   if (!broken) return tl::make_unexpected(broken.error());

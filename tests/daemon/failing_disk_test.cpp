@@ -10,11 +10,13 @@
 
 #include "daemon/acquire/completeness.h"
 #include "daemon/acquire/record_replicate.h"
+#include "daemon/acquire/recorded_device.h"
 #include "daemon/acquire/wire_file.h"
 #include "recording/store/manifest.h"
 #include "recording/store/verify.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/fake_disk.h"
+#include "tests/recording/store/whole_manifest.h"
 
 namespace imunoise::acquire {
 namespace {
@@ -210,8 +212,14 @@ TEST(Shortfall, IsOfTheEndOrOfTheCount) {
   device.add_streams()->set_rate_hz(100.0);
   std::vector<recording::StreamCounts> counts(1);
   DeviceCourse course{device, counts, 59.0, 0, ""};
-  counts[0].stored = 5700;
-  EXPECT_EQ(shortfall(course, 60.0), "") << "lost on the way: told elsewhere";
+  counts[0].received = 5700;
+  counts[0].stored = 1000;
+  EXPECT_EQ(shortfall(course, 60.0), "") << "rejected on the way: told elsewhere";
+  counts[0].received = 1000;
+  EXPECT_EQ(shortfall(course, 60.0),
+            "device imu0: 1000 of about 6000 samples came in 1 min: it was away for a while, or is "
+            "slower than the 100 Hz that its driver says");
+  counts[0].received = counts[0].stored = 5700;
   course.last_s = 7.0;
   EXPECT_EQ(shortfall(course, 60.0),
             "device imu0: its last sample came 7 s after the beginning; 5700 of about 6000 "
@@ -236,6 +244,64 @@ TEST(Shortfall, IsOfTheEndOrOfTheCount) {
   EXPECT_EQ(shortfall(course, 600.0), "") << "it joined too late for 20 samples";
   course.from_s = 0.0;
   EXPECT_EQ(shortfall(course, 5.0), "") << "its period is longer";
+}
+
+TEST_F(FailingDisk, OneErrorWhileADeviceJoinsDoesNotLoseIt) {
+  add("a");
+  add("b");
+  tell("a", "absent");
+  plan_.patience = 0s;
+  plan_.duration = 1500ms;
+  const auto done = record({{200ms, [&] {
+                               disk_.fail_once(FakeDisk::Call::kMakeFolder, 1);
+                               tell("a", "here");
+                             }}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_TRUE(disk_.failed());
+  ASSERT_EQ(done->devices.size(), 2U);
+  EXPECT_GT(done->devices[1].streams[0].stored, 30U);
+  ASSERT_EQ(note().missing_size(), 1);
+  EXPECT_GT(note().missing(0).joined_ns(), note().started_ns());
+}
+
+// All are asked to end before any is waited for.
+TEST_F(FailingDisk, StubbornDevicesEndAtTheSameTime) {
+  for (const char* const name : {"a", "b", "c", "d", "e"}) {
+    add(name);
+    tell(name, "stubborn");
+  }
+  plan_.duration.reset();
+  std::chrono::steady_clock::time_point asked;
+  const auto done = record({{200ms, [&] {
+                               asked = std::chrono::steady_clock::now();
+                               source_.request_stop();
+                             }}});
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, 900ms) << "one after another: 1.5 s";
+}
+
+// A driver whose rows do not fit is at fault, not the disk.
+TEST_F(FailingDisk, RowsThatDoNotFitEndTheDeviceAtOnce) {
+  add("a");
+  auto opened = open_device(plan_.devices[0], {}, {}, {});
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  ReaderPlan plan{.device = recorded_device("a", "whims", (*opened)->info()), .driver = "whims"};
+  auto* const more = plan.device.mutable_streams(0)->add_channels();
+  *more = plan.device.streams(0).channels(0);
+  more->set_name("gyro_y");
+  const auto recorder =
+      recording::Recorder::start(disk_, plan_.folder, {"bench", 1, 0, {plan.device}});
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  Reader reader(**recorder, plan, std::move(*opened));
+  const auto begin = std::chrono::steady_clock::now();
+  while (!reader.ended() && std::chrono::steady_clock::now() - begin < 5s) {
+  }
+  reader.stop();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s) << "no patience as with a disk";
+  ASSERT_TRUE(reader.failure().has_value());
+  EXPECT_NE(reader.failure()->message.find("a fault of the driver"), std::string::npos)
+      << reader.failure()->message;
+  EXPECT_EQ(reader.disk_failure(), "");
 }
 
 // A pipe that nobody reads is as slow as a disk can be.

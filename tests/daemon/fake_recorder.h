@@ -14,10 +14,10 @@
 
 #include "daemon/acquire/campaign.h"
 #include "daemon/acquire/recordings.h"
-#include "recording/store/format_version.h"
 #include "recording/store/layout.h"
 #include "recording/store/manifest.h"
 #include "tests/daemon/manual_clock.h"
+#include "tests/recording/store/whole_manifest.h"
 
 namespace imunoise::testing {
 
@@ -71,10 +71,10 @@ class FakeRecorder : public acquire::ReplicateRecorder {
     std::filesystem::create_directories(task.folder / recording::replicate_folder(task.replicate));
     v1::Manifest manifest =
         recording::read_manifest(files(), task.folder).value().value_or(v1::Manifest());
-    manifest.set_version(recording::kFormatVersion);
     manifest.set_campaign(campaign.name());
     manifest.set_closed(note.state() != v1::open);
-    recording::end_open_replicates(manifest);
+    for (v1::ReplicateNote& one : *manifest.mutable_replicates())
+      recording::end_open_replicate(one, "");
     recording::set_note(manifest, note);
     ASSERT_TRUE(recording::write_manifest(files(), task.folder, manifest).has_value());
   }

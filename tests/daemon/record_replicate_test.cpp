@@ -12,6 +12,7 @@
 #include "recording/store/reader.h"
 #include "recording/store/verify.h"
 #include "tests/daemon/whims.h"
+#include "tests/recording/store/whole_manifest.h"
 
 namespace imunoise::acquire {
 namespace {

@@ -3,13 +3,15 @@
 // found again as soon as the word is another; "broken": it fails for good; "absent": it does not
 // open; "deaf": its opening waits for as long as it may; "other": as "here", but opened then it is
 // another device; "knock": as "here", a hundred times as loud; "rateless": as "here", opened then
-// its stream has no rate; "silent": nothing comes any more; "over": it has nothing more to say.
+// its stream has no rate; "silent": nothing comes any more; "stubborn": the same, and it hears no
+// cancel for 300 ms at a time; "over": it has nothing more to say.
 // With speed=20 twenty samples come instead of one, and its time runs as fast; with stamped=true
 // they carry the host's time.
 
 #include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "core/support/random.h"
 #include "drivers/plugin.h"
@@ -19,6 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPeriod{10};
+constexpr std::chrono::milliseconds kStubborn{300};
 
 std::string word_in(const std::string& file) {
   std::ifstream stream(file);
@@ -57,6 +60,7 @@ class Whims : public plugin::Device {
       throw plugin::DeviceError(IMUNOISE_DISCONNECTED, "the device is gone");
     }
     if (word == "over") return samples.end();
+    if (word == "stubborn") return std::this_thread::sleep_for(kStubborn);
     if (!wait.until(next_)) return;
     next_ += kPeriod;
     if (word == "silent") return;

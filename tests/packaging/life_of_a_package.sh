@@ -21,7 +21,7 @@ until_true() {
 }
 complete_replicates() {
   local count
-  count=$(cat /var/lib/imunoise/trial/*/manifest.json 2> /dev/null | grep -c '"complete"' || true)
+  count=$(cat /var/lib/imunoise/trial/*/replicate-*.json 2> /dev/null | grep -c '"complete"' || true)
   ((count >= $1))
 }
 main_pid() { systemctl show --property=MainPID --value imunoised; }
@@ -72,7 +72,7 @@ apt-get install -y -qq --no-install-recommends /packages/2.deb > /upgrade.log 2>
 [[ $(dpkg-query --show --showformat='${Version}' imunoise) == *-2 ]] || fail "the version"
 systemctl is-active imunoised
 [[ $(main_pid) != "$before" ]] || fail "the old program still runs"
-count=$(cat /var/lib/imunoise/trial/*/manifest.json | grep -c '"complete"')
+count=$(cat /var/lib/imunoise/trial/*/replicate-*.json | grep -c '"complete"')
 until_true 60 "it does not go on" complete_replicates $((count + 2))
 
 echo "== what the administrator decided is kept"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "recording/hdf5/attributes.h"
+#include "tests/support/damage.h"
 
 namespace imunoise::recording {
 
@@ -78,16 +79,9 @@ inline std::string mutant(std::string bytes, std::uint32_t seed) {
       in_heap ? std::min<std::size_t>(256, bytes.size() - heap) : bytes.size();
   for (std::uint32_t left = 1 + random() % 4; left > 0; --left) {
     const std::size_t at = begin + random() % length;
-    switch (random() % 3) {
-      case 0:
-        bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ (1U << random() % 8));
-        break;
-      case 1:
-        bytes[at] = static_cast<char>(random() % 256);
-        break;
-      default:
-        for (std::size_t i = at; i < std::min(at + 4, bytes.size()); ++i) bytes[i] = '\xff';
-    }
+    testing::damage(bytes, at, random, [&] {
+      for (std::size_t i = at; i < std::min(at + 4, bytes.size()); ++i) bytes[i] = '\xff';
+    });
   }
   return bytes;
 }

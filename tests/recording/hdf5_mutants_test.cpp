@@ -103,6 +103,15 @@ TEST(LimitedChild, IsStopped) {
   EXPECT_FALSE(child->line().receive({&byte, 1}, [&] { return ++asked == 3; }));
 }
 
+TEST(LimitedChild, IsEndedWhenItSleepsForEver) {
+  if (!kHdf5Apart) GTEST_SKIP() << "a child of a build with sanitizers may hang";
+  auto child = LimitedChild::start([](const Line&) { ::pause(); });
+  ASSERT_TRUE(child) << child.error().message;
+  char byte = 0;
+  EXPECT_FALSE(child->line().receive({&byte, 1}, nullptr, std::chrono::milliseconds(100)));
+  EXPECT_EQ(child->cause_of_death(), "it did nothing for too long");
+}
+
 // Both ends speak, while other threads are busy inside HDF5.
 TEST(LimitedChild, AnswersWhileOthersAreInsideHdf5) {
   if (!kHdf5Apart) GTEST_SKIP() << "a child of a build with sanitizers may hang";

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "recording/store/manifest.h"
 #include "study/calibration/calibration_file.h"
+#include "tests/recording/store/whole_manifest.h"
 #include "tests/study/simulated_recording.h"
 
 namespace imunoise::testing {
@@ -27,7 +27,6 @@ class BenchFolder : public ::testing::Test {
   void add_recording(const std::string& folder, int day, const std::string& serial = "0042") {
     std::filesystem::create_directories(root_ / folder);
     v1::Manifest manifest;
-    manifest.set_version(1);
     manifest.set_campaign("monthly");
     manifest.set_started_ns(kSimulatedStart + day * kDay);
     manifest.set_closed(true);

@@ -1,5 +1,7 @@
 // Whatever byte of a catalogue's file is damaged, it never says what the recordings do not say.
 
+#include "tests/support/damage.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -59,16 +61,7 @@ class DamagedCatalogue : public testing::BenchFolder {
     std::mt19937 random(seed);
     std::size_t at = random() % bytes.size();
     while (bytes[at] == '\0') at = random() % bytes.size();  // most of a page is empty
-    switch (random() % 3) {
-      case 0:
-        bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ (1U << random() % 8));
-        break;
-      case 1:
-        bytes[at] = static_cast<char>(random() % 256);
-        break;
-      default:
-        bytes.replace(at / 512 * 512, 512, 512, '\0');
-    }
+    testing::damage(bytes, at, random, [&] { bytes.replace(at / 512 * 512, 512, 512, '\0'); });
     return bytes;
   }
   // What became of the seeds.

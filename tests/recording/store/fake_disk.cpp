@@ -29,6 +29,7 @@ class FakeDisk::File final : public WritableFile {
       content_->live += bytes.substr(0, fault->done ? bytes.size() : bytes.size() / 2);
       return trouble(path_, kInputOutput);
     }
+    disk_.bytes_written_ += bytes.size();
     const std::size_t used = disk_.used();
     const std::size_t room = disk_.capacity_ > used ? disk_.capacity_ - used : 0;
     content_->live += bytes.substr(0, room);
@@ -112,6 +113,16 @@ int FakeDisk::calls(Call kind) const {
   return calls_of_[static_cast<std::size_t>(kind)];
 }
 
+std::uint64_t FakeDisk::bytes_read() const {
+  const std::lock_guard guard(mutex_);
+  return bytes_read_;
+}
+
+std::uint64_t FakeDisk::bytes_written() const {
+  const std::lock_guard guard(mutex_);
+  return bytes_written_;
+}
+
 Result<std::unique_ptr<WritableFile>> FakeDisk::create(const Path& path) {
   const std::lock_guard guard(mutex_);
   const auto fails = fault(Call::kCreate);
@@ -169,6 +180,7 @@ Result<std::string> FakeDisk::read_up_to(const Path& path, std::uint64_t limit) 
     return trouble(path, "No such file or directory");
   }
   if (found->second->live.size() > limit) return tl::make_unexpected(too_large(path, limit));
+  bytes_read_ += found->second->live.size();
   return found->second->live;
 }
 

@@ -78,6 +78,8 @@ class FakeDisk final : public FileSystem {
   bool failed() const;
   /// So many so far.
   int calls(Call kind) const;
+  std::uint64_t bytes_read() const;
+  std::uint64_t bytes_written() const;
 
   /// For tests that damage a file.
   void overwrite(const Path& path, const std::string& bytes);
@@ -118,6 +120,8 @@ class FakeDisk final : public FileSystem {
   std::map<Path, Folder> folders_ = {{"/", {}}};
   mutable std::array<int, kKinds> calls_of_ = {};
   mutable std::array<std::vector<Fault>, kKinds> faults_ = {};
+  mutable std::uint64_t bytes_read_ = 0;
+  std::uint64_t bytes_written_ = 0;
   int calls_ = 0;
   int left_ = -1;  // calls until the power fails; negative: it does not
   std::size_t capacity_ = SIZE_MAX;

@@ -52,7 +52,7 @@ std::vector<std::int32_t> recovered_rows(FakeDisk& disk) {
   std::vector<std::int32_t> out;
   const auto folders = find_device_folders(disk, kRoot);
   for (const DeviceFolder& where : *folders) {
-    const auto device = read_device(disk, where, recovered->manifest);
+    const auto device = read_device(disk, where, read_manifest(disk, kRoot)->value());
     EXPECT_TRUE(device) << device.error().message;
     if (!device) continue;
     EXPECT_EQ(device->defects, std::vector<std::string>());

@@ -11,6 +11,7 @@
 #include "tests/recording/files.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"
+#include "tests/recording/store/whole_manifest.h"
 
 namespace imunoise::recording {
 namespace {
@@ -83,7 +84,7 @@ TEST(ReadErrors, ANextReplicateThatCannotReadSetsNothingAside) {
     disk.fail_once(FakeDisk::Call::kRead, nth);
     const auto second = start_second(disk, kRun);
     if (!disk.failed()) {  // it never reads so often
-      EXPECT_GT(nth, 4) << "the manifest and three chunks";
+      EXPECT_GT(nth, 5) << "two manifests and three chunks";
       break;
     }
     ASSERT_FALSE(second) << "read " << nth;
@@ -182,6 +183,27 @@ TEST(ReadErrors, AChunkThatIsAsItWasWrittenStays) {
   EXPECT_EQ(disk.read(kDevice / "000002.h5").value(), "of another program");
   EXPECT_EQ((*second)->close([](const auto&) { return complete(); }).has_value(), true);
   EXPECT_FALSE(verified(disk, kRun).sound());
+  EXPECT_EQ(read_manifest(disk, kRun)->value().replicates(0).state(), v1::complete)
+      << "nothing is proven";
+}
+
+// Chunks that are away while another replicate begins, and there again before the next.
+TEST(ReadErrors, WhatIsAwayForAMomentChangesNoPromise) {
+  FakeDisk disk;
+  record_three(disk, kRun, 1);
+  leave_open(disk, kRun);
+  const std::string bytes = disk.read(kDevice / "000002.h5").value();
+  const auto state = [&] { return read_manifest(disk, kRun)->value().replicates(0); };
+  ASSERT_TRUE(disk.remove(kDevice / "000002.h5"));
+  record_three(disk, kRun, 2);
+  EXPECT_EQ(state().state(), v1::complete);
+  EXPECT_FALSE(state().settled());
+  expect_parts(told(verified(disk, kRun)), {"10 of 30 stored samples are missing"});
+  ASSERT_TRUE(replace_file(disk, kDevice / "000002.h5", bytes));
+  record_three(disk, kRun, 3);
+  EXPECT_EQ(state().state(), v1::complete);
+  EXPECT_TRUE(state().settled());
+  EXPECT_TRUE(verified(disk, kRun).sound());
 }
 
 class MissingFiles : public FileTest {};
