@@ -80,8 +80,16 @@ bool Reader::step(drivers::Block& block) {
   return false;
 }
 
+// False when the block does not fit the device's description, for which no disk is to blame.
 bool Reader::push(const drivers::Block& block) {
   recording::Block taken = recorded_block(block);
+  if (auto good = recording::check_block(plan_.device, taken); !good) {
+    failure_ = Error{fmt::format(
+        "driver {}: {} rows do not fit what it said of the device ({}) and are not recorded; this "
+        "is a fault of the driver, report it to its author",
+        plan_.driver, taken.rows.received, good.error().message)};
+    return false;
+  }
   for (std::int64_t& time : taken.rows.host_time) time += plan_.shift_ns;
   if (lost_[taken.stream] && !taken.rows.flags.empty()) {
     taken.rows.flags.front() |= recording::kLostBefore;
@@ -94,16 +102,8 @@ bool Reader::push(const drivers::Block& block) {
   return deliver(taken);
 }
 
-// Whatever the disk does, the device is read on in the end, and every row is counted. False when
-// the block does not fit the device's description: the disk is not asked for that.
+// Whatever the disk does, the device is read on in the end, and every row is counted.
 bool Reader::deliver(const recording::Block& block) {
-  if (auto good = recording::check_block(plan_.device, block); !good) {
-    failure_ = Error{fmt::format(
-        "driver {}: {} rows do not fit what it said of the device ({}) and are not recorded; this "
-        "is a fault of the driver, report it to its author",
-        plan_.driver, block.rows.received, good.error().message)};
-    return false;
-  }
   if (Steady::now() >= disk_next_) {
     const auto taken = push_patiently(block);
     if (taken && *taken) {

@@ -285,7 +285,9 @@ TEST_F(FailingDisk, RowsThatDoNotFitEndTheDeviceAtOnce) {
   add("a");
   auto opened = open_device(plan_.devices[0], {}, {}, {});
   ASSERT_TRUE(opened.has_value()) << opened.error().message;
-  ReaderPlan plan{.device = recorded_device("a", "whims", (*opened)->info()), .driver = "whims"};
+  ReaderPlan plan;
+  plan.device = recorded_device("a", "whims", (*opened)->info());
+  plan.driver = "whims";
   auto* const more = plan.device.mutable_streams(0)->add_channels();
   *more = plan.device.streams(0).channels(0);
   more->set_name("gyro_y");

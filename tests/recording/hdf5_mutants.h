@@ -79,7 +79,7 @@ inline std::string mutant(std::string bytes, std::uint32_t seed) {
       in_heap ? std::min<std::size_t>(256, bytes.size() - heap) : bytes.size();
   for (std::uint32_t left = 1 + random() % 4; left > 0; --left) {
     const std::size_t at = begin + random() % length;
-    testing::damage(bytes, at, random, [&] {
+    damage(bytes, at, random, [&] {
       for (std::size_t i = at; i < std::min(at + 4, bytes.size()); ++i) bytes[i] = '\xff';
     });
   }

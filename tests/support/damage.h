@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-namespace imunoise::testing {
+namespace imunoise {
 
 /// Damages the byte at `at`: one of its bits, all of it, or whatever `worse` does. `random`
 /// decides; the same on every machine.
@@ -24,4 +24,4 @@ void damage(std::string& bytes, std::size_t at, std::mt19937& random, const Wors
   }
 }
 
-}  // namespace imunoise::testing
+}  // namespace imunoise

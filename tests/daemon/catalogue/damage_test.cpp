@@ -61,7 +61,7 @@ class DamagedCatalogue : public testing::BenchFolder {
     std::mt19937 random(seed);
     std::size_t at = random() % bytes.size();
     while (bytes[at] == '\0') at = random() % bytes.size();  // most of a page is empty
-    testing::damage(bytes, at, random, [&] { bytes.replace(at / 512 * 512, 512, 512, '\0'); });
+    damage(bytes, at, random, [&] { bytes.replace(at / 512 * 512, 512, 512, '\0'); });
     return bytes;
   }
   // What became of the seeds.

@@ -192,6 +192,7 @@ Result<std::vector<std::string>> FakeDisk::list(const Path& path) const {
   std::vector<std::string> out;
   for (const auto& [name, content] : folder->second.live)
     out.push_back(content ? name : name + "/");
+  std::sort(out.begin(), out.end());  // a folder's '/' counts
   return out;
 }
 

@@ -13,7 +13,7 @@
 namespace imunoise::recording {
 namespace {
 
-const std::filesystem::path kFolder = "/run";
+const std::filesystem::path kRecording = "/run";
 
 // A disk on which no chunk is made before it may be.
 class HeldChunks final : public FileSystem {
@@ -73,7 +73,7 @@ TEST(Joining, WhileAChunkIsMadeMovesNothingUnderIt) {
   constexpr std::size_t kJoining = 100;
   HeldChunks disk;
   const RecordingPlan plan{"bench", 1, kStart, {test_device("imu0")}};
-  const auto recorder = Recorder::start(disk, kFolder, plan, a_chunk_each_block());
+  const auto recorder = Recorder::start(disk, kRecording, plan, a_chunk_each_block());
   ASSERT_TRUE(recorder) << recorder.error().message;
   ASSERT_TRUE((*recorder)->push(0, imu_block(0, 10)));
   disk.wait_for_a_chunk();
@@ -88,7 +88,7 @@ TEST(Joining, WhileAChunkIsMadeMovesNothingUnderIt) {
   ASSERT_TRUE(closed) << closed.error().message;
   EXPECT_EQ((*recorder)->state().counts[0][0].stored, 20U);
   EXPECT_EQ((*recorder)->state().counts[kJoining][0].stored, 10U);
-  EXPECT_TRUE(verify_recording(disk, kFolder, false)->sound());
+  EXPECT_TRUE(verify_recording(disk, kRecording, false)->sound());
 }
 
 TEST(Joining, FailsWithTheDiskAndMayBeTriedAgain) {
@@ -97,7 +97,7 @@ TEST(Joining, FailsWithTheDiskAndMayBeTriedAgain) {
     for (const int nth : {1, 2}) {
       FakeDisk disk;
       const RecordingPlan plan{"bench", 1, kStart, {test_device("imu0")}};
-      const auto recorder = Recorder::start(disk, kFolder, plan, a_chunk_each_block());
+      const auto recorder = Recorder::start(disk, kRecording, plan, a_chunk_each_block());
       ASSERT_TRUE(recorder) << recorder.error().message;
       disk.fail_once(kind, nth);
       auto added = (*recorder)->add(test_device("imu1"));
@@ -107,7 +107,7 @@ TEST(Joining, FailsWithTheDiskAndMayBeTriedAgain) {
       ASSERT_TRUE((*recorder)->push(*added, imu_block(0, 10)));
       ASSERT_TRUE((*recorder)->close());
       EXPECT_EQ((*recorder)->state().counts[*added][0].stored, 10U);
-      EXPECT_TRUE(verify_recording(disk, kFolder, false)->sound());
+      EXPECT_TRUE(verify_recording(disk, kRecording, false)->sound());
     }
   }
 }

@@ -51,7 +51,7 @@ TEST(ReplicateSet, IsTheSetOfItsNumbers) {
   ReplicateRanges ranges;
   std::set<std::uint32_t> numbers;
   for (int step = 0; step < 2000; ++step) {
-    const std::uint32_t number = 1 + random() % 20;
+    const auto number = static_cast<std::uint32_t>(1 + random() % 20);
     if (random() % 2 == 0) {
       insert(ranges, number);
       numbers.insert(number);
