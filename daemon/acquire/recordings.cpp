@@ -108,7 +108,7 @@ Result<std::optional<Dated>> dated_recording(const recording::FileSystem& files,
   return out;
 }
 
-// The recordings of a campaign whose manifests are sound, the newest first. Those that seem to
+// The recordings of a campaign that have a manifest.json, the newest first. Those that seem to
 // begin after now come last: they were made before a clock was corrected.
 Result<std::vector<Dated>> by_age(const recording::FileSystem& files, const v1::Campaign& campaign,
                                   const Clock& clock) {
@@ -116,8 +116,12 @@ Result<std::vector<Dated>> by_age(const recording::FileSystem& files, const v1::
   if (!listed) return tl::make_unexpected(listed.error());
   std::vector<Dated> out;
   for (const Listed& one : *listed) {
-    auto dated = dated_recording(files, campaign, one, clock);
-    if (dated && *dated && (*dated)->manifest) out.push_back(std::move(**dated));
+    // What of it is there will do: a recording may be deleted in part.
+    auto found = recording::read_whole_manifest(files, one.folder);
+    if (!found || !*found || !is_of((*found)->manifest, campaign)) continue;
+    v1::Manifest& manifest = (*found)->manifest;
+    const Time start = began(one.started, manifest, clock);
+    out.push_back({one.folder, start, std::move(manifest)});
   }
   const Time now = clock.now() + kSameSecond;
   std::sort(out.begin(), out.end(), [&](const Dated& a, const Dated& b) {
@@ -149,13 +153,15 @@ Age age_of(const Dated& one, double most, const Clock& clock) {
   return older(clock.now() - last) ? Age::kTooOld : Age::kYoung;
 }
 
-// Its manifest goes last: what is deleted in part is deleted the next time.
+// manifest.json goes last: what is deleted in part is deleted the next time.
 Result<void> remove_recording(recording::FileSystem& files, const fs::path& folder) {
   const auto names = files.list(folder);
   if (!names) return tl::make_unexpected(names.error());
   for (const std::string& name : *names) {
-    if (!name.ends_with('/')) continue;
-    auto done = recording::remove_tree(files, folder / name.substr(0, name.size() - 1));
+    if (name == recording::kManifestName) continue;
+    auto done = name.ends_with('/')
+                    ? recording::remove_tree(files, folder / name.substr(0, name.size() - 1))
+                    : files.remove(folder / name);
     if (!done) return done;
   }
   return recording::remove_tree(files, folder);

@@ -33,6 +33,9 @@ class HeldChunks final : public FileSystem {
     return disk_.list(path);
   }
   Result<bool> exists(const Path& path) const override { return disk_.exists(path); }
+  Result<std::uint64_t> free_space(const Path& path) const override {
+    return disk_.free_space(path);
+  }
   Result<void> rename(const Path& from, const Path& to) override { return disk_.rename(from, to); }
   Result<void> remove(const Path& path) override { return disk_.remove(path); }
   Result<void> make_folder(const Path& path) override { return disk_.make_folder(path); }
