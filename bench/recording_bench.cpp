@@ -9,8 +9,8 @@
 #include <random>
 
 #include "recording/import/import.h"
-#include "recording/store/reader.h"
-#include "recording/store/recorder.h"
+#include "recording/store/reading/device_recording.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::recording {
 namespace {

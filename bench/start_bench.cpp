@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::recording {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "cli/progress_line.h"
-#include "recording/store/across.h"
-#include "recording/store/places.h"
-#include "recording/store/replicates.h"
+#include "recording/store/reading/across.h"
+#include "recording/store/reading/places.h"
+#include "recording/store/reading/replicates.h"
 
 namespace imunoise::cli {
 

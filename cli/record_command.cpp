@@ -10,7 +10,7 @@
 #include "daemon/acquire/record_replicate.h"
 #include "daemon/process/ignored_signals.h"
 #include "drivers/host/load.h"
-#include "recording/store/layout.h"
+#include "recording/store/format/layout.h"
 #include "study/report/json.h"
 #include "study/words/number.h"
 #include "study/words/text.h"

@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "recording/store/verify.h"
+#include "recording/store/verify/verify.h"
 #include "study/report/json.h"
 #include "study/words/number.h"
 #include "study/words/text.h"

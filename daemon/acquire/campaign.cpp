@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "daemon/acquire/recordings.h"
-#include "recording/store/manifest.h"
-#include "recording/store/recover.h"
+#include "recording/store/manifest/manifest.h"
+#include "recording/store/recovery/recover.h"
 
 namespace imunoise::acquire {
 namespace {

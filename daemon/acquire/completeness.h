@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::acquire {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "daemon/config/quantity_text.h"
-#include "recording/store/journal.h"
+#include "recording/store/journal/journal.h"
 
 namespace imunoise::acquire {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "recording/store/stream.h"
+#include "recording/store/stream/stream.h"
 
 namespace imunoise::acquire {
 

@@ -17,8 +17,8 @@
 #include "daemon/acquire/stillness.h"
 #include "daemon/acquire/stream_clocks.h"
 #include "drivers/host/device.h"
-#include "recording/store/back_off.h"
-#include "recording/store/recorder.h"
+#include "recording/store/disk/back_off.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::acquire {
 

@@ -13,7 +13,7 @@
 #include "daemon/acquire/recordings.h"
 #include "daemon/acquire/wire_file.h"
 #include "daemon/config/quantity_text.h"
-#include "recording/store/layout.h"
+#include "recording/store/format/layout.h"
 
 namespace imunoise::acquire {
 namespace {

@@ -13,7 +13,7 @@
 #include "daemon/acquire/disk_space.h"
 #include "daemon/acquire/open_devices.h"
 #include "daemon/acquire/reader.h"
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::acquire {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "drivers/host/block.h"
-#include "recording/store/stream.h"
+#include "recording/store/stream/stream.h"
 
 namespace imunoise::acquire {
 

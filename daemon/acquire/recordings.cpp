@@ -7,8 +7,8 @@
 #include <array>
 #include <charconv>
 
-#include "recording/store/layout.h"
-#include "recording/store/manifest.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/manifest/manifest.h"
 
 namespace imunoise::acquire {
 namespace {

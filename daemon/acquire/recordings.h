@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "daemon/acquire/next_step.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::acquire {
 

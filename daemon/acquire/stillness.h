@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "recording/store/stream.h"
+#include "recording/store/stream/stream.h"
 
 namespace imunoise::acquire {
 

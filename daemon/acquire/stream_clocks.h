@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drivers/host/block.h"
-#include "recording/store/device_clock.h"
+#include "recording/store/timeline/device_clock.h"
 
 namespace imunoise::acquire {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::acquire {
 

@@ -8,7 +8,7 @@
 #include "daemon/catalogue/history.h"
 #include "daemon/catalogue/scan.h"
 #include "daemon/process/program.h"
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 #include "study/calibration/calibration_file.h"
 
 namespace imunoise::app {

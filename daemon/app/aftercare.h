@@ -9,8 +9,8 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/campaign.pb.h"
-#include "recording/store/disk_calls.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/disk_calls.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "daemon/app/campaign_files.h"
-#include "recording/store/disk_calls.h"
+#include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "daemon/service/study_computation.h"
-#include "recording/store/disk_calls.h"
+#include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::app {
 

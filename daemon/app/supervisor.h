@@ -18,7 +18,7 @@
 #include "daemon/app/troubles.h"
 #include "daemon/live/live_board.h"
 #include "daemon/service/bench.h"
-#include "recording/store/watched_files.h"
+#include "recording/store/disk/watched_files.h"
 
 namespace imunoise::app {
 

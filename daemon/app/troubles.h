@@ -8,7 +8,7 @@
 
 #include "daemon/live/live_board.h"
 #include "imunoise/v1/campaign.pb.h"
-#include "recording/store/disk_calls.h"
+#include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::app {
 

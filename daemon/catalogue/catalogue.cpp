@@ -9,7 +9,7 @@
 
 #include "daemon/catalogue/entry.h"
 #include "daemon/catalogue/scan.h"
-#include "recording/store/layout.h"
+#include "recording/store/format/layout.h"
 
 namespace imunoise::catalogue {
 namespace {

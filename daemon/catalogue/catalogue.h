@@ -13,7 +13,7 @@
 #include "daemon/catalogue/integrity.h"
 #include "daemon/catalogue/scan.h"
 #include "imunoise/v1/catalogue.pb.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::catalogue {
 

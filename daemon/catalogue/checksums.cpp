@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-#include "recording/store/crc32c.h"
+#include "recording/store/format/crc32c.h"
 
 namespace imunoise::catalogue {
 namespace {

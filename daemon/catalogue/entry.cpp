@@ -7,7 +7,7 @@
 #include <set>
 
 #include "daemon/catalogue/checksums.h"
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 
 namespace imunoise::catalogue {
 namespace {

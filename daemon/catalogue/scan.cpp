@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "recording/store/crc32c.h"
-#include "recording/store/layout.h"
-#include "recording/store/manifest.h"
+#include "recording/store/format/crc32c.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/manifest/manifest.h"
 #include "study/calibration/calibration_file.h"
 
 namespace imunoise::catalogue {

@@ -9,7 +9,7 @@
 
 #include "imunoise/v1/calibration.pb.h"
 #include "imunoise/v1/recording.pb.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::catalogue {
 

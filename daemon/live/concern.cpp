@@ -1,6 +1,6 @@
 #include "daemon/live/concern.h"
 
-#include "recording/store/straight_line.h"
+#include "recording/store/timeline/straight_line.h"
 
 namespace imunoise::live {
 namespace {

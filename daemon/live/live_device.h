@@ -10,7 +10,7 @@
 #include "daemon/live/concern.h"
 #include "daemon/live/live_variance.h"
 #include "imunoise/v1/live.pb.h"
-#include "recording/store/stream.h"
+#include "recording/store/stream/stream.h"
 
 namespace imunoise::live {
 

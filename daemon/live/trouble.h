@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::live {
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::service {
 

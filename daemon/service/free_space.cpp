@@ -1,6 +1,6 @@
 #include "daemon/service/free_space.h"
 
-#include "recording/store/watched_files.h"
+#include "recording/store/disk/watched_files.h"
 
 namespace imunoise::service {
 

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "daemon/service/bench.h"
-#include "recording/store/disk_calls.h"
+#include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::service {
 

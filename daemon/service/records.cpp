@@ -7,7 +7,7 @@
 
 #include "daemon/catalogue/history.h"
 #include "daemon/service/confined_files.h"
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 #include "study/calibration/calibration_file.h"
 
 namespace imunoise::service {

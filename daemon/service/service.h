@@ -17,7 +17,7 @@
 #include "daemon/service/study_computation.h"
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
-#include "recording/store/disk_calls.h"
+#include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::service {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "daemon/service/confined_files.h"
-#include "recording/store/replicates.h"
+#include "recording/store/reading/replicates.h"
 #include "study/ladder/study.h"
 
 namespace imunoise::service {

@@ -9,7 +9,7 @@
 
 #include "daemon/service/answer.h"
 #include "imunoise/v1/service.pb.h"
-#include "recording/store/watched_files.h"
+#include "recording/store/disk/watched_files.h"
 
 namespace imunoise::service {
 

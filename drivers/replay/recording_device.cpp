@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "recording/store/device_folder.h"
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/device_folder.h"
+#include "recording/store/manifest/manifest.h"
 
 namespace imunoise::replay {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/support/result.h"
 #include "drivers/plugin.h"
 #include "drivers/replay/pace.h"
-#include "recording/store/reader.h"
+#include "recording/store/reading/device_recording.h"
 
 namespace imunoise::replay {
 

@@ -8,7 +8,7 @@
 
 #include "drivers/plugin.h"
 #include "drivers/replay/pace.h"
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 
 namespace imunoise::replay {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <string>
 
-#include "recording/import/file.h"
-#include "recording/import/npy.h"
-#include "recording/import/raw.h"
+#include "recording/import/binary/npy.h"
+#include "recording/import/binary/raw.h"
+#include "recording/import/table/file.h"
 
 namespace imunoise::recording {
 namespace {

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "core/support/parallel.h"
+#include "recording/import/binary/npy.h"
+#include "recording/import/binary/raw.h"
 #include "recording/import/format.h"
-#include "recording/import/hdf5_table.h"
-#include "recording/import/npy.h"
-#include "recording/import/raw.h"
-#include "recording/import/table.h"
-#include "recording/import/text_table.h"
+#include "recording/import/hdf5/hdf5_table.h"
+#include "recording/import/table/table.h"
+#include "recording/import/text/text_table.h"
 
 namespace imunoise::recording {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "imunoise/v1/dynamic.pb.h"
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 #include "study/analysis/covariate_data.h"
 
 namespace imunoise::study {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "imunoise/v1/diagnosis.pb.h"
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 #include "study/analysis/series.h"
 
 namespace imunoise::study {

@@ -8,7 +8,7 @@
 
 #include "core/signal/signal.h"
 #include "core/support/result.h"
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 
 namespace imunoise::study {
 

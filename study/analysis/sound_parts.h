@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/effect/subject.h"
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 
 namespace imunoise::study {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "recording/store/crc32c.h"
+#include "recording/store/format/crc32c.h"
 #include "study/batch/batch_plan.h"
 #include "study/report/json.h"
 

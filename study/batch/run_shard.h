@@ -6,7 +6,7 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/batch.pb.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::study {
 

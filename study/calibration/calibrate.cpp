@@ -5,9 +5,9 @@
 #include <set>
 
 #include "core/model/model.h"
-#include "recording/store/manifest.h"
-#include "recording/store/places.h"
-#include "recording/store/replicates.h"
+#include "recording/store/manifest/manifest.h"
+#include "recording/store/reading/places.h"
+#include "recording/store/reading/replicates.h"
 #include "study/analysis/prepare.h"
 #include "study/calibration/calibrate_array.h"
 #include "study/calibration/calibrate_channel.h"

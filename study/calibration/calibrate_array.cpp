@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "recording/store/across.h"
+#include "recording/store/reading/across.h"
 #include "study/analysis/arrays/array_series.h"
 #include "study/calibration/calibrate_channel.h"
 

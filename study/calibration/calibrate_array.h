@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recording/import/channel.h"
-#include "recording/store/places.h"
+#include "recording/import/table/channel.h"
+#include "recording/store/reading/places.h"
 #include "study/calibration/calibrate.h"
 
 namespace imunoise::study {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 #include "study/calibration/calibrate.h"
 
 namespace imunoise::study {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/effects/parse_full_model.h"
-#include "recording/store/crc32c.h"
+#include "recording/store/format/crc32c.h"
 #include "study/analysis/diagnose_series.h"
 #include "study/analysis/judge.h"
 #include "study/analysis/series.h"

@@ -9,7 +9,7 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/study.pb.h"
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 #include "study/seen/seen_folder.h"
 
 namespace imunoise::study {

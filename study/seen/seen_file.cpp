@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/support/parallel.h"
-#include "recording/store/crc32c.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
+#include "recording/store/format/crc32c.h"
 
 namespace imunoise::study {
 namespace {

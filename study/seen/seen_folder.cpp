@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "recording/import/sidecar.h"
-#include "recording/store/crc32c.h"
+#include "recording/import/table/sidecar.h"
+#include "recording/store/format/crc32c.h"
 #include "study/seen/seen_record.h"
 
 namespace imunoise::study {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 #include "tests/cli/program.h"
 #include "tests/recording/store/samples.h"
 #include "tests/support/golden.h"

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "daemon/acquire/recordings.h"
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 #include "tests/daemon/fake_recorder.h"
 
 namespace imunoise::acquire {

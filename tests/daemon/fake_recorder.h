@@ -14,8 +14,8 @@
 
 #include "daemon/acquire/campaign.h"
 #include "daemon/acquire/recordings.h"
-#include "recording/store/layout.h"
-#include "recording/store/manifest.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/manifest/manifest.h"
 #include "tests/daemon/manual_clock.h"
 #include "tests/recording/store/whole_manifest.h"
 

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "daemon/acquire/device_recorder.h"
-#include "recording/store/manifest.h"
-#include "recording/store/reader.h"
-#include "recording/store/verify.h"
+#include "recording/store/manifest/manifest.h"
+#include "recording/store/reading/device_recording.h"
+#include "recording/store/verify/verify.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/whole_manifest.h"
 

@@ -8,7 +8,7 @@
 
 #include "daemon/acquire/campaign.h"
 #include "daemon/acquire/recordings.h"
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 #include "tests/daemon/fake_recorder.h"
 
 namespace imunoise::acquire {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "recording/hdf5/handle.h"
-#include "recording/import/hdf5_table.h"
+#include "recording/import/hdf5/hdf5_table.h"
 #include "tests/fuzz/memory_file.h"
 
 using namespace imunoise;

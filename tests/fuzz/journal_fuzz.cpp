@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "recording/store/format_version.h"
-#include "recording/store/journal_reader.h"
+#include "recording/store/format/format_version.h"
+#include "recording/store/journal/journal_reader.h"
 
 using namespace imunoise;
 using namespace imunoise::recording;

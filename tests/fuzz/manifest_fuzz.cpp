@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 
 using namespace imunoise;
 using namespace imunoise::recording;

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <variant>
 
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 
 namespace imunoise::recording {
 

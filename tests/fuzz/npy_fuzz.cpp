@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "recording/import/binary/npy.h"
 #include "recording/import/import.h"
-#include "recording/import/npy.h"
 #include "tests/fuzz/memory_file.h"
 
 using namespace imunoise;

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "recording/store/crc32c.h"
+#include "recording/store/format/crc32c.h"
 #include "study/seen/seen_record.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "recording/import/sidecar.h"
+#include "recording/import/table/sidecar.h"
 
 using namespace imunoise;
 using namespace imunoise::recording;

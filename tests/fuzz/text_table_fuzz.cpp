@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "recording/import/text_table.h"
+#include "recording/import/text/text_table.h"
 #include "tests/fuzz/memory_file.h"
 
 using namespace imunoise;

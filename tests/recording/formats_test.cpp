@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "recording/import/npy.h"
+#include "recording/import/binary/npy.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {

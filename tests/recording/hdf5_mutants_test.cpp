@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "recording/hdf5/limited_child.h"
-#include "recording/import/hdf5_process.h"
+#include "recording/import/hdf5/hdf5_process.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {

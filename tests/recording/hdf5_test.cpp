@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "recording/hdf5/attributes.h"
-#include "recording/import/hdf5_process.h"
+#include "recording/import/hdf5/hdf5_process.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 
 namespace imunoise::testing {
 namespace {

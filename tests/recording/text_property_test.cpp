@@ -6,7 +6,7 @@
 #include <bit>
 #include <random>
 
-#include "recording/import/text_table.h"
+#include "recording/import/text/text_table.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {

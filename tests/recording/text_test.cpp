@@ -5,8 +5,8 @@
 #include <chrono>
 
 #include "core/support/units.h"
-#include "recording/import/line_reader.h"
-#include "recording/import/text_table.h"
+#include "recording/import/text/line_reader.h"
+#include "recording/import/text/text_table.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {

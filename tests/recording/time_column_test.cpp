@@ -1,6 +1,6 @@
 // A time column gives the rate, and never lets a gap pass.
 
-#include "recording/import/time_column.h"
+#include "recording/import/table/time_column.h"
 
 #include <gtest/gtest.h>
 

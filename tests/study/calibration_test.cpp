@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 #include "study/calibration/calibrate.h"
 #include "study/calibration/calibration_file.h"
 #include "study/report/json.h"

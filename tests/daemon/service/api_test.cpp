@@ -4,7 +4,7 @@
 
 #include "daemon/service/routes.h"
 #include "imunoise/v1/service.pb.h"
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 #include "study/calibration/calibration_file.h"
 #include "tests/daemon/service/served.h"
 

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 #include "tests/drivers/recording_session.h"
 
 namespace imunoise::testing {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "recording/import/channel.h"
+#include "recording/import/table/channel.h"
 #include "tests/hidden_effects/generator/recording.h"
 
 namespace imunoise::hidden {

@@ -1,14 +1,14 @@
 // Several devices of one recording as one array. Each channel tells the host's time at which it was
 // sampled, so that what stands side by side can be seen.
 
-#include "recording/store/across.h"
+#include "recording/store/reading/across.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 #include "tests/recording/files.h"
 #include "tests/recording/simulated_bench.h"
 #include "tests/recording/store/samples.h"

@@ -1,11 +1,11 @@
 // Channels of a device's other streams, at the times of the one under study.
 
-#include "recording/store/alignment.h"
+#include "recording/store/timeline/alignment.h"
 
 #include <gtest/gtest.h>
 
-#include "recording/store/recorder.h"
-#include "recording/store/replicates.h"
+#include "recording/store/reading/replicates.h"
+#include "recording/store/recorder/recorder.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/samples.h"
 

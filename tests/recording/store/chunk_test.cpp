@@ -1,5 +1,7 @@
 // Chunk files: what is written comes back, and no flipped bit passes.
 
+#include "recording/store/chunk/chunk.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +10,7 @@
 #include <random>
 #include <thread>
 
-#include "recording/store/chunk_file.h"
-#include "recording/store/crc32c.h"
+#include "recording/store/format/crc32c.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/samples.h"
 

@@ -1,13 +1,13 @@
 // Streams with clocks of their own on one grid, without a sample that nobody measured.
 
-#include "recording/store/common_grid.h"
+#include "recording/store/timeline/common_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 #include "tests/recording/store/samples.h"
 
 namespace imunoise::recording {

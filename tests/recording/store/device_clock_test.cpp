@@ -1,6 +1,6 @@
 // Clocks of known error, behind a way to the host that delays by chance.
 
-#include "recording/store/device_clock.h"
+#include "recording/store/timeline/device_clock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What is known of calls that have not returned, and the calls of the real disk that folders need.
 
-#include "recording/store/disk_calls.h"
+#include "recording/store/disk/disk_calls.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "recording/store/watched_files.h"
+#include "recording/store/disk/watched_files.h"
 
 namespace imunoise::recording {
 namespace {

@@ -10,10 +10,11 @@
 #include <iostream>
 #include <random>
 
-#include "recording/store/layout.h"
-#include "recording/store/recorder.h"
-#include "recording/store/recover.h"
-#include "recording/store/verify.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/journal/journal_reader.h"
+#include "recording/store/recorder/recorder.h"
+#include "recording/store/recovery/recover.h"
+#include "recording/store/verify/verify.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"
 

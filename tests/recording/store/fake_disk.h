@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "recording/store/file_system.h"
+#include "recording/store/disk/file_system.h"
 
 namespace imunoise::recording {
 

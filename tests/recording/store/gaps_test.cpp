@@ -1,13 +1,13 @@
 // Gaps, rates, saturated and stuck channels.
 
-#include "recording/store/gaps.h"
+#include "recording/store/timeline/gaps.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "recording/store/integrity.h"
+#include "recording/store/verify/integrity.h"
 #include "tests/recording/store/samples.h"
 
 namespace imunoise::recording {

@@ -5,8 +5,8 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "recording/store/recorder.h"
-#include "recording/store/verify.h"
+#include "recording/store/recorder/recorder.h"
+#include "recording/store/verify/verify.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"
 

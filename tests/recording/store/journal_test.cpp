@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "recording/store/format_version.h"
-#include "recording/store/journal_reader.h"
+#include "recording/store/format/format_version.h"
+#include "recording/store/journal/journal_reader.h"
 #include "tests/recording/store/samples.h"
 
 namespace imunoise::recording {

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "core/support/parallel.h"
-#include "recording/store/recorder.h"
-#include "recording/store/verify.h"
+#include "recording/store/recorder/recorder.h"
+#include "recording/store/verify/verify.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/samples.h"
 

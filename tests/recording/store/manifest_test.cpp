@@ -1,6 +1,6 @@
 // Manifests: of a recording and of each replicate, and those of version 1, which had one file.
 
-#include "recording/store/manifest.h"
+#include "recording/store/manifest/manifest.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "recording/store/recorder.h"
-#include "recording/store/replicate_set.h"
-#include "recording/store/verify.h"
+#include "recording/store/manifest/replicate_set.h"
+#include "recording/store/recorder/recorder.h"
+#include "recording/store/verify/verify.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"

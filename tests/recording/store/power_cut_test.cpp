@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "recording/store/recorder.h"
-#include "recording/store/recover.h"
+#include "recording/store/recorder/recorder.h"
+#include "recording/store/recovery/recover.h"
+#include "recording/store/recovery/seal.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"
 

@@ -5,9 +5,9 @@
 
 #include <fstream>
 
-#include "recording/store/layout.h"
-#include "recording/store/recorder.h"
-#include "recording/store/verify.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/recorder/recorder.h"
+#include "recording/store/verify/verify.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"

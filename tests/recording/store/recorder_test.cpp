@@ -1,6 +1,6 @@
 // The recorder with its threads, on good disks and bad ones.
 
-#include "recording/store/recorder.h"
+#include "recording/store/recorder/recorder.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <deque>
 #include <thread>
 
-#include "recording/store/layout.h"
-#include "recording/store/recover.h"
-#include "recording/store/verify.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/recovery/recover.h"
+#include "recording/store/verify/verify.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/fake_disk.h"
 #include "tests/recording/store/samples.h"

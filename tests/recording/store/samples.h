@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "recording/store/reader.h"
-#include "recording/store/stream.h"
+#include "recording/store/reading/device_recording.h"
+#include "recording/store/stream/stream.h"
 
 namespace imunoise::recording {
 

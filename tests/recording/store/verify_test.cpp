@@ -1,15 +1,15 @@
 // Damaged recordings: what is told, what is repaired, and that the rest is intact.
 
-#include "recording/store/verify.h"
+#include "recording/store/verify/verify.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <random>
 
-#include "recording/store/layout.h"
-#include "recording/store/recorder.h"
-#include "recording/store/replicates.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/reading/replicates.h"
+#include "recording/store/recorder/recorder.h"
 #include "tests/recording/files.h"
 #include "tests/recording/store/samples.h"
 

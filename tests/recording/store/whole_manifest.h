@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "recording/store/format_version.h"
-#include "recording/store/layout.h"
-#include "recording/store/manifest.h"
+#include "recording/store/format/format_version.h"
+#include "recording/store/format/layout.h"
+#include "recording/store/manifest/manifest.h"
 
 namespace imunoise::recording {
 

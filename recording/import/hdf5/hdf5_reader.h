@@ -1,0 +1,59 @@
+#pragma once
+
+// What an HDF5 file says: first of itself, then its numbers.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/support/result.h"
+#include "recording/hdf5/handle.h"
+#include "recording/import/table/channel.h"
+
+namespace imunoise::recording {
+
+/// An attribute: nothing where there is none, an error where it is of another kind.
+template <class Value>
+using Hdf5Attribute = Result<std::optional<Value>>;
+
+/// A dataset of the root group.
+struct Hdf5Column {
+  std::string name;
+  std::string trouble;  ///< why it cannot be read as a column of numbers; else empty
+  std::uint64_t size = 0;
+  Hdf5Attribute<double> scale;
+  Hdf5Attribute<double> offset;
+  Hdf5Attribute<std::string> unit;
+};
+
+struct Hdf5Facts {
+  Hdf5Attribute<double> rate;        ///< attribute rate_hz
+  std::vector<Hdf5Column> datasets;  ///< by name
+};
+
+/// A file that is being read. Errors do not name it.
+class Hdf5Reader {
+ public:
+  virtual ~Hdf5Reader() = default;
+  const Hdf5Facts& facts() const { return facts_; }
+  /// All samples of a dataset without trouble. Error: see Hdf5Dataset::read.
+  virtual Result<Samples> read(std::size_t dataset) = 0;
+
+ protected:
+  Hdf5Facts facts_;
+};
+
+/// Reads a file in this process, which a damaged file can crash: see open_hdf5_apart.
+class Hdf5Source : public Hdf5Reader {
+ public:
+  static Result<std::unique_ptr<Hdf5Source>> open(const std::filesystem::path& path);
+  Result<Samples> read(std::size_t dataset) override;
+
+ private:
+  Hdf5Handle file_;
+};
+
+}  // namespace imunoise::recording

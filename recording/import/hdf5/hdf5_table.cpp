@@ -1,0 +1,122 @@
+#include "recording/import/hdf5/hdf5_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "recording/import/hdf5/hdf5_process.h"
+#include "recording/import/table/file.h"
+#include "recording/import/table/select.h"
+#include "recording/import/table/time_column.h"
+
+namespace imunoise::recording {
+namespace {
+
+// What a dataset of times shows, when there is one.
+Result<EvenTimes> times_of_dataset(const std::string& file, Hdf5Reader& reader) {
+  const std::vector<Hdf5Column>& datasets = reader.facts().datasets;
+  const auto found = std::find_if(datasets.begin(), datasets.end(),
+                                  [](const Hdf5Column& one) { return is_time_name(one.name); });
+  if (found == datasets.end()) {
+    return fail(
+        fmt::format("{}: no root attribute rate_hz and so no sampling rate; give it with "
+                    "--rate HZ",
+                    file));
+  }
+  const auto trouble = [&](const std::string& what) {
+    return fail(fmt::format("{}: {} (--rate HZ ignores the times)", file, what));
+  };
+  if (!found->trouble.empty()) return trouble(found->trouble);
+  if (!found->unit) return trouble(found->unit.error().message);
+  const auto seconds = time_unit(found->name, found->unit->value_or(""));
+  if (!seconds) return trouble(fmt::format("dataset {}: {}", found->name, seconds.error().message));
+  const Result<Samples> samples = reader.read(static_cast<std::size_t>(found - datasets.begin()));
+  if (!samples) return trouble(samples.error().message);
+  const std::vector<double> times = std::visit(
+      [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+      *samples);
+  const std::string place = fmt::format("{}: dataset {}", file, found->name);
+  return even_times(times,
+                    {place, *seconds, [](std::size_t i) { return fmt::format("sample {}", i); }});
+}
+
+// As it is written. What cannot be read is told once the dataset is wanted.
+std::string written_unit(const Hdf5Column& dataset) {
+  return dataset.trouble.empty() && dataset.unit ? dataset.unit->value_or("") : "";
+}
+
+Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::size_t index,
+                           const ImportOptions& options) {
+  const Hdf5Column& dataset = reader.facts().datasets[index];
+  if (!dataset.trouble.empty()) return fail(fmt::format("{}: {}", file, dataset.trouble));
+  const auto trouble = [&](const std::string& what) {
+    return fail(fmt::format("{}: dataset {}: {}", file, dataset.name, what));
+  };
+  if (!dataset.scale) return trouble(dataset.scale.error().message);
+  if (!dataset.offset) return trouble(dataset.offset.error().message);
+  if (!dataset.unit) return trouble(dataset.unit.error().message);
+  Column column{dataset.name, {}, dataset.scale->value_or(1.0), dataset.offset->value_or(0.0), {}};
+  if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset)) {
+    return trouble(
+        fmt::format("scale_factor {} and add_offset {} must be finite, the factor not 0; "
+                    "correct the attributes",
+                    column.scale, column.offset));
+  }
+  Result<Unit> unit = resolve_unit(file, dataset.name, dataset.unit->value_or(""), options);
+  if (!unit) return tl::make_unexpected(unit.error());
+  column.unit = std::move(*unit);
+  Result<Samples> samples = reader.read(index);
+  if (!samples) return fail(fmt::format("{}: {}", file, samples.error().message));
+  column.samples = std::move(*samples);
+  return column;
+}
+
+}  // namespace
+
+Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
+                              const ImportOptions& options, FileProgress& progress) {
+  const Hdf5Facts& facts = reader.facts();
+  std::vector<Offer> offers;
+  for (const Hdf5Column& dataset : facts.datasets)
+    offers.push_back({dataset.name, !is_time_name(dataset.name), written_unit(dataset)});
+  const auto wanted = select_columns(name, offers, options);
+  if (!wanted) return tl::make_unexpected(wanted.error());
+
+  Table table;
+  if (options.rate) {
+    table.rate = *options.rate;
+  } else if (!facts.rate) {
+    return fail(
+        fmt::format("{}: root {}; give the rate with --rate HZ", name, facts.rate.error().message));
+  } else if (*facts.rate) {
+    const Result<Hertz> rate = checked_rate(name, "the root attribute rate_hz", **facts.rate);
+    if (!rate) return tl::make_unexpected(rate.error());
+    table.rate = *rate;
+  } else {
+    const Result<EvenTimes> times = times_of_dataset(name, reader);
+    if (!times) return tl::make_unexpected(times.error());
+    table.rate = times->rate;
+    table.jitter = times->jitter;
+  }
+  for (std::size_t i = 0; i < wanted->size(); ++i) {
+    if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", name));
+    Result<Column> column = read_column(name, reader, (*wanted)[i], options);
+    if (!column) return tl::make_unexpected(column.error());
+    table.columns.push_back(std::move(*column));
+    progress.report(static_cast<double>(i + 1) / static_cast<double>(wanted->size()));
+  }
+  return table;
+}
+
+Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOptions& options,
+                              FileProgress& progress) {
+  const Result<File> file = File::open(path);
+  if (!file) return tl::make_unexpected(file.error());
+  const auto reader = open_hdf5_apart(path, file->size(), [&] { return progress.stopped(); });
+  if (!reader) return fail(fmt::format("{}: {}", file->name(), reader.error().message));
+  return read_hdf5_table(file->name(), **reader, options, progress);
+}
+
+}  // namespace imunoise::recording

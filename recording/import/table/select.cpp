@@ -1,0 +1,92 @@
+#include "recording/import/table/select.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace imunoise::recording {
+namespace {
+
+// A hostile file may offer thousands of names: a message shows the first ones.
+std::string listed(const std::vector<Offer>& offers) {
+  constexpr std::size_t shown = 40;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(offers.size(), shown); ++i) {
+    out += out.empty() ? "" : ", ";
+    out += offers[i].name;
+  }
+  if (offers.size() > shown) out += fmt::format(", and {} more", offers.size() - shown);
+  return out.empty() ? "none" : out;
+}
+
+}  // namespace
+
+Result<std::vector<std::size_t>> select_columns(std::string_view file,
+                                                const std::vector<Offer>& offers,
+                                                const ImportOptions& options) {
+  const std::vector<std::string>& wanted = options.channels;
+  if (offers.size() > kMaximumColumns) {
+    return fail(fmt::format("{}: {} columns, more than the {} allowed; is the table transposed?",
+                            file, offers.size(), kMaximumColumns));
+  }
+  std::vector<std::size_t> out;
+  std::vector<std::string> named = wanted;
+  if (options.beside) named.insert(named.end(), options.witnesses.begin(), options.witnesses.end());
+  for (const std::string& name : named) {
+    const auto same = [&](const Offer& offer) { return offer.name == name; };
+    const auto found = std::find_if(offers.begin(), offers.end(), same);
+    if (found == offers.end()) {
+      return fail(fmt::format("{}: no channel '{}' (it has: {}); choose with --channel", file, name,
+                              listed(offers)));
+    }
+    const auto index = static_cast<std::size_t>(found - offers.begin());
+    if (std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);
+  }
+  for (std::size_t i = 0; i < offers.size() && (wanted.empty() || options.beside); ++i) {
+    if (!offers[i].by_default || std::find(out.begin(), out.end(), i) != out.end()) continue;
+    if (!options.beside || beside_them(offers[i], options)) out.push_back(i);
+  }
+  if (out.empty())
+    return fail(fmt::format("{}: no channel of samples (found: {})", file, listed(offers)));
+  for (const std::size_t index : out) {
+    const auto same = [&](const Offer& offer) { return offer.name == offers[index].name; };
+    if (std::count_if(offers.begin(), offers.end(), same) > 1) {
+      return fail(fmt::format("{}: two columns are named '{}'; rename one of them", file,
+                              offers[index].name));
+    }
+  }
+  return out;
+}
+
+bool beside_them(const Offer& offer, const ImportOptions& options) {
+  const auto& only = options.witnesses;
+  if (!only.empty()) return std::find(only.begin(), only.end(), offer.name) != only.end();
+  return offer.unit != "ticks";
+}
+
+Result<Unit> resolve_unit(std::string_view file, std::string_view channel, std::string_view text,
+                          const ImportOptions& options) {
+  if (options.unit) return *options.unit;
+  if (text.empty() || text == "-") return Unit{"1", Quantity::kUnknown, 1.0};
+  Result<Unit> unit = parse_unit(text);
+  const auto& named = options.channels;
+  const bool only_beside =
+      options.beside && std::find(named.begin(), named.end(), channel) == named.end();
+  if (!unit && only_beside) return Unit{std::string(text), Quantity::kUnknown, 1.0};
+  if (!unit) {
+    return fail(fmt::format("{}: channel {}: {}; correct the file or state it with --unit", file,
+                            channel, unit.error().message));
+  }
+  return unit;
+}
+
+Result<Hertz> checked_rate(std::string_view file, std::string_view where, double hertz) {
+  if (!std::isfinite(hertz) || hertz <= 0.0) {
+    return fail(fmt::format("{}: {} states a sampling rate of {} Hz; correct it or give --rate HZ",
+                            file, where, hertz));
+  }
+  return Hertz{hertz};
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,46 @@
+#pragma once
+
+// Which columns of a file are wanted, and what the file or the user says their unit is.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/support/result.h"
+#include "core/support/units.h"
+#include "recording/import/table/options.h"
+
+namespace imunoise::recording {
+
+/// A table with more columns is a transposed one.
+inline constexpr std::size_t kMaximumColumns = 4096;
+
+/// A column that a file offers.
+struct Offer {
+  std::string name;
+  bool by_default = true;  ///< Taken when the user names no channel.
+  std::string unit{};      ///< As the file writes it.
+};
+
+/// Indices of the columns that `options` want: those that it names, in that order, else all by
+/// default; where what stands beside_them() is wanted, those too. Error: a channel that the file
+/// has not (those that exist are listed), two columns of one wanted name, no channel at all. `file`
+/// is for messages.
+Result<std::vector<std::size_t>> select_columns(std::string_view file,
+                                                const std::vector<Offer>& offers,
+                                                const ImportOptions& options);
+
+/// Whether what nobody named is wanted beside what somebody did: a count of ticks never is, unless
+/// it is a witness that is asked for.
+bool beside_them(const Offer& offer, const ImportOptions& options);
+
+/// The unit of a channel: the user's, else what the file writes ("" and "-" state none).
+/// Error: a spelling nobody knows, of a channel that does not only stand beside others.
+Result<Unit> resolve_unit(std::string_view file, std::string_view channel, std::string_view text,
+                          const ImportOptions& options);
+
+/// A rate that a file states. Error unless it is finite and positive. `where` says who states it.
+Result<Hertz> checked_rate(std::string_view file, std::string_view where, double hertz);
+
+}  // namespace imunoise::recording

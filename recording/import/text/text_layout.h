@@ -1,0 +1,42 @@
+#pragma once
+
+// What the first lines of a text table tell: delimiter, names, units.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/support/result.h"
+#include "recording/import/table/options.h"
+#include "recording/import/text/fields.h"
+
+namespace imunoise::recording {
+
+/// The first rows of a text file, comments and empty lines left out.
+struct TextHead {
+  struct Row {
+    std::size_t line = 0;  ///< Number in the file, from 1.
+    std::string text;
+  };
+  std::string file;          ///< For messages.
+  std::vector<Row> rows;     ///< Up to kHeadRows.
+  std::string last_comment;  ///< The last comment before the first row, without '#'.
+};
+
+/// A header, a row of units, two rows of numbers.
+inline constexpr std::size_t kHeadRows = 4;
+
+/// How the rows of the file are to be read.
+struct TextLayout {
+  char delimiter = ',';              ///< ' ' for runs of blanks.
+  std::vector<HeaderField> columns;  ///< One a column; without a header col1, col2, ...
+  std::vector<bool> unnamed;    ///< Columns whose header is empty: an index, a trailing delimiter.
+  std::size_t header_rows = 0;  ///< How many of the head's rows hold no samples: 0, 1 or 2.
+};
+
+/// Error: no rows; a first row of which one cannot tell whether it is a header; a row of units with
+/// an unknown one or of the wrong length.
+Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& options);
+
+}  // namespace imunoise::recording

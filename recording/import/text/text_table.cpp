@@ -1,0 +1,186 @@
+#include "recording/import/text/text_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "recording/import/table/select.h"
+#include "recording/import/table/time_column.h"
+#include "recording/import/text/number.h"
+#include "recording/import/text/text_layout.h"
+#include "recording/import/text/text_rows.h"
+
+namespace imunoise::recording {
+namespace {
+
+struct Head {
+  TextHead text;
+  std::optional<double> rate;  // stated by a comment, Hz
+};
+
+bool holds_no_samples(std::string_view line) {
+  const std::string_view text = trim(line);
+  return text.empty() || text.front() == '#';
+}
+
+// "rate_hz: 100" or "rate_hz = 100"
+std::optional<double> rate_in_comment(std::string_view comment) {
+  constexpr std::string_view key = "rate_hz";
+  comment = trim(comment);
+  if (!comment.starts_with(key)) return std::nullopt;
+  comment = trim(comment.substr(key.size()));
+  if (comment.empty() || (comment.front() != ':' && comment.front() != '=')) return std::nullopt;
+  double value = 0.0;
+  if (!is_number(trim(comment.substr(1)), value)) return std::nullopt;
+  return value;
+}
+
+Head read_head(LineReader& lines, const std::string& file) {
+  Head head;
+  head.text.file = file;
+  while (head.text.rows.size() < kHeadRows) {
+    const std::optional<std::string_view> line = lines.next();
+    if (!line) break;
+    if (!holds_no_samples(*line)) {
+      head.text.rows.push_back({lines.line_number(), std::string(*line)});
+    } else if (head.text.rows.empty() && !trim(*line).empty()) {
+      head.text.last_comment = trim(*line).substr(1);
+      if (!head.rate) head.rate = rate_in_comment(head.text.last_comment);
+    }
+  }
+  return head;
+}
+
+// Which columns are kept, and which one of them is the time.
+struct Plan {
+  std::vector<std::size_t> channels;  // in the order wanted
+  std::vector<Unit> units;            // of the channels
+  std::optional<std::size_t> time;
+  std::optional<double> time_unit;  // s
+  std::vector<bool> wanted;         // one a column
+};
+
+Result<Plan> make_plan(const std::string& file, const TextLayout& layout, bool rate_in_head,
+                       const ImportOptions& options) {
+  Plan plan;
+  std::vector<Offer> offers;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const HeaderField& column = layout.columns[c];
+    offers.push_back({column.name, !is_time_name(column.name) && !layout.unnamed[c], column.unit});
+  }
+  Result<std::vector<std::size_t>> channels = select_columns(file, offers, options);
+  if (!channels) return tl::make_unexpected(channels.error());
+  plan.channels = std::move(*channels);
+  plan.wanted.assign(offers.size(), false);
+  for (const std::size_t c : plan.channels) {
+    const HeaderField& column = layout.columns[c];
+    Result<Unit> unit = resolve_unit(file, column.name, column.unit, options);
+    if (!unit) return tl::make_unexpected(unit.error());
+    plan.units.push_back(std::move(*unit));
+    plan.wanted[c] = true;
+  }
+  if (options.rate) return plan;
+  for (std::size_t c = 0; c < offers.size() && !plan.time; ++c) {
+    if (is_time_name(layout.columns[c].name)) plan.time = c;
+  }
+  if (!plan.time) {
+    if (rate_in_head) return plan;
+    return fail(
+        fmt::format("{}: no time column (t, time, timestamp) and so no sampling rate; give it "
+                    "with --rate HZ",
+                    file));
+  }
+  const HeaderField& column = layout.columns[*plan.time];
+  const Result<std::optional<double>> unit = time_unit(column.name, column.unit);
+  if (!unit) {
+    return fail(fmt::format("{}: column {}: {}", file, column.name, unit.error().message));
+  }
+  plan.time_unit = *unit;
+  plan.wanted[*plan.time] = true;
+  return plan;
+}
+
+// Parses the rows of the head and then the rest of the file.
+Result<void> read_rows(const File& file, const TextHead& head, std::size_t header_rows,
+                       LineReader& lines, RowParser& rows, FileProgress& progress) {
+  for (std::size_t i = header_rows; i < head.rows.size(); ++i) {
+    if (auto error = rows.add(head.rows[i].text, head.rows[i].line)) {
+      return tl::make_unexpected(std::move(*error));
+    }
+  }
+  constexpr std::size_t rows_between_reports = 1U << 16U;
+  std::size_t next_estimate = 1024;
+  while (const std::optional<std::string_view> line = lines.next()) {
+    const char first = line->empty() ? '#' : line->front();
+    const bool suspect = first == '#' || first == ' ' || first == '\t';
+    if (suspect && holds_no_samples(*line)) continue;
+    if (auto error = rows.add(*line, lines.line_number())) {
+      return tl::make_unexpected(std::move(*error));
+    }
+    if (rows.rows() == next_estimate) {
+      const double done = static_cast<double>(lines.bytes_done());
+      const double whole = static_cast<double>(std::max(file.size(), lines.bytes_done()));
+      // Room for the rows to come, from the mean length of those seen: growing by doubling would
+      // hold the numbers three times over.
+      rows.reserve(
+          static_cast<std::size_t>(1.02 * whole / done * static_cast<double>(next_estimate)),
+          rows_between_reports);
+      progress.report(done / whole);
+      if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", file.name()));
+      next_estimate = next_estimate < rows_between_reports ? rows_between_reports
+                                                           : next_estimate + rows_between_reports;
+    }
+  }
+  if (lines.error()) return tl::make_unexpected(*lines.error());
+  return {};
+}
+
+}  // namespace
+
+Result<Table> read_text_table(const std::filesystem::path& path, const ImportOptions& options,
+                              FileProgress& progress, std::size_t block_bytes) {
+  const Result<File> file = File::open(path);
+  if (!file) return tl::make_unexpected(file.error());
+  LineReader lines(*file, block_bytes);
+  const Head head = read_head(lines, file->name());
+  if (lines.error()) return tl::make_unexpected(*lines.error());
+  const Result<TextLayout> layout = detect_layout(head.text, options);
+  if (!layout) return tl::make_unexpected(layout.error());
+  const Result<Plan> plan = make_plan(file->name(), *layout, head.rate.has_value(), options);
+  if (!plan) return tl::make_unexpected(plan.error());
+
+  RowParser rows(file->name(), *layout, plan->wanted);
+  if (const Result<void> read =
+          read_rows(*file, head.text, layout->header_rows, lines, rows, progress);
+      !read) {
+    return tl::make_unexpected(read.error());
+  }
+
+  Table table;
+  if (options.rate) {
+    table.rate = *options.rate;
+  } else if (plan->time) {
+    const std::string place =
+        fmt::format("{}: column {}", file->name(), layout->columns[*plan->time].name);
+    const RowMap& map = rows.row_map();
+    const Result<EvenTimes> times =
+        even_times(rows.values(*plan->time), {place, plan->time_unit, [&](std::size_t i) {
+                                                return fmt::format("row {}", map.line_of(i));
+                                              }});
+    if (!times) return tl::make_unexpected(times.error());
+    table.rate = times->rate;
+    table.jitter = times->jitter;
+  } else {
+    const Result<Hertz> rate = checked_rate(file->name(), "the comment rate_hz", *head.rate);
+    if (!rate) return tl::make_unexpected(rate.error());
+    table.rate = *rate;
+  }
+  for (std::size_t i = 0; i < plan->channels.size(); ++i) {
+    const std::size_t c = plan->channels[i];
+    table.columns.push_back({layout->columns[c].name, rows.take(c), 1.0, 0.0, plan->units[i]});
+  }
+  return table;
+}
+
+}  // namespace imunoise::recording
