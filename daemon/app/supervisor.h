@@ -10,14 +10,14 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/acquire/campaign.h"
-#include "daemon/acquire/device_recorder.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/device_recorder.h"
 #include "daemon/app/aftercare.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/log.h"
 #include "daemon/app/troubles.h"
 #include "daemon/live/live_board.h"
-#include "daemon/service/bench.h"
+#include "daemon/service/campaigns/bench.h"
 #include "recording/store/watched_files.h"
 
 namespace imunoise::app {

@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "daemon/acquire/clock.h"
-#include "daemon/service/bench_methods.h"
-#include "daemon/service/campaign_state.h"
+#include "daemon/service/campaigns/bench_methods.h"
+#include "daemon/service/campaigns/campaign_state.h"
 #include "daemon/service/event_hub.h"
-#include "daemon/service/free_space.h"
-#include "daemon/service/gate.h"
-#include "daemon/service/metrics.h"
-#include "daemon/service/openapi.h"
-#include "daemon/service/record_methods.h"
-#include "daemon/service/study_methods.h"
+#include "daemon/service/campaigns/free_space.h"
+#include "daemon/service/api/gate.h"
+#include "daemon/service/campaigns/metrics.h"
+#include "daemon/service/api/openapi.h"
+#include "daemon/service/recordings/record_methods.h"
+#include "daemon/service/studies/study_methods.h"
 
 namespace imunoise::service {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/support/result.h"
-#include "daemon/service/bench.h"
-#include "daemon/service/http_server.h"
-#include "daemon/service/study_computation.h"
+#include "daemon/service/campaigns/bench.h"
+#include "daemon/service/http/http_server.h"
+#include "daemon/service/studies/study_computation.h"
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
 #include "recording/store/disk_calls.h"

@@ -1,6 +1,6 @@
 // Days of a campaign in seconds: a clock that jumps, a recorder that writes manifests.
 
-#include "daemon/acquire/campaign.h"
+#include "daemon/acquire/campaign/campaign.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/campaign/recordings.h"
 #include "recording/store/manifest.h"
 #include "tests/daemon/fake_recorder.h"
 

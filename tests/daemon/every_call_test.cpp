@@ -7,9 +7,9 @@
 #include <iostream>
 #include <random>
 
-#include "daemon/acquire/campaign.h"
+#include "daemon/acquire/campaign/campaign.h"
 #include "daemon/acquire/clock.h"
-#include "daemon/acquire/device_recorder.h"
+#include "daemon/acquire/campaign/device_recorder.h"
 #include "recording/store/device_folder.h"
 #include "recording/store/manifest.h"
 #include "recording/store/recover.h"

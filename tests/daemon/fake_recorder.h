@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/acquire/campaign.h"
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/recordings.h"
 #include "recording/store/layout.h"
 #include "recording/store/manifest.h"
 #include "tests/daemon/manual_clock.h"

@@ -13,7 +13,7 @@
 #include <set>
 #include <thread>
 
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/campaign/recordings.h"
 #include "recording/store/manifest.h"
 #include "recording/store/verify.h"
 #include "tests/daemon/whims.h"

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "daemon/service/routes.h"
+#include "daemon/service/api/routes.h"
 #include "imunoise/v1/service.pb.h"
 #include "recording/store/file_system.h"
 #include "study/calibration/calibration_file.h"

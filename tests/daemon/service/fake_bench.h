@@ -4,7 +4,7 @@
 
 #include <mutex>
 
-#include "daemon/service/bench.h"
+#include "daemon/service/campaigns/bench.h"
 
 namespace imunoise::testing {
 

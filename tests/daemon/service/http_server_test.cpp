@@ -1,6 +1,6 @@
 // The server against clients that are too slow, too large or too many.
 
-#include "daemon/service/http_server.h"
+#include "daemon/service/http/http_server.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <fstream>
 #include <thread>
 
-#include "daemon/service/peer_owner.h"
-#include "daemon/service/unix_socket.h"
+#include "daemon/service/http/peer_owner.h"
+#include "daemon/service/http/unix_socket.h"
 #include "tests/daemon/service/raw_client.h"
 #include "tests/study/simulated_recording.h"
 

@@ -6,16 +6,16 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "daemon/service/campaign_state.h"
-#include "daemon/service/event_queue.h"
-#include "daemon/service/http_target.h"
-#include "daemon/service/json.h"
-#include "daemon/service/json_text.h"
-#include "daemon/service/listen_address.h"
-#include "daemon/service/origin.h"
-#include "daemon/service/request_rate.h"
-#include "daemon/service/study_store.h"
-#include "daemon/service/tokens.h"
+#include "daemon/service/campaigns/campaign_state.h"
+#include "daemon/service/http/event_queue.h"
+#include "daemon/service/access/http_target.h"
+#include "daemon/service/api/json.h"
+#include "daemon/service/api/json_text.h"
+#include "daemon/service/http/listen_address.h"
+#include "daemon/service/access/origin.h"
+#include "daemon/service/access/request_rate.h"
+#include "daemon/service/studies/study_store.h"
+#include "daemon/service/access/tokens.h"
 #include "imunoise/v1/service.pb.h"
 #include "tests/study/simulated_recording.h"
 

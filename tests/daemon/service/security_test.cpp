@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "daemon/service/confined_files.h"
-#include "daemon/service/routes.h"
+#include "daemon/service/recordings/confined_files.h"
+#include "daemon/service/api/routes.h"
 #include "imunoise/v1/service.pb.h"
 #include "tests/daemon/service/served.h"
 
