@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "daemon/acquire/campaign/device_recorder.h"
+#include "daemon/acquire/campaign/campaign_recorder.h"
 #include "recording/store/manifest.h"
 #include "recording/store/reader.h"
 #include "recording/store/verify.h"

@@ -151,7 +151,7 @@ class Run {
     }
     if (note.disturbances_size() > 0) {
       out += fmt::format(
-          "{}the bench did not lie still: {} times, first at {}", out.empty() ? "" : "; ",
+          "{}the sensors did not lie still: {} times, first at {}", out.empty() ? "" : "; ",
           note.disturbances_size(),
           recording_name(Time(std::chrono::nanoseconds(note.disturbances(0).begin_ns()))));
     }

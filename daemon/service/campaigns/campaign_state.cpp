@@ -29,7 +29,7 @@ std::optional<double> time_left(const v1::Campaign& campaign, const v1::Campaign
 
 }  // namespace
 
-v1::CampaignState campaign_state(const BenchCampaign& campaign, std::int64_t now_ns) {
+v1::CampaignState campaign_state(const CampaignSnapshot& campaign, std::int64_t now_ns) {
   v1::CampaignState out;
   *out.mutable_campaign() = campaign.campaign;
   *out.mutable_status() = campaign.status;

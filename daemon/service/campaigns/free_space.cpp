@@ -4,9 +4,9 @@
 
 namespace imunoise::service {
 
-FreeSpace::FreeSpace(const Bench& bench, recording::DiskCalls& calls,
+FreeSpace::FreeSpace(const CampaignControl& control, recording::DiskCalls& calls,
                      std::chrono::milliseconds every)
-    : bench_(bench), calls_(calls), every_(every) {
+    : control_(control), calls_(calls), every_(every) {
   thread_ = std::jthread([this](const std::stop_token& stop) { look(stop); });
 }
 
@@ -23,7 +23,7 @@ std::map<std::string, std::uint64_t> FreeSpace::known() const {
 void FreeSpace::look(const std::stop_token& stop) {
   const recording::WatchedFiles files(recording::posix_file_system(), calls_);
   while (!stop.stop_requested()) {
-    for (const BenchCampaign& one : bench_.campaigns()) {
+    for (const CampaignSnapshot& one : control_.campaigns()) {
       const auto free = files.free_space(one.campaign.folder());
       if (stop.stop_requested()) return;
       const std::lock_guard lock(mutex_);

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "daemon/service/campaigns/bench.h"
+#include "daemon/service/campaigns/campaign_control.h"
 #include "recording/store/disk_calls.h"
 
 namespace imunoise::service {
@@ -19,7 +19,7 @@ namespace imunoise::service {
 /// that hangs is noticed while no campaign uses it. Thread-safe.
 class FreeSpace {
  public:
-  FreeSpace(const Bench& bench, recording::DiskCalls& calls,
+  FreeSpace(const CampaignControl& control, recording::DiskCalls& calls,
             std::chrono::milliseconds every = std::chrono::seconds(5));
 
   /// Bytes, by campaign. One whose disk gave no answer lately is not in it.
@@ -33,7 +33,7 @@ class FreeSpace {
   };
   void look(const std::stop_token& stop);
 
-  const Bench& bench_;
+  const CampaignControl& control_;
   recording::DiskCalls& calls_;
   const std::chrono::milliseconds every_;
   mutable std::mutex mutex_;

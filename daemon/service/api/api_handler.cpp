@@ -1,4 +1,4 @@
-#include "daemon/service/api/gate.h"
+#include "daemon/service/api/api_handler.h"
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
@@ -6,8 +6,8 @@
 #include <cassert>
 #include <utility>
 
-#include "daemon/service/api/json.h"
 #include "daemon/service/access/origin.h"
+#include "daemon/service/api/json.h"
 #include "imunoise/v1/service.pb.h"
 
 namespace imunoise::service {
@@ -39,7 +39,7 @@ Response response_of(const Route& route, const Reply& reply) {
 
 }  // namespace
 
-Gate::Gate(Routes routes, const Methods& methods, GateOptions options)
+ApiHandler::ApiHandler(Routes routes, const Methods& methods, ApiHandlerOptions options)
     : routes_(std::move(routes)),
       methods_(methods),
       options_(std::move(options)),
@@ -49,15 +49,15 @@ Gate::Gate(Routes routes, const Methods& methods, GateOptions options)
   }
 }
 
-std::optional<v1::Role> Gate::role_of(const RequestHead& head) const {
+std::optional<v1::Role> ApiHandler::role_of(const RequestHead& head) const {
   if (head.peer.local) return v1::operator_;
   const auto token = bearer_token(head.authorization);
   return token && options_.tokens ? options_.tokens->role_of(*token) : std::nullopt;
 }
 
-bool Gate::knows(const RequestHead& head) { return role_of(head).has_value(); }
+bool ApiHandler::knows(const RequestHead& head) { return role_of(head).has_value(); }
 
-Answer<void> Gate::check_sender(const RequestHead& head) {
+Answer<void> ApiHandler::check_sender(const RequestHead& head) {
   const std::string peer = head.peer.name + (knows(head) ? "" : ", a stranger");
   if (!rate_.pass(peer, std::chrono::steady_clock::now()))
     return service::refuse(429, "too many requests; try again in a second");
@@ -68,7 +68,7 @@ Answer<void> Gate::check_sender(const RequestHead& head) {
   return {};
 }
 
-Answer<Gate::Asked> Gate::understand(const RequestHead& head) const {
+Answer<ApiHandler::Asked> ApiHandler::understand(const RequestHead& head) const {
   auto target = parse_target(head.target);
   if (!target) return service::refuse(400, target.error().message);
   Found found = routes_.find(head.method, *target);
@@ -79,7 +79,7 @@ Answer<Gate::Asked> Gate::understand(const RequestHead& head) const {
   return Asked{std::move(*target), std::move(found)};
 }
 
-Answer<void> Gate::check_role(const RequestHead& head, v1::Role needed) const {
+Answer<void> ApiHandler::check_role(const RequestHead& head, v1::Role needed) const {
   if (needed == v1::anyone) return {};
   const auto role = role_of(head);
   if (!role)
@@ -88,7 +88,7 @@ Answer<void> Gate::check_role(const RequestHead& head, v1::Role needed) const {
   return {};
 }
 
-std::optional<Response> Gate::refuse(const RequestHead& head) {
+std::optional<Response> ApiHandler::refuse(const RequestHead& head) {
   if (auto good = check_sender(head); !good) return refusal(good.error());
   const auto asked = understand(head);
   if (!asked) return refusal(asked.error());
@@ -99,12 +99,12 @@ std::optional<Response> Gate::refuse(const RequestHead& head) {
   return std::nullopt;
 }
 
-bool Gate::waits(const RequestHead& head) {
+bool ApiHandler::waits(const RequestHead& head) {
   const auto asked = understand(head);
   return asked && methods_.waits(asked->found.route->method->input_type());
 }
 
-Answer<Response> Gate::call(const Request& request) const {
+Answer<Response> ApiHandler::call(const Request& request) const {
   const auto asked = understand(request);
   if (!asked) return tl::unexpected(asked.error());
   const Route& route = *asked->found.route;
@@ -115,7 +115,7 @@ Answer<Response> Gate::call(const Request& request) const {
   return response_of(route, *reply);
 }
 
-Response Gate::answer(const Request& request) {
+Response ApiHandler::answer(const Request& request) {
   try {
     auto response = call(request);
     return response ? counted(std::move(*response)) : refusal(response.error());
@@ -124,11 +124,11 @@ Response Gate::answer(const Request& request) {
   }
 }
 
-Response Gate::trouble(unsigned status, const std::string& sentence) {
+Response ApiHandler::trouble(unsigned status, const std::string& sentence) {
   return refusal({status, sentence});
 }
 
-Response Gate::refusal(const Problem& problem) {
+Response ApiHandler::refusal(const Problem& problem) {
   v1::Refusal body;
   body.set_error(problem.sentence);
   Response out{problem.status, "application/json", response_text(body)};
@@ -137,13 +137,13 @@ Response Gate::refusal(const Problem& problem) {
   return counted(std::move(out));
 }
 
-Response Gate::counted(Response response) {
+Response ApiHandler::counted(Response response) {
   const std::lock_guard lock(mutex_);
   ++responses_[response.status];
   return response;
 }
 
-std::map<unsigned, std::uint64_t> Gate::responses() const {
+std::map<unsigned, std::uint64_t> ApiHandler::responses() const {
   const std::lock_guard lock(mutex_);
   return responses_;
 }

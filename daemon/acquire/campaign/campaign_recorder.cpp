@@ -1,4 +1,4 @@
-#include "daemon/acquire/campaign/device_recorder.h"
+#include "daemon/acquire/campaign/campaign_recorder.h"
 
 namespace imunoise::acquire {
 namespace {
@@ -19,9 +19,9 @@ Result<std::vector<DevicePlan>> devices_of(const v1::Campaign& campaign,
 
 }  // namespace
 
-Result<v1::ReplicateNote> DeviceRecorder::record(const v1::Campaign& campaign,
-                                                 const ReplicateTask& task,
-                                                 const Progress& progress) {
+Result<v1::ReplicateNote> CampaignRecorder::record(const v1::Campaign& campaign,
+                                                   const ReplicateTask& task,
+                                                   const Progress& progress) {
   auto devices = devices_of(campaign, drivers_);
   if (!devices) return tl::make_unexpected(devices.error());
   ReplicatePlan plan;

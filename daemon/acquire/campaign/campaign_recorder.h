@@ -10,13 +10,13 @@ namespace imunoise::acquire {
 
 /// Devices that fail are opened again while a replicate lasts; those that do not come are missing
 /// in it. Thread-safe.
-class DeviceRecorder : public ReplicateRecorder {
+class CampaignRecorder : public ReplicateRecorder {
  public:
   /// Observers are asked for by campaign; they outlive it.
   using Observers = std::function<ReplicateObserver*(const std::string& campaign)>;
 
-  DeviceRecorder(recording::FileSystem& files, const drivers::Drivers& drivers, DeviceNote note,
-                 Observers observers = {})
+  CampaignRecorder(recording::FileSystem& files, const drivers::Drivers& drivers, DeviceNote note,
+                   Observers observers = {})
       : files_(files),
         drivers_(drivers),
         note_(std::move(note)),

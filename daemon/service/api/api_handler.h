@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/http/http.h"
-#include "daemon/service/api/methods.h"
 #include "daemon/service/access/request_rate.h"
-#include "daemon/service/api/routes.h"
 #include "daemon/service/access/tokens.h"
+#include "daemon/service/api/methods.h"
+#include "daemon/service/api/routes.h"
+#include "daemon/service/http/http.h"
 
 namespace imunoise::service {
 
-struct GateOptions {
+struct ApiHandlerOptions {
   std::optional<Tokens> tokens = {};    ///< Of those who come by TCP.
   std::vector<std::string> hosts = {};  ///< Names of this machine beside localhost.
   double requests_per_second = 50.0;    ///< Of each peer, in the long run,
@@ -29,10 +29,10 @@ struct GateOptions {
 /// Host that is none of ours or an Origin of another page (403), a target that is none (400), a
 /// path (404) or verb (405) that is not there, no token or a wrong one (401), a role that may not
 /// (403), a body that is no JSON (415).
-class Gate : public Handler {
+class ApiHandler : public Handler {
  public:
   /// `methods` outlives it. Precondition: it has all methods of `routes`.
-  Gate(Routes routes, const Methods& methods, GateOptions options);
+  ApiHandler(Routes routes, const Methods& methods, ApiHandlerOptions options);
 
   bool knows(const RequestHead& head) override;
   std::optional<Response> refuse(const RequestHead& head) override;
@@ -59,7 +59,7 @@ class Gate : public Handler {
 
   const Routes routes_;
   const Methods& methods_;
-  const GateOptions options_;
+  const ApiHandlerOptions options_;
   RequestRate rate_;
   mutable std::mutex mutex_;
   std::map<unsigned, std::uint64_t> responses_;

@@ -14,7 +14,7 @@
 namespace imunoise::service {
 
 /// A campaign, and what it told last.
-struct BenchCampaign {
+struct CampaignSnapshot {
   v1::Campaign campaign;
   v1::CampaignStatus status;
   bool running = false;
@@ -25,13 +25,13 @@ struct BenchCampaign {
 std::string recording_under_way(const v1::CampaignStatus& status);
 
 /// Functions are thread-safe and do not wait for recording.
-class Bench {
+class CampaignControl {
  public:
   using Watcher = std::function<void(const std::string& campaign)>;
 
-  virtual ~Bench() = default;
+  virtual ~CampaignControl() = default;
   /// All, in order of their names.
-  virtual std::vector<BenchCampaign> campaigns() const = 0;
+  virtual std::vector<CampaignSnapshot> campaigns() const = 0;
   /// Files of campaigns that were not taken up.
   virtual std::vector<v1::RejectedFile> rejected() const = 0;
   /// What hangs outside of the campaigns' folders, where, since when; empty: nothing.

@@ -1,4 +1,4 @@
-#include "daemon/service/campaigns/bench.h"
+#include "daemon/service/campaigns/campaign_control.h"
 
 #include <filesystem>
 

@@ -4,13 +4,13 @@
 
 #include <mutex>
 
-#include "daemon/service/campaigns/bench.h"
+#include "daemon/service/campaigns/campaign_control.h"
 
 namespace imunoise::testing {
 
-class FakeBench : public service::Bench {
+class FakeCampaignControl : public service::CampaignControl {
  public:
-  std::vector<service::BenchCampaign> campaigns() const override {
+  std::vector<service::CampaignSnapshot> campaigns() const override {
     const std::lock_guard lock(mutex_);
     return campaigns_;
   }
@@ -41,7 +41,7 @@ class FakeBench : public service::Bench {
 
   void add(const v1::Campaign& campaign) { campaigns_.push_back({campaign, {}, true}); }
   /// These are the campaigns from now on.
-  void reload(std::vector<service::BenchCampaign> campaigns,
+  void reload(std::vector<service::CampaignSnapshot> campaigns,
               std::vector<v1::RejectedFile> rejected) {
     const std::lock_guard lock(mutex_);
     campaigns_ = std::move(campaigns);
@@ -76,7 +76,7 @@ class FakeBench : public service::Bench {
  private:
   mutable std::mutex mutex_;
   std::mutex watching_;
-  std::vector<service::BenchCampaign> campaigns_;
+  std::vector<service::CampaignSnapshot> campaigns_;
   std::vector<v1::RejectedFile> rejected_;
   std::vector<v1::LiveReplicate> live_;
   std::string asked_;
