@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "daemon/acquire/campaign/recordings.h"
+#include "recording/store/layout.h"
 #include "recording/store/manifest.h"
 #include "recording/store/recover.h"
 
@@ -36,6 +37,7 @@ class Run {
         continue;
       }
       newest_ = std::move(*found);
+      look_after_recorded();
       const Time now = with_.clock.now();
       const auto state = newest_ ? std::optional(newest_->state) : std::nullopt;
       if (mode_ == RunMode::kOnce && !memory_.once_since) memory_.once_since = only_start(now);
@@ -59,6 +61,18 @@ class Run {
     shift(memory_, *leap);
     add_news(fmt::format("the clock of this machine was {}; the schedule follows it",
                          describe_leap(*leap)));
+  }
+
+  // The folder of a disk that is no longer mounted is empty: what follows lies elsewhere.
+  void look_after_recorded() {
+    if (recorded_.empty()) return;
+    const auto there = with_.files.exists(recorded_ / recording::kManifestName);
+    if (!there || *there) return;
+    add_news(
+        fmt::format("recording {} is gone; if it was not deleted, check that its disk is "
+                    "mounted: what follows is recorded where that folder was",
+                    recorded_.string()));
+    recorded_.clear();
   }
 
   std::filesystem::path folder_at(Time started) const {
@@ -125,6 +139,7 @@ class Run {
       unfinished_ = note.error().message;
       return hold_up(unfinished_);
     }
+    recorded_ = task.folder;
     memory_.replicate_ended = with_.clock.now();
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
@@ -171,6 +186,8 @@ class Run {
   void tidy() {
     const auto tidied = tidy_recordings(with_.files, campaign_, with_.clock);
     if (!tidied) return add_news(tidied.error().message);
+    if (std::count(tidied->removed.begin(), tidied->removed.end(), recorded_) > 0)
+      recorded_.clear();
     if (!tidied->removed.empty())
       add_news(fmt::format("{} recordings are no longer kept", tidied->removed.size()));
     if (tidied->doubtful > 0) {
@@ -219,8 +236,9 @@ class Run {
   Memory memory_;
   LeapWatch leaps_;
   std::optional<FoundRecording> newest_;
-  std::filesystem::path last_;  // where this process recorded last
-  std::string unfinished_;      // why the last replicate may have stayed open
+  std::filesystem::path last_;      // where this process recorded last
+  std::filesystem::path recorded_;  // whose replicate it closed last
+  std::string unfinished_;          // why the last replicate may have stayed open
   std::filesystem::path folder_of_next_;
   std::chrono::seconds pause_ = kFirstPause;
   std::string news_;  // what the next status tells of the step before it
