@@ -14,6 +14,9 @@
 
 #include "daemon/acquire/campaign/campaign.h"
 #include "daemon/acquire/campaign/recordings.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/recordings.h"
+#include "daemon/acquire/start_stamp.h"
 #include "recording/store/layout.h"
 #include "recording/store/manifest.h"
 #include "tests/daemon/manual_clock.h"
