@@ -14,8 +14,6 @@
 
 #include "daemon/acquire/campaign/campaign.h"
 #include "daemon/acquire/campaign/recordings.h"
-#include "daemon/acquire/campaign/campaign.h"
-#include "daemon/acquire/campaign/recordings.h"
 #include "daemon/acquire/start_stamp.h"
 #include "recording/store/layout.h"
 #include "recording/store/manifest.h"
