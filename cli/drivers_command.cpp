@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "daemon/service/driver_report.h"
+#include "daemon/service/campaigns/driver_report.h"
 #include "study/report/json.h"
 #include "study/words/text.h"
 

@@ -10,7 +10,7 @@
 #include "daemon/acquire/completeness.h"
 #include "daemon/acquire/latecomer.h"
 #include "daemon/acquire/recorded_device.h"
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/start_stamp.h"
 #include "daemon/acquire/wire_file.h"
 #include "daemon/config/quantity_text.h"
 #include "recording/store/format/layout.h"

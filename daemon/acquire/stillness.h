@@ -1,7 +1,7 @@
 #pragma once
 
-// Watches whether a bench lies still: a knock widens the scatter within a second, whoever moves the
-// bench shifts the mean from one second to the next.
+// Watches whether the sensors lie still: a knock widens the scatter within a second, moving them
+// shifts the mean from one second to the next.
 
 #include <cstddef>
 #include <deque>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/study_computation.h"
+#include "daemon/service/studies/study_computation.h"
 #include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::app {

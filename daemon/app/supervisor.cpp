@@ -207,7 +207,7 @@ void Supervisor::take(const v1::CampaignStatus& status) {
 void Supervisor::end(const std::string& campaign) {
   {
     const std::lock_guard lock(mutex_);
-    service::BenchCampaign& state = runs_.at(campaign).state;
+    service::CampaignSnapshot& state = runs_.at(campaign).state;
     state.running = false;
     if (state.status.phase() != v1::finished) {
       state.status.set_phase(v1::finished);
@@ -295,10 +295,10 @@ std::vector<v1::RejectedFile> Supervisor::rejected() const {
   return rejected_;
 }
 
-std::vector<service::BenchCampaign> Supervisor::campaigns() const {
+std::vector<service::CampaignSnapshot> Supervisor::campaigns() const {
   const auto troubles = this->troubles();
   const std::lock_guard lock(mutex_);
-  std::vector<service::BenchCampaign> out;
+  std::vector<service::CampaignSnapshot> out;
   for (const auto& [name, run] : runs_) {
     out.push_back(run.state);
     const auto trouble = troubles.find(name);

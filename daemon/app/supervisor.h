@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs campaigns side by side, and is the bench of the service.
+// Runs campaigns side by side; the service controls them through it.
 
 #include <atomic>
 #include <map>
@@ -10,20 +10,20 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/acquire/campaign.h"
-#include "daemon/acquire/device_recorder.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/campaign_recorder.h"
 #include "daemon/app/aftercare.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/log.h"
 #include "daemon/app/troubles.h"
 #include "daemon/live/live_board.h"
-#include "daemon/service/bench.h"
+#include "daemon/service/campaigns/campaign_control.h"
 #include "recording/store/disk/watched_files.h"
 
 namespace imunoise::app {
 
 /// One thread a campaign. Functions are thread-safe.
-class Supervisor : public service::Bench {
+class Supervisor : public service::CampaignControl {
  public:
   /// Starts them, but for those with a calendar where the mode is not kOnce: their timers do. The
   /// drivers, the log and `calls` outlive it. What its campaigns ask of their disks is among the
@@ -54,7 +54,7 @@ class Supervisor : public service::Bench {
   /// What hangs: of which campaign, what, where and since when. Empty while all go on.
   std::string hanging(std::chrono::seconds at_least = live::kHangsAfter) const;
 
-  std::vector<service::BenchCampaign> campaigns() const override;
+  std::vector<service::CampaignSnapshot> campaigns() const override;
   std::vector<v1::RejectedFile> rejected() const override;
   std::vector<v1::LiveReplicate> live() const override { return live_.state(); }
   std::string trouble() const override;
@@ -64,7 +64,7 @@ class Supervisor : public service::Bench {
 
  private:
   struct Run {
-    service::BenchCampaign state;
+    service::CampaignSnapshot state;
     std::filesystem::path folder;  // as its file's
     std::stop_source stop;         // at once
     std::stop_source leave;        // once no replicate is recorded
@@ -94,7 +94,7 @@ class Supervisor : public service::Bench {
   recording::DiskCalls& calls_;
   recording::WatchedFiles files_;
   live::LiveBoard live_;
-  acquire::DeviceRecorder recorder_;
+  acquire::CampaignRecorder recorder_;
   Aftercare aftercare_;
   Troubles told_;
   std::atomic<std::size_t> running_ = 0;

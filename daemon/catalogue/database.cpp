@@ -11,6 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/support/utf8.h"
+
 // As SOCI's own headers of the two have them, which bring those of SQLite and PostgreSQL along.
 namespace soci {
 extern "C" backend_factory const* factory_sqlite3();
@@ -91,10 +93,14 @@ struct Database::Session {
       return work();
     } catch (const soci::soci_error& error) {
       disturbed = disturbed || is_disturbance(error);
-      return fail(fmt::format("{}: {}", name, error.what()));
+      return told(error);
     } catch (const std::exception& error) {
-      return fail(fmt::format("{}: {}", name, error.what()));
+      return told(error);
     }
+  }
+  // SQLite quotes what stands in a damaged file, bytes that are no text among it.
+  tl::unexpected<Error> told(const std::exception& error) const {
+    return fail(repaired_utf8(fmt::format("{}: {}", name, error.what())));
   }
 
   // PostgreSQL's deadlocks and failed serialisations have no category of their own; what else has

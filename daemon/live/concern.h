@@ -1,6 +1,6 @@
 #pragma once
 
-// What a person at the bench should hear of while it can still be mended.
+// What the user should hear of while it can still be mended.
 
 #include <cstdint>
 #include <deque>

@@ -16,7 +16,6 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
-#include <utility>
 
 #include "core/support/descriptor.h"
 #include "daemon/process/spawning.h"
@@ -70,12 +69,16 @@ Result<Descriptor> file_of(std::string_view text) {
 class ProcessorTime {
  public:
   explicit ProcessorTime(pid_t process) { known_ = ::clock_getcpuclockid(process, &clock_) == 0; }
-  // Since the last call.
+  // By so much as only work takes, since it last did: a thread that waits for a signal, and looks
+  // about now and then, takes a hundredth of it in a second.
   bool grew() {
+    constexpr std::chrono::milliseconds kWork{20};
     timespec time{};
     if (!known_ || ::clock_gettime(clock_, &time) != 0) return false;
     const auto used = std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-    return std::exchange(used_, used) != used;
+    if (used - used_ < kWork) return false;
+    used_ = used;
+    return true;
   }
 
  private:

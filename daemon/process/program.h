@@ -18,8 +18,9 @@ struct Talk {
   /// Takes each line of its standard output, on the caller's thread; empty: that is part of what it
   /// said, as standard errors are.
   std::function<void(std::string_view line)> hear = {};
-  /// Called several times a second, on the caller's thread, while the program works: it used the
-  /// processor since, or said something. One that waits for a disk does neither.
+  /// Called on the caller's thread while the program works: each time it has used the processor for
+  /// another 20 ms, or said something, but not more often than ten times a second. A program that
+  /// waits for a disk does neither.
   std::function<void()> works = {};
 };
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "daemon/service/json.h"
+#include "daemon/service/api/json.h"
 
 namespace imunoise::service {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/support/result.h"
-#include "daemon/service/event_queue.h"
+#include "daemon/service/http/event_queue.h"
 #include "imunoise/v1/service.pb.h"
 
 namespace imunoise::service {

@@ -7,23 +7,23 @@
 #include <utility>
 
 #include "daemon/acquire/clock.h"
-#include "daemon/service/bench_methods.h"
-#include "daemon/service/campaign_state.h"
+#include "daemon/service/api/api_handler.h"
+#include "daemon/service/api/openapi.h"
+#include "daemon/service/campaigns/campaign_methods.h"
+#include "daemon/service/campaigns/campaign_state.h"
+#include "daemon/service/campaigns/free_space.h"
+#include "daemon/service/campaigns/metrics.h"
 #include "daemon/service/event_hub.h"
-#include "daemon/service/free_space.h"
-#include "daemon/service/gate.h"
-#include "daemon/service/metrics.h"
-#include "daemon/service/openapi.h"
-#include "daemon/service/record_methods.h"
-#include "daemon/service/study_methods.h"
+#include "daemon/service/recordings/record_methods.h"
+#include "daemon/service/studies/study_methods.h"
 
 namespace imunoise::service {
 namespace {
 
 constexpr std::size_t kLargestLive = 200'000;  // bytes of an event: its JSON is longer
 
-Result<GateOptions> gate_options(const ServiceOptions& options) {
-  GateOptions out;
+Result<ApiHandlerOptions> handler_options(const ServiceOptions& options) {
+  ApiHandlerOptions out;
   out.hosts = options.hosts;
   out.requests_per_second = options.requests_per_second;
   out.burst = options.burst;
@@ -38,9 +38,9 @@ Result<GateOptions> gate_options(const ServiceOptions& options) {
   return out;
 }
 
-std::vector<v1::Campaign> campaigns_of(const Bench& bench) {
+std::vector<v1::Campaign> campaigns_of(const CampaignControl& control) {
   std::vector<v1::Campaign> out;
-  for (BenchCampaign& one : bench.campaigns()) out.push_back(std::move(one.campaign));
+  for (CampaignSnapshot& one : control.campaigns()) out.push_back(std::move(one.campaign));
   return out;
 }
 
@@ -49,35 +49,35 @@ std::vector<v1::Campaign> campaigns_of(const Bench& bench) {
 class Service::Implementation {
  public:
   Implementation(const ServiceOptions& options, const ServiceSubjects& subjects,
-                 std::unique_ptr<Records> records, GateOptions gate)
+                 std::unique_ptr<Records> records, ApiHandlerOptions how)
       : options_(options),
-        bench_(subjects.bench),
-        free_space_(subjects.bench, subjects.calls),
+        control_(subjects.control),
+        free_space_(subjects.control, subjects.calls),
         records_(std::move(records)),
         studies_(options.studies, subjects.calls),
         routes_(*v1::Refusal::descriptor()->file()),
         jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }) {
-    add_bench_methods(methods_, bench_, subjects.drivers);
+    add_campaign_methods(methods_, control_, subjects.drivers);
     add_record_methods(methods_, *records_);
     add_study_methods(methods_, jobs_, studies_, *records_, options.largest_study, options.compute);
     add_own_methods();
-    gate_.emplace(routes_, methods_, std::move(gate));
+    handler_.emplace(routes_, methods_, std::move(how));
   }
   ~Implementation() {
-    bench_.watch({});
+    control_.watch({});
     server_.reset();
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
   Result<void> serve() {
-    auto server = HttpServer::start(options_.listen, options_.http, *gate_);
+    auto server = HttpServer::start(options_.listen, options_.http, *handler_);
     if (!server) return tl::unexpected(server.error());
     {
       const std::lock_guard lock(server_mutex_);
       server_ = std::move(*server);
     }
-    bench_.watch([this](const std::string& campaign) { tell(campaign); });
+    control_.watch([this](const std::string& campaign) { tell(campaign); });
     ticker_ = std::jthread([this](const std::stop_token& stop) { tick(stop); });
     return {};
   }
@@ -96,11 +96,11 @@ class Service::Implementation {
     methods_.on<v1::GetHealthRequest>([this](const v1::GetHealthRequest&) -> Answer<v1::Health> {
       // Anybody may ask: names, but no places.
       std::string held_up;
-      for (const BenchCampaign& one : bench_.campaigns()) {
+      for (const CampaignSnapshot& one : control_.campaigns()) {
         if (one.trouble.empty()) continue;
         held_up += (held_up.empty() ? "" : ", ") + one.campaign.name();
       }
-      if (!bench_.trouble().empty()) return refuse(503, "a disk hangs; the log tells which");
+      if (!control_.trouble().empty()) return refuse(503, "a disk hangs; the log tells which");
       if (!held_up.empty())
         return refuse(503, "cannot record: " + held_up + "; GET /v1/campaigns tells why");
       v1::Health out;
@@ -124,14 +124,14 @@ class Service::Implementation {
     Figures out;
     out.version = options_.version;
     out.uptime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-    for (const BenchCampaign& one : bench_.campaigns()) {
+    for (const CampaignSnapshot& one : control_.campaigns()) {
       out.campaigns.push_back(campaign_state(one, acquire::now_ns()));
     }
     out.free_bytes = free_space_.known();
-    out.rejected_files = bench_.rejected().size();
-    out.live = bench_.live();
+    out.rejected_files = control_.rejected().size();
+    out.live = control_.live();
     out.jobs = jobs_.list();
-    out.responses = gate_->responses();
+    out.responses = handler_->responses();
     const std::lock_guard lock(server_mutex_);
     if (server_) out.http = server_->counters();
     return out;
@@ -139,7 +139,7 @@ class Service::Implementation {
 
   std::vector<v1::Event> everything() const {
     std::vector<v1::Event> out;
-    for (const BenchCampaign& one : bench_.campaigns()) {
+    for (const CampaignSnapshot& one : control_.campaigns()) {
       *out.emplace_back().mutable_campaign() = campaign_state(one, acquire::now_ns());
     }
     for (const v1::Job& job : jobs_.list()) *out.emplace_back().mutable_job() = job;
@@ -151,7 +151,7 @@ class Service::Implementation {
     *event.mutable_job() = job;
     hub_.tell(event);
   }
-  void tell(const BenchCampaign& campaign) {
+  void tell(const CampaignSnapshot& campaign) {
     v1::Event event;
     *event.mutable_campaign() = campaign_state(campaign, acquire::now_ns());
     hub_.tell(event);
@@ -167,7 +167,7 @@ class Service::Implementation {
     hub_.tell(event);
   }
   void tell(const std::string& campaign) {
-    for (const BenchCampaign& one : bench_.campaigns()) {
+    for (const CampaignSnapshot& one : control_.campaigns()) {
       if (one.campaign.name() == campaign) tell(one);
     }
   }
@@ -179,18 +179,18 @@ class Service::Implementation {
     std::condition_variable_any stopping;
     while (!stopping.wait_for(lock, stop, options_.tick, [&] { return stop.stop_requested(); })) {
       if (hub_.wanted("campaign")) {
-        for (const BenchCampaign& one : bench_.campaigns()) {
+        for (const CampaignSnapshot& one : control_.campaigns()) {
           if (one.running && !recording_under_way(one.status).empty()) tell(one);
         }
       }
       if (hub_.wanted("live")) {
-        for (v1::LiveReplicate& one : bench_.live()) tell(std::move(one));
+        for (v1::LiveReplicate& one : control_.live()) tell(std::move(one));
       }
     }
   }
 
   const ServiceOptions options_;
-  Bench& bench_;
+  CampaignControl& control_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   FreeSpace free_space_;
   EventHub hub_;
@@ -199,7 +199,7 @@ class Service::Implementation {
   Routes routes_;
   Methods methods_;
   Jobs jobs_;  // after the methods: its thread runs their code
-  std::optional<Gate> gate_;
+  std::optional<ApiHandler> handler_;
   mutable std::mutex server_mutex_;  // its first requests may come before it is known here
   std::unique_ptr<HttpServer> server_;
   std::jthread ticker_;  // last: it uses all of the above
@@ -211,13 +211,13 @@ Service::~Service() = default;
 
 Result<std::unique_ptr<Service>> Service::start(const ServiceOptions& options,
                                                 const ServiceSubjects& subjects) {
-  auto gate = gate_options(options);
-  if (!gate) return tl::unexpected(gate.error());
-  auto records = Records::open([&bench = subjects.bench] { return campaigns_of(bench); },
+  auto how = handler_options(options);
+  if (!how) return tl::unexpected(how.error());
+  auto records = Records::open([&control = subjects.control] { return campaigns_of(control); },
                                options.freshness, subjects.calls);
   if (!records) return tl::unexpected(records.error());
   auto out =
-      std::make_unique<Implementation>(options, subjects, std::move(*records), std::move(*gate));
+      std::make_unique<Implementation>(options, subjects, std::move(*records), std::move(*how));
   if (auto done = out->serve(); !done) return tl::unexpected(done.error());
   return std::unique_ptr<Service>(new Service(std::move(out)));
 }

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/support/result.h"
-#include "daemon/service/bench.h"
-#include "daemon/service/http_server.h"
-#include "daemon/service/study_computation.h"
+#include "daemon/service/campaigns/campaign_control.h"
+#include "daemon/service/http/http_server.h"
+#include "daemon/service/studies/study_computation.h"
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
 #include "recording/store/disk/disk_calls.h"
@@ -41,7 +41,7 @@ struct ServiceOptions {
 
 /// What it is about.
 struct ServiceSubjects {
-  Bench& bench;  ///< The recordings of its campaigns are shown.
+  CampaignControl& control;  ///< The recordings of its campaigns are shown.
   const drivers::Drivers& drivers;
   recording::DiskCalls& calls;  ///< Its own are among them: a disk that hangs is told of there.
 };

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "daemon/service/http_server.h"
+#include "daemon/service/http/http_server.h"
 #include "tests/study/simulated_recording.h"
 
 namespace imunoise::cli {

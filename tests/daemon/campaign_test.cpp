@@ -1,6 +1,6 @@
 // Days of a campaign in seconds: a clock that jumps, a recorder that writes manifests.
 
-#include "daemon/acquire/campaign.h"
+#include "daemon/acquire/campaign/campaign.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,9 +8,10 @@
 #include <algorithm>
 #include <deque>
 #include <fstream>
+#include <functional>
 #include <set>
 
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/campaign/recordings.h"
 #include "recording/store/manifest/manifest.h"
 #include "tests/daemon/fake_recorder.h"
 
@@ -58,7 +59,10 @@ class CampaignRun : public ::testing::Test {
       if (leave_when_published_) recorder.leave.request_stop();
       return "imu0 drifts";
     };
-    with.tell = [&](const v1::CampaignStatus& status) { told_.push_back(status); };
+    with.tell = [&](const v1::CampaignStatus& status) {
+      told_.push_back(status);
+      if (when_told_) when_told_(status);
+    };
     run_campaign(campaign_, mode, with, clock.source().get_token());
     for (const ReplicateTask& task : recorder.tasks) {
       tasks_.push_back(task.folder.filename().string() + "/" + std::to_string(task.replicate));
@@ -85,6 +89,8 @@ class CampaignRun : public ::testing::Test {
   bool leave_when_published_ = false;
   std::string calibration_error_;
   std::vector<std::string> tasks_, calibrated_, published_;
+  std::function<void(const v1::CampaignStatus&)> when_told_;
+  int pauses_seen_ = 0;
   std::vector<v1::CampaignStatus> told_;
 };
 
@@ -229,6 +235,18 @@ TEST_F(CampaignRun, KeepsWhatRetentionSays) {
   EXPECT_EQ(files().list(folder_).value(),
             (Texts{"2020-01-01T000000Z/", "2026-03-02T181000Z/", "notes/"}))
       << "the newest stays";
+}
+
+TEST_F(CampaignRun, ARecordingThatIsGoneIsTold) {
+  when_told_ = [&](const v1::CampaignStatus& status) {
+    if (status.phase() == v1::pausing && pauses_seen_++ == 0) fs::remove_all(folder_);
+  };
+  run(kBegin);
+  const auto told = std::count_if(told_.begin(), told_.end(), [](const auto& status) {
+    return status.reason().find("/2026-03-01T001000Z is gone") != std::string::npos;
+  });
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(tasks_.size(), 4U) << "another recording is made, whole";
 }
 
 TEST_F(CampaignRun, RecordingsOfAnotherCampaignAreLeftAlone) {

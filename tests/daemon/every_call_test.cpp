@@ -7,9 +7,9 @@
 #include <iostream>
 #include <random>
 
-#include "daemon/acquire/campaign.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/campaign_recorder.h"
 #include "daemon/acquire/clock.h"
-#include "daemon/acquire/device_recorder.h"
 #include "recording/store/manifest/device_folder.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/recovery/recover.h"
@@ -65,7 +65,7 @@ class EveryCallOfACampaign : public testing::Whims {
   // Whether it came to its end by itself.
   bool run(FakeDisk& disk) const {
     HastyClock clock;
-    DeviceRecorder recorder(disk, drivers(), {});
+    CampaignRecorder recorder(disk, drivers(), {});
     CampaignSurroundings with{clock, disk, recorder};
     std::stop_source enough;
     int told = 0;

@@ -12,8 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/acquire/campaign.h"
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/recordings.h"
+#include "daemon/acquire/start_stamp.h"
 #include "recording/store/format/layout.h"
 #include "recording/store/manifest/manifest.h"
 #include "tests/daemon/manual_clock.h"

@@ -1,4 +1,4 @@
-#include "daemon/acquire/next_step.h"
+#include "daemon/acquire/campaign/next_step.h"
 
 #include <gtest/gtest.h>
 

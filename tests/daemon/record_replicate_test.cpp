@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "daemon/acquire/device_recorder.h"
+#include "daemon/acquire/campaign/campaign_recorder.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/reading/device_recording.h"
 #include "recording/store/verify/verify.h"

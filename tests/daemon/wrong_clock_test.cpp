@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "daemon/acquire/campaign.h"
-#include "daemon/acquire/recordings.h"
+#include "daemon/acquire/campaign/campaign.h"
+#include "daemon/acquire/campaign/recordings.h"
 #include "recording/store/manifest/manifest.h"
 #include "tests/daemon/fake_recorder.h"
 

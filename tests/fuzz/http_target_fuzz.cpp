@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "daemon/service/http_target.h"
-#include "daemon/service/origin.h"
-#include "daemon/service/tokens.h"
+#include "daemon/service/access/http_target.h"
+#include "daemon/service/access/origin.h"
+#include "daemon/service/access/tokens.h"
 
 namespace {
 

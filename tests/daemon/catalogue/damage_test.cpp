@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 
+#include "core/support/utf8.h"
 #include "daemon/catalogue/catalogue.h"
 #include "tests/daemon/catalogue/bench_folder.h"
 
@@ -72,6 +73,7 @@ class DamagedCatalogue : public testing::BenchFolder {
       write_bytes(damaged(good, seed));
       const Outcome one = outcome();
       const bool known = one.said == "right" || one.said == "wrong";
+      EXPECT_TRUE(is_utf8(one.said) && is_utf8(one.repair)) << "seed " << seed;
       if (one.said == "wrong") ADD_FAILURE() << "seed " << seed << ": " << one.repair;
       if (!known) std::cout << "seed " << seed << ": " << one.said << "\n";
       ++out[!known ? "refused" : one.repair.empty() ? one.said : one.said + ", repaired"];

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "daemon/service/routes.h"
+#include "daemon/service/api/routes.h"
 #include "imunoise/v1/service.pb.h"
 #include "recording/store/disk/file_system.h"
 #include "study/calibration/calibration_file.h"
@@ -34,7 +34,7 @@ TEST_F(Api, DevicesAndDrivers) {
   driver.info.name = "replay";
   drivers_.found.push_back(driver);
   serve();
-  bench_.tell(recording_status());
+  control_.tell(recording_status());
   const json all = get_json("/v1/devices");
   ASSERT_EQ(all["devices"].size(), 2U);
   EXPECT_EQ(all["devices"][0]["device"]["name"], "imu-of-array");
@@ -49,7 +49,7 @@ TEST_F(Api, DevicesAndDrivers) {
 TEST_F(Api, CampaignsAreShownStartedAndStopped) {
   serve();
   EXPECT_EQ(get_json("/v1/campaigns")["campaigns"][1]["campaign"]["name"], "other");
-  bench_.tell(recording_status());
+  control_.tell(recording_status());
   const json array = get_json("/v1/campaigns/array");
   EXPECT_EQ(array["status"]["phase"], "recording");
   EXPECT_EQ(array["recording"], "2026-03-01T060000Z");
@@ -62,7 +62,7 @@ TEST_F(Api, CampaignsAreShownStartedAndStopped) {
             "not this one");
   for (const char* const verb : {"start", "stop"})
     post_json(std::string("/v1/campaigns/x/") + verb, json::object(), 404);
-  EXPECT_EQ(bench_.asked(),
+  EXPECT_EQ(control_.asked(),
             "start array once\nstart other\nstop other 2026-03-01T060000Z\nstop array refuse\n");
 }
 
@@ -70,12 +70,12 @@ TEST_F(Api, CampaignsMayChangeWhileItServes) {
   serve();
   record("monday");
   EXPECT_EQ(get_json("/v1/recordings")["recordings"].size(), 1U);
-  auto campaigns = bench_.campaigns();
+  auto campaigns = control_.campaigns();
   campaigns.front().campaign.set_name("new");
   v1::RejectedFile rejected;
   rejected.set_file("bad.toml");
   rejected.add_problems("bad.toml:1:1: what is this?");
-  bench_.reload(campaigns, {rejected});
+  control_.reload(campaigns, {rejected});
   const json all = get_json("/v1/campaigns");
   EXPECT_EQ(all["campaigns"][0]["campaign"]["name"], "new");
   EXPECT_EQ(all["rejected"][0]["file"], "bad.toml");
@@ -148,7 +148,7 @@ TEST_F(Api, EventsBeginWithWhatThereIs) {
   RawClient jobs(local_);
   jobs.send(testing::request_text("GET", "/v1/events?topic=job"));
   jobs.receive_until("\r\n\r\n");
-  bench_.tell(recording_status());
+  control_.tell(recording_status());
   const std::string told = all.receive_until("\"left_s\":100");
   EXPECT_NE(told.find("\"recording\":\"2026-03-01T060000Z\""), std::string::npos) << told;
   record("monday");
@@ -177,7 +177,7 @@ TEST_F(Api, TellsWhatIsKnownWhileItRecords) {
   options_.tick = 50ms;
   serve();
   EXPECT_TRUE(get_json("/v1/live")["replicates"].empty());
-  bench_.show({live_replicate(3)});
+  control_.show({live_replicate(3)});
   const auto known = get_json("/v1/live?campaign=array");
   EXPECT_EQ(known["replicates"][0]["devices"][0]["channels"][0]["scales"].size(), 3U) << known;
   EXPECT_TRUE(get_json("/v1/live?campaign=other")["replicates"].empty());
@@ -186,7 +186,7 @@ TEST_F(Api, TellsWhatIsKnownWhileItRecords) {
   RawClient client(local_);
   client.send(testing::request_text("GET", "/v1/events?topic=live"));
   EXPECT_NE(client.receive_until("\"tau_s\":3").find("event: live\ndata: {"), std::string::npos);
-  bench_.show({live_replicate(100'000)});
+  control_.show({live_replicate(100'000)});
   EXPECT_NE(client.receive_until("\"scales\":[]").find("\"gyro_x\""), std::string::npos)
       << "too much for an event";
 }
@@ -194,7 +194,7 @@ TEST_F(Api, TellsWhatIsKnownWhileItRecords) {
 TEST_F(Api, TimePassesInEventsWhileNothingChanges) {
   options_.tick = 50ms;
   serve();
-  bench_.tell(recording_status());
+  control_.tell(recording_status());
   RawClient client(local_);
   client.send(testing::request_text("GET", "/v1/events?topic=campaign"));
   std::string told = client.receive_until("\"other\"");
@@ -225,7 +225,7 @@ bool is_metric(const std::string& line) {
 
 TEST_F(Api, MetricsAreWhatPrometheusReads) {
   serve();
-  bench_.tell(recording_status());
+  control_.tell(recording_status());
   get_json("/v1/campaigns");
   refusal("/nowhere", 404);
   const std::string room = "imunoise_disk_free_bytes{campaign=\"other\"} ";
@@ -250,7 +250,7 @@ TEST_F(Api, MetricsAreWhatPrometheusReads) {
 
 TEST_F(Api, ADiskThatHangsShows) {
   serve();
-  bench_.tell(recording_status());
+  control_.tell(recording_status());
   v1::LiveReplicate live;
   live.set_campaign("array");
   v1::LiveDevice& device = *live.add_devices();
@@ -258,9 +258,9 @@ TEST_F(Api, ADiskThatHangsShows) {
   device.set_stored(60);
   device.set_last_sample_ns(1'772'323'200'500'000'000);
   device.set_disk_trouble("the disk hangs");
-  bench_.show({live});
+  control_.show({live});
   EXPECT_EQ(testing::get(local_, "/healthz").status, 200);
-  bench_.hold_up("the disk hangs: sync of /rec/a does not return");
+  control_.hold_up("the disk hangs: sync of /rec/a does not return");
   const RawResponse health = testing::get(local_, "/healthz");
   EXPECT_EQ(health.status, 503);
   EXPECT_NE(health.body.find("array"), std::string::npos) << health.body;

@@ -6,16 +6,16 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "daemon/service/campaign_state.h"
-#include "daemon/service/event_queue.h"
-#include "daemon/service/http_target.h"
-#include "daemon/service/json.h"
-#include "daemon/service/json_text.h"
-#include "daemon/service/listen_address.h"
-#include "daemon/service/origin.h"
-#include "daemon/service/request_rate.h"
-#include "daemon/service/study_store.h"
-#include "daemon/service/tokens.h"
+#include "daemon/service/access/http_target.h"
+#include "daemon/service/access/origin.h"
+#include "daemon/service/access/request_rate.h"
+#include "daemon/service/access/tokens.h"
+#include "daemon/service/api/json.h"
+#include "daemon/service/api/json_text.h"
+#include "daemon/service/campaigns/campaign_state.h"
+#include "daemon/service/http/event_queue.h"
+#include "daemon/service/http/listen_address.h"
+#include "daemon/service/studies/study_store.h"
 #include "imunoise/v1/service.pb.h"
 #include "tests/study/simulated_recording.h"
 
@@ -89,7 +89,7 @@ TEST(Origin, KnowsItsOwnNamesAlone) {
        {"", "evil.example", "localhost.evil.example", "localhost:80:90", "127.0.0.1.evil",
         "localhost:", "localhost:8080x", "[::1", "10.0.0.1"})
     EXPECT_FALSE(known_host(bad, {})) << bad;
-  EXPECT_TRUE(known_host("bench:8080", {"Bench"}));
+  EXPECT_TRUE(known_host("bench:8080", {"CampaignControl"}));
   EXPECT_FALSE(known_host("bench2", {"bench"}));
 }
 
@@ -296,43 +296,43 @@ TEST(JsonText, IsJson) {
 class TimeLeft : public ::testing::Test {
  protected:
   TimeLeft() {
-    bench_.running = true;
-    bench_.campaign.set_replicates(3);
-    bench_.campaign.set_length_s(100);
-    bench_.campaign.set_pause_s(10);
-    bench_.campaign.set_settling_s(30);
+    control_.running = true;
+    control_.campaign.set_replicates(3);
+    control_.campaign.set_length_s(100);
+    control_.campaign.set_pause_s(10);
+    control_.campaign.set_settling_s(30);
   }
   v1::CampaignState at(double seconds) const {
-    return campaign_state(bench_, static_cast<std::int64_t>(seconds * 1e9));
+    return campaign_state(control_, static_cast<std::int64_t>(seconds * 1e9));
   }
-  BenchCampaign bench_;
+  CampaignSnapshot control_;
 };
 
 TEST_F(TimeLeft, CountsReplicatesAndPauses) {
-  bench_.status.set_phase(v1::recording);
-  bench_.status.set_recording("data/array/2026-03-01T060000Z");
-  bench_.status.set_replicate(2);
-  bench_.status.set_since_ns(1'000'000'000'000);
+  control_.status.set_phase(v1::recording);
+  control_.status.set_recording("data/array/2026-03-01T060000Z");
+  control_.status.set_replicate(2);
+  control_.status.set_since_ns(1'000'000'000'000);
   EXPECT_DOUBLE_EQ(at(1000).left_s(), 100 + 10 + 100);
   EXPECT_DOUBLE_EQ(at(1000).progress(), 1.0 - 210.0 / 350.0);
   EXPECT_DOUBLE_EQ(at(1040).left_s(), 60 + 10 + 100);
   EXPECT_DOUBLE_EQ(at(2000).left_s(), 10 + 100) << "it takes longer than it was meant to";
   EXPECT_EQ(at(1000).recording(), "2026-03-01T060000Z");
-  bench_.status.set_replicate(3);
+  control_.status.set_replicate(3);
   EXPECT_DOUBLE_EQ(at(1040).left_s(), 60);
-  bench_.running = false;
+  control_.running = false;
   EXPECT_FALSE(at(1040).has_left_s());
   EXPECT_EQ(at(1040).recording(), "");
 }
 
 TEST_F(TimeLeft, IsUnknownWhileItWaits) {
-  bench_.status.set_phase(v1::settling);
-  bench_.status.set_until_ns(1'020'000'000'000);
+  control_.status.set_phase(v1::settling);
+  control_.status.set_until_ns(1'020'000'000'000);
   EXPECT_DOUBLE_EQ(at(1000).left_s(), 20 + 320);
-  bench_.status.set_recording("data/array/2026-03-01T060000Z");
+  control_.status.set_recording("data/array/2026-03-01T060000Z");
   EXPECT_FALSE(at(1000).has_left_s()) << "some replicates are there already";
   for (const auto phase : {v1::waiting, v1::held_up, v1::pausing, v1::finished}) {
-    bench_.status.set_phase(phase);
+    control_.status.set_phase(phase);
     EXPECT_FALSE(at(1000).has_left_s() || at(1000).has_progress());
   }
 }

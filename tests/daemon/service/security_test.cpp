@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "daemon/service/confined_files.h"
-#include "daemon/service/routes.h"
+#include "daemon/service/api/routes.h"
+#include "daemon/service/recordings/confined_files.h"
 #include "imunoise/v1/service.pb.h"
 #include "tests/daemon/service/served.h"
 
@@ -59,14 +59,14 @@ TEST_F(Security, NoTokenChangesNothing) {
   EXPECT_EQ(response.status, 401);
   EXPECT_NE(response.head.find("WWW-Authenticate: Bearer"), std::string::npos);
   EXPECT_EQ(testing::post(tcp_, "/v1/campaigns/array/stop", "{}", {bearer(kViewer)}).status, 403);
-  EXPECT_EQ(bench_.asked(), "");
+  EXPECT_EQ(control_.asked(), "");
   EXPECT_EQ(testing::post(tcp_, "/v1/campaigns/array/stop", "{}", {bearer(kOperator)}).status, 200);
-  EXPECT_EQ(bench_.asked(), "stop array \n");
+  EXPECT_EQ(control_.asked(), "stop array \n");
 }
 
 TEST_F(Security, TcpWithoutTokensIsNotServed) {
   options_.tokens.reset();
-  auto started = service::Service::start(options_, {bench_, drivers_, calls_});
+  auto started = service::Service::start(options_, {control_, drivers_, calls_});
   ASSERT_FALSE(started.has_value());
   EXPECT_NE(started.error().message.find("--tokens"), std::string::npos);
   EXPECT_FALSE(fs::exists(*options_.listen.socket));
@@ -106,7 +106,7 @@ TEST_F(Security, AFormOfAPageIsNoRequest) {
   }
   EXPECT_EQ(testing::get(local_, "/v1/campaigns/array/stop").status, 405)
       << "a link changes nothing";
-  EXPECT_EQ(bench_.asked(), "");
+  EXPECT_EQ(control_.asked(), "");
 }
 
 TEST_F(Security, PathsLeadNowhereElse) {

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "daemon/service/service.h"
-#include "tests/daemon/service/fake_bench.h"
+#include "tests/daemon/service/fake_campaign_control.h"
 #include "tests/daemon/service/raw_client.h"
 #include "tests/study/simulated_recording.h"
 
@@ -31,7 +31,7 @@ class Served : public ::testing::Test {
       v1::CampaignDevice& device = *campaign.add_devices();
       device.set_name("imu-of-" + std::string(name));
       device.set_driver("replay");
-      bench_.add(campaign);
+      control_.add(campaign);
       options_.freshness = std::chrono::milliseconds(0);
     }
     std::filesystem::create_directories(folder_.path() / "data/array");
@@ -46,7 +46,7 @@ class Served : public ::testing::Test {
   }
 
   void serve() {
-    auto started = service::Service::start(options_, {bench_, drivers_, calls_});
+    auto started = service::Service::start(options_, {control_, drivers_, calls_});
     ASSERT_TRUE(started.has_value()) << started.error().message;
     service_ = std::move(*started);
     local_ = {*options_.listen.socket, 0};
@@ -117,7 +117,7 @@ class Served : public ::testing::Test {
   static inline const std::string kViewer = std::string(32, 'v');
   static inline const std::string kOperator = std::string(32, 'o');
   const TemporaryFolder folder_;
-  FakeBench bench_;
+  FakeCampaignControl control_;
   drivers::Drivers drivers_;
   recording::DiskCalls calls_;
   service::ServiceOptions options_;

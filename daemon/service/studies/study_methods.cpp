@@ -1,0 +1,189 @@
+#include "daemon/service/studies/study_methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <semaphore>
+
+#include "daemon/config/quantity_text.h"
+
+namespace imunoise::service {
+namespace {
+
+constexpr std::ptrdiff_t kMostWaiting = 2;  // responses that wait for a job; threads are few
+constexpr double kLongestWait = 8.0;        // s
+
+class StudyMethods {
+ public:
+  StudyMethods(Jobs& jobs, StudyStore& studies, const Records& records,
+               std::uint64_t largest_recording, ComputeStudy compute)
+      : jobs_(jobs),
+        studies_(studies),
+        records_(records),
+        largest_(largest_recording),
+        compute_(std::move(compute)) {}
+
+  Answer<v1::Job> open(const v1::OpenStudyRequest& request) {
+    if (auto good = check_new(request.study()); !good) return tl::unexpected(good.error());
+    const auto path = path_to_study(request.campaign(), request.folder());
+    if (!path) return tl::unexpected(path.error());
+    v1::StudyRequest asked;
+    v1::StudyRequest::Open& open = *asked.mutable_open();
+    open.mutable_input()->add_files(path->string());
+    open.mutable_input()->set_split_into(request.split_into());
+    open.set_channel(request.channel());
+    *open.mutable_witnesses() = request.witnesses();
+    open.set_model(request.model());
+    const auto work = [this, name = request.study(), asked](const Progress& progress) {
+      return kept(name, compute({}, asked, progress), &StudyStore::create);
+    };
+    return begun("open", request.study(), work, request.wait_s());
+  }
+
+  // A request on a study that is there.
+  Answer<v1::Job> change(const std::string& operation, const std::string& name,
+                         const v1::StudyRequest& asked, bool keep, double wait_s) {
+    if (auto study = studies_.read(name); !study) return tl::unexpected(study.error());
+    const auto work = [this, name, asked, keep](const Progress& progress) -> Result<v1::Study> {
+      auto study = studies_.read(name);
+      if (!study) return fail(study.error().sentence);
+      auto out = compute(std::move(*study), asked, progress);
+      return keep ? kept(name, std::move(out), &StudyStore::replace) : out;
+    };
+    return begun(operation, name, work, wait_s);
+  }
+
+  Answer<v1::Job> branch(const v1::BranchStudyRequest& request) {
+    if (auto study = studies_.read(request.study()); !study) return tl::unexpected(study.error());
+    if (auto good = check_new(request.name()); !good) return tl::unexpected(good.error());
+    const auto work = [this, request](const Progress&) -> Result<v1::Study> {
+      auto study = studies_.read(request.study());
+      if (!study) return fail(study.error().sentence);
+      const auto count = static_cast<std::uint32_t>(study->attempts_size());
+      const std::uint32_t from = request.has_from() ? request.from() : study->current();
+      if (from >= count)
+        return fail(fmt::format("attempt {}: there are {}, counted from 0", from, count));
+      if (from != study->current()) study->clear_diagnosis();
+      study->set_current(from);
+      return kept(request.name(), std::move(*study), &StudyStore::create);
+    };
+    return begun("branch", request.study(), work, request.wait_s());
+  }
+
+ private:
+  Answer<void> check_new(const std::string& name) const {
+    if (auto good = check_study_name(name); !good) return good;
+    if (studies_.contains(name))
+      return refuse(409, fmt::format("there is a study '{}' already; take another name", name));
+    return {};
+  }
+
+  Answer<std::filesystem::path> path_to_study(const std::string& campaign,
+                                              const std::string& folder) const {
+    const auto manifest = records_.manifest(campaign, folder);
+    if (!manifest) return tl::unexpected(manifest.error());
+    std::uint64_t bytes = 0;
+    for (const v1::ChunkEntry& chunk : manifest->chunks()) bytes += chunk.bytes();
+    if (bytes > largest_) {
+      return refuse(409, fmt::format("the recording has {}; up to {} are studied beside recording: "
+                                     "use imunoise study on another machine",
+                                     config::print_bytes(static_cast<double>(bytes)),
+                                     config::print_bytes(static_cast<double>(largest_))));
+    }
+    return records_.path_of(campaign, folder);
+  }
+
+  Result<v1::Study> compute(v1::Study study, const v1::StudyRequest& asked,
+                            const Progress& progress) const {
+    v1::JobOrder order;
+    *order.mutable_study() = std::move(study);
+    *order.mutable_request() = asked;
+    for (const auto& one : records_.folders()) order.add_folders(one.string());
+    order.set_cache(studies_.cache().string());
+    return compute_(order, progress);
+  }
+
+  using Keep = Result<void> (StudyStore::*)(const std::string& name, const v1::Study& study);
+  Result<v1::Study> kept(const std::string& name, Result<v1::Study> study, Keep keep) {
+    if (!study) return study;
+    if (auto done = (studies_.*keep)(name, *study); !done) return tl::unexpected(done.error());
+    return study;
+  }
+
+  // The job, or what became of it while the response waited.
+  Answer<v1::Job> begun(const std::string& operation, const std::string& study, Jobs::Work work,
+                        double wait_s) {
+    if (!(wait_s >= 0.0 && wait_s <= kLongestWait))
+      return refuse(400, fmt::format("wait_s: 0 to {} s", kLongestWait));
+    auto job = jobs_.add(operation, study, std::move(work));
+    if (!job || wait_s == 0.0 || !waiting_.try_acquire()) return job;
+    job = jobs_.wait(job->job(), std::chrono::duration<double>(wait_s));
+    waiting_.release();
+    return job;
+  }
+
+  Jobs& jobs_;
+  StudyStore& studies_;
+  const Records& records_;
+  const std::uint64_t largest_;
+  const ComputeStudy compute_;
+  std::counting_semaphore<> waiting_{kMostWaiting};
+};
+
+v1::StudyRequest add_request(const auto& request) {
+  v1::StudyRequest out;
+  out.mutable_add()->set_term(request.term());
+  if (request.has_branch_from()) out.mutable_add()->set_branch_from(request.branch_from());
+  return out;
+}
+
+void add_steps(Methods& methods, const std::shared_ptr<StudyMethods>& steps) {
+  methods.on_waiting<v1::OpenStudyRequest>(
+      [steps](const v1::OpenStudyRequest& request) { return steps->open(request); });
+  methods.on_waiting<v1::SeekCandidatesRequest>([steps](const v1::SeekCandidatesRequest& request) {
+    v1::StudyRequest asked;
+    asked.mutable_candidates();
+    return steps->change("candidates", request.study(), asked, true, request.wait_s());
+  });
+  methods.on_waiting<v1::PreviewTermRequest>([steps](const v1::PreviewTermRequest& request) {
+    return steps->change("preview", request.study(), add_request(request), false, request.wait_s());
+  });
+  methods.on_waiting<v1::AddTermRequest>([steps](const v1::AddTermRequest& request) {
+    return steps->change("add", request.study(), add_request(request), true, request.wait_s());
+  });
+  methods.on_waiting<v1::UndoTermRequest>([steps](const v1::UndoTermRequest& request) {
+    v1::StudyRequest asked;
+    asked.mutable_undo();
+    return steps->change("undo", request.study(), asked, true, request.wait_s());
+  });
+  methods.on_waiting<v1::BranchStudyRequest>(
+      [steps](const v1::BranchStudyRequest& request) { return steps->branch(request); });
+}
+
+}  // namespace
+
+void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+                       std::uint64_t largest_recording, ComputeStudy compute) {
+  add_steps(methods, std::make_shared<StudyMethods>(jobs, studies, records, largest_recording,
+                                                    std::move(compute)));
+  methods.on_waiting<v1::ListStudiesRequest>(
+      [&studies](const v1::ListStudiesRequest&) { return studies.list(); });
+  methods.on_waiting<v1::GetStudyRequest>(
+      [&studies](const v1::GetStudyRequest& request) { return studies.read(request.study()); });
+  methods.on_waiting<v1::DeleteStudyRequest>(
+      [&studies](const v1::DeleteStudyRequest& request) -> Answer<v1::DeletedStudy> {
+        if (auto done = studies.remove(request.study()); !done) return tl::unexpected(done.error());
+        return v1::DeletedStudy();
+      });
+  methods.on<v1::ListJobsRequest>([&jobs](const v1::ListJobsRequest&) -> Answer<v1::JobList> {
+    v1::JobList out;
+    for (const v1::Job& job : jobs.list()) *out.add_jobs() = job;
+    return out;
+  });
+  methods.on<v1::GetJobRequest>(
+      [&jobs](const v1::GetJobRequest& request) { return jobs.get(request.job()); });
+  methods.on<v1::CancelJobRequest>(
+      [&jobs](const v1::CancelJobRequest& request) { return jobs.cancel(request.job()); });
+}
+
+}  // namespace imunoise::service

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "daemon/service/studies/jobs.h"
+#include "daemon/service/api/methods.h"
+#include "daemon/service/recordings/records.h"
+#include "daemon/service/studies/study_computation.h"
+#include "daemon/service/studies/study_store.h"
+
+namespace imunoise::service {
+
+/// Studies and jobs. `largest_recording`: bytes of a recording's chunks; a larger one would need
+/// too much memory beside recording. `compute` does the work of the jobs.
+void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+                       std::uint64_t largest_recording, ComputeStudy compute);
+
+}  // namespace imunoise::service
