@@ -11,11 +11,7 @@
 
 #include "core/support/parallel.h"
 #include "recording/import/format.h"
-#include "recording/import/hdf5_table.h"
-#include "recording/import/npy.h"
-#include "recording/import/raw.h"
 #include "recording/import/table.h"
-#include "recording/import/text_table.h"
 
 namespace imunoise::recording {
 namespace {
@@ -25,19 +21,9 @@ constexpr double kRateTolerance = 1e-3;
 
 Result<Table> read_table(const std::filesystem::path& path, const ImportOptions& options,
                          FileProgress& progress) {
-  const Result<Format> format = detect_format(path);
+  const Result<const ImportFormat*> format = detect_format(path);
   if (!format) return tl::make_unexpected(format.error());
-  switch (*format) {
-    case Format::kHdf5:
-      return read_hdf5_table(path, options, progress);
-    case Format::kNpy:
-      return read_npy(path, options, progress);
-    case Format::kRaw:
-      return read_raw(path, options, progress);
-    case Format::kText:
-      break;
-  }
-  return read_text_table(path, options, progress);
+  return (*format)->read(path, options, progress);
 }
 
 // The edge where exceptions of libraries (no memory above all) become errors.
