@@ -13,6 +13,16 @@ struct Pace {
   double latency_s = 0.0;  ///< Samples come in groups, this often in real time; 0: one by one.
 };
 
+/// The option "speed" of drivers that replay.
+inline drivers::Option speed_option() {
+  return {.name = "speed",
+          .type = drivers::OptionType::kNumber,
+          .description = "Times real time; 0: as fast as it is read",
+          .by_default = "1",
+          .minimum = 0.0,
+          .maximum = 1e9};
+}
+
 /// From the time line of a recording to that of its replay.
 class Timeline {
  public:

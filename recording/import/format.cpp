@@ -2,42 +2,50 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <string>
 
-#include "recording/import/binary/npy.h"
-#include "recording/import/binary/raw.h"
 #include "recording/import/table/file.h"
 
+// One line a format, in the order in which they are asked: the function in its reader's source that
+// describes it. Text comes last: it claims whatever looks like text.
+#define IMUNOISE_IMPORT_FORMATS(FORMAT) \
+  FORMAT(raw)                           \
+  FORMAT(hdf5)                          \
+  FORMAT(npy)                           \
+  FORMAT(text)
+
 namespace imunoise::recording {
+
+namespace formats {
+#define IMUNOISE_DECLARE(NAME) const ImportFormat& NAME();
+IMUNOISE_IMPORT_FORMATS(IMUNOISE_DECLARE)
+#undef IMUNOISE_DECLARE
+}  // namespace formats
+
 namespace {
 
-constexpr std::string_view kHdf5Magic = "\x89HDF\r\n\x1a\n";
-
-constexpr std::array kHdf5Extensions = {".h5", ".hdf5", ".hdf", ".nc", ".mat"};
-constexpr std::array kTextExtensions = {".csv", ".tsv", ".txt", ".dat"};
-
-template <class List>
-bool contains(const List& list, const std::filesystem::path& extension) {
-  return std::any_of(list.begin(), list.end(),
-                     [&](const char* known) { return extension == known; });
+const auto& known_formats() {
+#define IMUNOISE_LIST(NAME) &formats::NAME(),
+  static const std::array kAll{IMUNOISE_IMPORT_FORMATS(IMUNOISE_LIST)};
+#undef IMUNOISE_LIST
+  return kAll;
 }
 
-// HDF5 allows a block of the user's before its own magic, at 512 bytes or a doubling of that.
-Result<bool> is_hdf5(const File& file) {
-  for (std::uint64_t at = 0; at < file.size(); at = at == 0 ? 512 : 2 * at) {
-    std::array<char, 8> magic = {};
-    const Result<std::size_t> got = file.read_at(at, magic);
-    if (!got) return tl::make_unexpected(got.error());
-    if (std::string_view(magic.data(), *got) == kHdf5Magic) return true;
+// "raw numbers (.f64), HDF5 (.h5) or text (.csv)"
+std::string known_kinds() {
+  const auto& all = known_formats();
+  std::string out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) out += i + 1 < all.size() ? ", " : " or ";
+    out += all[i]->kind;
   }
-  return false;
+  return out;
 }
 
 }  // namespace
 
-Result<Format> detect_format(const std::filesystem::path& path) {
+Result<const ImportFormat*> detect_format(const std::filesystem::path& path) {
   const Result<File> file = File::open(path);
   if (!file) return tl::make_unexpected(file.error());
   const auto trouble = [&](std::string_view what) {
@@ -47,28 +55,16 @@ Result<Format> detect_format(const std::filesystem::path& path) {
   std::array<char, 4096> bytes = {};
   const Result<std::size_t> got = file->read_at(0, bytes);
   if (!got) return tl::make_unexpected(got.error());
-  const std::string_view head(bytes.data(), *got);
-  const std::filesystem::path extension = path.extension();
-
-  const bool raw = is_raw_extension(extension);
-  if (head.starts_with(kNpyMagic)) return Format::kNpy;
-  if (head.starts_with(kHdf5Magic)) return Format::kHdf5;
-  if (raw) return Format::kRaw;
-  const Result<bool> hdf5 = is_hdf5(*file);
-  if (!hdf5) return tl::make_unexpected(hdf5.error());
-  if (*hdf5) return Format::kHdf5;
-  if (contains(kHdf5Extensions, extension)) {
-    return trouble(
-        "is not an HDF5 file, whatever its name says (a MATLAB file must be saved as v7.3); "
-        "it may be truncated: copy it again");
+  const UnknownFile unknown{*file, {bytes.data(), *got}, path.extension()};
+  for (const ImportFormat* const format : known_formats()) {
+    if (format->begins != nullptr && format->begins(unknown.head)) return format;
   }
-  if (extension == ".npy")
-    return trouble("is not a NumPy file, whatever its name says; save it again");
-  const bool text = std::none_of(head.begin(), head.end(), [](char c) { return c == '\0'; });
-  if (text || contains(kTextExtensions, extension)) return Format::kText;
-  return trouble(
-      "is of no known kind: HDF5 (.h5), NumPy (.npy), text (.csv, .tsv, .txt, .dat) or raw "
-      "numbers with a sidecar (.f64, .f32, .i16, .i32, .bin)");
+  for (const ImportFormat* const format : known_formats()) {
+    const Result<bool> claimed = format->claims(unknown);
+    if (!claimed) return tl::make_unexpected(claimed.error());
+    if (*claimed) return format;
+  }
+  return trouble(fmt::format("is of no known kind: {}", known_kinds()));
 }
 
 }  // namespace imunoise::recording

@@ -25,19 +25,9 @@ constexpr double kRateTolerance = 1e-3;
 
 Result<Table> read_table(const std::filesystem::path& path, const ImportOptions& options,
                          FileProgress& progress) {
-  const Result<Format> format = detect_format(path);
+  const Result<const ImportFormat*> format = detect_format(path);
   if (!format) return tl::make_unexpected(format.error());
-  switch (*format) {
-    case Format::kHdf5:
-      return read_hdf5_table(path, options, progress);
-    case Format::kNpy:
-      return read_npy(path, options, progress);
-    case Format::kRaw:
-      return read_raw(path, options, progress);
-    case Format::kText:
-      break;
-  }
-  return read_text_table(path, options, progress);
+  return (*format)->read(path, options, progress);
 }
 
 // The edge where exceptions of libraries (no memory above all) become errors.

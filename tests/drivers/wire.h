@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drivers/codec/stream_decoder.h"
+#include "tests/drivers/pieces.h"
 
 namespace imunoise::drivers::testing {
 
@@ -76,18 +77,8 @@ inline OwnedSample own(const DecodedSample& sample) {
 inline std::vector<OwnedSample> decode_all(StreamDecoder& decoder, Bytes bytes,
                                            std::size_t piece = ~std::size_t{0}) {
   std::vector<OwnedSample> out;
-  DecodedSample sample;
-  const auto drain = [&] {
-    while (decoder.next(sample)) out.push_back(own(sample));
-  };
-  while (!bytes.empty()) {
-    const Bytes now = bytes.first(std::min(piece, bytes.size()));
-    bytes = bytes.subspan(now.size());
-    decoder.push(now);
-    drain();
-  }
-  decoder.finish();
-  drain();
+  decode_in_pieces(decoder, bytes, piece,
+                   [&](const DecodedSample& sample) { out.push_back(own(sample)); });
   return out;
 }
 

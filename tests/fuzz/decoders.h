@@ -2,7 +2,6 @@
 
 // What holds for every decoder of a stream.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "drivers/codec/stream_decoder.h"
+#include "tests/drivers/pieces.h"
 
 namespace imunoise::drivers {
 
@@ -17,29 +17,18 @@ namespace imunoise::drivers {
 /// finite.
 inline std::string transcript(StreamDecoder& decoder, Bytes bytes, std::size_t piece) {
   std::string out;
-  DecodedSample sample;
-  const auto drain = [&] {
-    while (decoder.next(sample)) {
-      out += sample.stream;
-      out += sample.source;
-      out += std::to_string(sample.time_ns) + ' ' + std::to_string(sample.counter.value_or(-1));
-      for (const DecodedValue& value : sample.values) {
-        if (!std::isfinite(value.value)) std::abort();
-        out += value.channel;
-        out += value.unit;
-        out += std::to_string(value.value);
-      }
-      for (const std::string_view flag : sample.flags) out += flag;
+  testing::decode_in_pieces(decoder, bytes, piece, [&](const DecodedSample& sample) {
+    out += sample.stream;
+    out += sample.source;
+    out += std::to_string(sample.time_ns) + ' ' + std::to_string(sample.counter.value_or(-1));
+    for (const DecodedValue& value : sample.values) {
+      if (!std::isfinite(value.value)) std::abort();
+      out += value.channel;
+      out += value.unit;
+      out += std::to_string(value.value);
     }
-  };
-  while (!bytes.empty()) {
-    const Bytes now = bytes.first(std::min(piece, bytes.size()));
-    bytes = bytes.subspan(now.size());
-    decoder.push(now);
-    drain();
-  }
-  decoder.finish();
-  drain();
+    for (const std::string_view flag : sample.flags) out += flag;
+  });
   for (std::size_t i = 0; i < kRefusals; ++i) {
     out += ' ' + std::to_string(decoder.tally().refused.count(static_cast<Refusal>(i)));
   }

@@ -2,6 +2,8 @@
 // pieces. The rest of the input after a first byte below 128 is also tried as MTData2 and as legacy
 // MTData within correct frames, behind a Configuration that the input chooses.
 
+#include <algorithm>
+
 #include "drivers/xsens/codec/decoder.h"
 #include "drivers/xsens/codec/messages.h"
 #include "tests/fuzz/decoders.h"

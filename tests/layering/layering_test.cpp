@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/layering/include_rules.h"
+#include "tests/layering/folder_rules.h"
 
 namespace imunoise::testing {
 namespace {
@@ -52,6 +52,24 @@ TEST(Layering, EveryHeaderHasPragmaOnce) {
 TEST(Layering, NoFileIsLong) {
   const std::vector<std::string> found = long_files(house());
   EXPECT_TRUE(found.empty()) << "longer than 400 lines:" << lines(found);
+}
+
+TEST(Layering, NoFolderIsCrowded) {
+  const std::vector<std::string> found = crowded_folders(house());
+  EXPECT_TRUE(found.empty()) << "more than 25 sources; give them inner folders:" << lines(found);
+}
+
+TEST(Layering, EveryFolderHasAMap) {
+  const std::vector<std::string> found =
+      folders_without_map(house(), read_maps(IMUNOISE_SOURCE_DIR));
+  EXPECT_TRUE(found.empty()) << "no README.md, a few lines that say what is inside:"
+                             << lines(found);
+}
+
+TEST(Layering, TheArchitectureNamesWhatIsThere) {
+  const std::vector<std::string> found =
+      missing_places(read_text(IMUNOISE_SOURCE_DIR "/docs/architecture.md"), IMUNOISE_SOURCE_DIR);
+  EXPECT_TRUE(found.empty()) << "docs/architecture.md names what is not there:" << lines(found);
 }
 
 // The rules themselves: a rule that finds nothing in bad code is no rule.
@@ -188,6 +206,36 @@ TEST(LayeringRules, FindHeadersWithoutGuardAndLongFiles) {
                      {"core/e.cpp", std::string(400, '\n')}};
   EXPECT_EQ(unguarded_headers(tree), std::vector<std::string>{"core/c.h"});
   EXPECT_EQ(long_files(tree), std::vector<std::string>{"core/d.cpp: 401 lines"});
+}
+
+TEST(LayeringRules, CountAHeaderWithItsSource) {
+  Tree tree;
+  for (int i = 0; i < 25; ++i) {
+    tree["core/a/f" + std::to_string(i) + ".h"] = tree["core/a/f" + std::to_string(i) + ".cpp"] =
+        "";
+    tree["core/b/f" + std::to_string(i) + ".h"] = "";
+  }
+  tree["core/b/c/deeper.h"] = "";
+  EXPECT_TRUE(crowded_folders(tree).empty());
+  tree["core/b/one_more.cpp"] = "";
+  EXPECT_EQ(crowded_folders(tree), std::vector<std::string>{"core/b: 26 sources"});
+}
+
+TEST(LayeringRules, AskForTheMapOfEveryFolderButMirrors) {
+  const Tree tree = {{"core/a/x.h", ""},
+                     {"core/b/x.h", ""},
+                     {"tests/core/a/x_test.cpp", ""},
+                     {"tests/fuzz/x.cpp", ""}};
+  EXPECT_EQ(folders_without_map(tree, {"core/a/README.md", "core/README.md"}),
+            (std::vector<std::string>{"core/b", "tests/fuzz"}));
+}
+
+TEST(LayeringRules, FindPlacesThatADocumentNamesInVain) {
+  const std::string text =
+      "`core/support/units.cpp`, `core/attic/`, `core/process/NAME.h`, `a word`, `cli`,\n"
+      "`tests/layering/README.md`, `drivers/*/codec`, `core/no_such.h`";
+  EXPECT_EQ(missing_places(text, IMUNOISE_SOURCE_DIR),
+            (std::vector<std::string>{"core/attic/", "core/no_such.h"}));
 }
 
 TEST(LayeringRules, TheLongestPathNamesTheRoom) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "recording/import/binary/binary_table.h"
+#include "recording/import/format.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/sidecar.h"
 
@@ -53,6 +54,12 @@ Result<Preamble> read_preamble(const File& file) {
   if (!text) return tl::make_unexpected(text.error());
   if (*text != length) return truncated();
   return out;
+}
+
+Result<bool> claims_npy(const UnknownFile& file) {
+  if (file.extension != ".npy") return false;
+  return fail(fmt::format("{}: is not a NumPy file, whatever its name says; save it again",
+                          file.content.name()));
 }
 
 }  // namespace
@@ -105,5 +112,18 @@ Result<Table> read_npy(const std::filesystem::path& path, const ImportOptions& o
   }
   return read_binary_table(*file, layout, *sidecar, options, progress);
 }
+
+namespace formats {
+
+const ImportFormat& npy() {
+  static constexpr ImportFormat kFormat = {
+      .kind = "NumPy (.npy)",
+      .begins = [](std::string_view head) { return head.starts_with(kNpyMagic); },
+      .claims = claims_npy,
+      .read = read_npy};
+  return kFormat;
+}
+
+}  // namespace formats
 
 }  // namespace imunoise::recording

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "recording/import/binary/binary_table.h"
+#include "recording/import/format.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/sidecar.h"
 
@@ -24,12 +25,12 @@ std::string_view dtype_of(const std::filesystem::path& extension) {
   return found == kExtensions.end() ? std::string_view() : found->second;
 }
 
-}  // namespace
-
-bool is_raw_extension(const std::filesystem::path& extension) {
+Result<bool> has_raw_extension(const UnknownFile& file) {
   return std::any_of(kExtensions.begin(), kExtensions.end(),
-                     [&](const auto& known) { return extension == known.first; });
+                     [&](const auto& known) { return file.extension == known.first; });
 }
+
+}  // namespace
 
 Result<Table> read_raw(const std::filesystem::path& path, const ImportOptions& options,
                        FileProgress& progress) {
@@ -78,5 +79,17 @@ Result<Table> read_raw(const std::filesystem::path& path, const ImportOptions& o
   layout.rows = file->size() / row;
   return read_binary_table(*file, layout, *sidecar, options, progress);
 }
+
+namespace formats {
+
+const ImportFormat& raw() {
+  static constexpr ImportFormat kFormat = {
+      .kind = "raw numbers with a sidecar (.f64, .f32, .i16, .i32, .bin)",
+      .claims = has_raw_extension,
+      .read = read_raw};
+  return kFormat;
+}
+
+}  // namespace formats
 
 }  // namespace imunoise::recording

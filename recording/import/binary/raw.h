@@ -9,9 +9,6 @@
 
 namespace imunoise::recording {
 
-/// True for the extensions of raw files: .f64, .f32, .i16, .i32, .bin.
-bool is_raw_extension(const std::filesystem::path& extension);
-
 /// Reads the wanted channels of a raw file. Errors: no sidecar, no dtype or one that contradicts
 /// the extension, a size that is not a whole number of rows; see import_files for the others.
 Result<Table> read_raw(const std::filesystem::path& path, const ImportOptions& options,

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "recording/import/format.h"
 #include "recording/import/hdf5/hdf5_process.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/select.h"
@@ -13,6 +15,33 @@
 
 namespace imunoise::recording {
 namespace {
+
+constexpr std::string_view kHdf5Magic = "\x89HDF\r\n\x1a\n";
+constexpr std::array kHdf5Extensions = {".h5", ".hdf5", ".hdf", ".nc", ".mat"};
+
+// HDF5 allows a block of the user's before its own magic, at 512 bytes or a doubling of that.
+Result<bool> is_hdf5(const File& file) {
+  for (std::uint64_t at = 0; at < file.size(); at = at == 0 ? 512 : 2 * at) {
+    std::array<char, 8> magic = {};
+    const Result<std::size_t> got = file.read_at(at, magic);
+    if (!got) return tl::make_unexpected(got.error());
+    if (std::string_view(magic.data(), *got) == kHdf5Magic) return true;
+  }
+  return false;
+}
+
+Result<bool> claims_hdf5(const UnknownFile& file) {
+  const Result<bool> found = is_hdf5(file.content);
+  if (!found || *found) return found;
+  if (std::none_of(kHdf5Extensions.begin(), kHdf5Extensions.end(),
+                   [&](const char* known) { return file.extension == known; })) {
+    return false;
+  }
+  return fail(
+      fmt::format("{}: is not an HDF5 file, whatever its name says (a MATLAB file must be saved as "
+                  "v7.3); it may be truncated: copy it again",
+                  file.content.name()));
+}
 
 // What a dataset of times shows, when there is one.
 Result<EvenTimes> times_of_dataset(const std::string& file, Hdf5Reader& reader) {
@@ -118,5 +147,18 @@ Result<Table> read_hdf5_table(const std::filesystem::path& path, const ImportOpt
   if (!reader) return fail(fmt::format("{}: {}", file->name(), reader.error().message));
   return read_hdf5_table(file->name(), **reader, options, progress);
 }
+
+namespace formats {
+
+const ImportFormat& hdf5() {
+  static constexpr ImportFormat kFormat = {
+      .kind = "HDF5 (.h5)",
+      .begins = [](std::string_view head) { return head.starts_with(kHdf5Magic); },
+      .claims = claims_hdf5,
+      .read = read_hdf5_table};
+  return kFormat;
+}
+
+}  // namespace formats
 
 }  // namespace imunoise::recording

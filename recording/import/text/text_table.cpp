@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "recording/import/format.h"
 #include "recording/import/table/select.h"
 #include "recording/import/table/time_column.h"
 #include "recording/import/text/number.h"
@@ -13,6 +15,14 @@
 
 namespace imunoise::recording {
 namespace {
+
+constexpr std::array kTextExtensions = {".csv", ".tsv", ".txt", ".dat"};
+
+Result<bool> claims_text(const UnknownFile& file) {
+  return file.head.find('\0') == std::string_view::npos ||
+         std::any_of(kTextExtensions.begin(), kTextExtensions.end(),
+                     [&](const char* known) { return file.extension == known; });
+}
 
 struct Head {
   TextHead text;
@@ -182,5 +192,18 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   }
   return table;
 }
+
+namespace formats {
+
+const ImportFormat& text() {
+  static constexpr ImportFormat kFormat = {
+      .kind = "text (.csv, .tsv, .txt, .dat)",
+      .claims = claims_text,
+      .read = [](const std::filesystem::path& path, const ImportOptions& options,
+                 FileProgress& progress) { return read_text_table(path, options, progress); }};
+  return kFormat;
+}
+
+}  // namespace formats
 
 }  // namespace imunoise::recording

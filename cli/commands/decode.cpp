@@ -12,6 +12,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "core/support/json_text.h"
 #include "drivers/adis16405/codec/decoder.h"
 #include "drivers/adis16405/codec/registers.h"
 #include "drivers/can/codec/dbc.h"
@@ -67,28 +68,13 @@ Result<DecoderPointer> make_decoder(const DecodeArguments& arguments) {
   return DecoderPointer(std::make_unique<drivers::XbusDecoder>());
 }
 
-// A JSON string. Texts come from UTF-8: the program, the database, interface names in ASCII.
-void append_text(std::string& out, std::string_view text) {
-  out += '"';
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
-}
-
+// Texts are UTF-8: from the program, the database, interface names in ASCII.
 void append_line(std::string& out, const DecodedSample& sample) {
   out += "{\"stream\":";
-  append_text(out, sample.stream);
+  append_json_string(out, sample.stream);
   if (!sample.source.empty()) {
     out += ",\"source\":";
-    append_text(out, sample.source);
+    append_json_string(out, sample.source);
   }
   if (sample.clock != drivers::Clock::kNone) {
     const bool before_zero = sample.time_ns < 0;
@@ -101,15 +87,15 @@ void append_line(std::string& out, const DecodedSample& sample) {
   out += ",\"values\":{";
   for (const drivers::DecodedValue& value : sample.values) {
     if (&value != &sample.values.front()) out += ',';
-    append_text(out, value.channel);
+    append_json_string(out, value.channel);
     fmt::format_to(std::back_inserter(out), ":{{\"value\":{},\"unit\":", value.value);
-    append_text(out, value.unit);
+    append_json_string(out, value.unit);
     out += '}';
   }
   out += "},\"flags\":[";
   for (const std::string_view& flag : sample.flags) {
     if (&flag != &sample.flags.front()) out += ',';
-    append_text(out, flag);
+    append_json_string(out, flag);
   }
   out += "]}\n";
 }
