@@ -46,7 +46,7 @@ enum {
   IMUNOISE_NOT_FOUND = -3,   /* open: no such device (or file) */
   IMUNOISE_NO_ACCESS = -4,   /* open: no permission, or in use by another program */
   IMUNOISE_BAD_DEVICE = -5,  /* the device answers, but not as it should: close it */
-  IMUNOISE_DISCONNECTED = -6 /* the device is gone. Reading may go on: the driver looks for it */
+  IMUNOISE_DISCONNECTED = -6 /* the device is disconnected. Reading may go on: the driver looks for it */
 };
 
 /* Types of stored numbers. */

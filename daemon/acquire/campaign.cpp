@@ -151,7 +151,7 @@ class Run {
     }
     if (note.disturbances_size() > 0) {
       out += fmt::format(
-          "{}the bench did not lie still: {} times, first at {}", out.empty() ? "" : "; ",
+          "{}the sensors moved {} times, first at {}", out.empty() ? "" : "; ",
           note.disturbances_size(),
           recording_name(Time(std::chrono::nanoseconds(note.disturbances(0).begin_ns()))));
     }
@@ -172,12 +172,12 @@ class Run {
     const auto tidied = tidy_recordings(with_.files, campaign_, with_.clock);
     if (!tidied) return add_news(tidied.error().message);
     if (!tidied->removed.empty())
-      add_news(fmt::format("{} recordings are no longer kept", tidied->removed.size()));
+      add_news(fmt::format("deleted {} recordings ([retention])", tidied->removed.size()));
     if (tidied->doubtful > 0) {
       add_news(
-          fmt::format("{} recordings look older than retention.age and are kept: this "
-                      "machine's clock is, or was, not kept right by a time service "
-                      "(timedatectl shows it); delete by hand those that are old",
+          fmt::format("{} recordings look older than retention.age but are kept, because the "
+                      "clock of this machine is not, or was not, set by a time service "
+                      "(see timedatectl). Delete old recordings by hand",
                       tidied->doubtful));
     }
   }

@@ -111,7 +111,7 @@ bool Reader::deliver(const recording::Block& block) {
       disk_pause_.reset();
       return true;
     }
-    disk_failure_ = taken ? "it took nothing for too long" : taken.error().message;
+    disk_failure_ = taken ? "it accepted no samples for too long" : taken.error().message;
     disk_patience_ = {};  // enough was waited; from now on what finds no room is counted
     disk_next_ = Steady::now() + disk_pause_.next();
   }

@@ -59,7 +59,7 @@ Result<void> WireFile::close() {
   file_.reset();
   if (trouble_) return tl::make_unexpected(*trouble_);
   if (lost_ == 0) return {};
-  return fail(fmt::format("{}: {} bytes are missing: the disk was too slow for them",
+  return fail(fmt::format("{}: {} bytes are missing, because the disk was too slow",
                           path_.string(), lost_));
 }
 

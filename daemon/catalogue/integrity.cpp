@@ -31,7 +31,7 @@ Result<std::vector<Row>> tables_of(Database& database) {
 Result<std::string> structural_damage(Database& database) {
   const auto found = database.query("pragma integrity_check(1)");
   if (!found) return tl::unexpected(found.error());
-  const std::string said = found->empty() ? "it says nothing" : text(found->front().front());
+  const std::string said = found->empty() ? "it returned nothing" : text(found->front().front());
   if (said != "ok") return said.substr(said.rfind('\n') + 1);
   if (auto ready = prepare_schema(database); !ready) return tl::unexpected(ready.error());
   const auto model = Database::open(":memory:");
@@ -44,7 +44,7 @@ Result<std::string> structural_damage(Database& database) {
   const bool whole = std::all_of(wanted->begin(), wanted->end(), [&](const Row& one) {
     return std::find(tables->begin(), tables->end(), one) != tables->end();
   });
-  return whole ? "" : "its tables are not those of a catalogue";
+  return whole ? "" : "it has other tables than a catalogue";
 }
 
 bool says(const Error& error, std::string_view what) {
@@ -63,9 +63,9 @@ tl::unexpected<Error> with_way_out(const Error& error) {
   return fail(
       error.message +
       (says(error, kNoDatabase)
-           ? "; name another one with --catalogue, unless this was a catalogue: that may be "
-             "deleted, and is made again from the recordings"
-           : "; a catalogue may be deleted: it is made again from the recordings"));
+           ? "; name another one with --catalogue, unless this was a catalogue: you can "
+             "delete it, and imunoise rebuilds it from the recordings"
+           : "; you can delete a catalogue: imunoise rebuilds it from the recordings"));
 }
 
 Result<SoundDatabase> open_and_check(const std::string& where, std::string& damage) {

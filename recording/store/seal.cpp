@@ -16,7 +16,7 @@ std::optional<std::string> describe_damage(const Segment& segment) {
   std::string out;
   for (const Damage& one : segment.damage) {
     out +=
-        fmt::format("{}{} bytes at byte {} are no whole block{}", out.empty() ? "" : "; ",
+        fmt::format("{}{} bytes at byte {} are not a complete block{}", out.empty() ? "" : "; ",
                     one.bytes, one.offset, one.at_end ? " (an interrupted write or damage)" : "");
     if (out.size() > 400) break;
   }

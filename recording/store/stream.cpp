@@ -194,7 +194,7 @@ Result<void> check_block(const v1::RecordedDevice& device, const Block& block) {
     const auto named = [&](const v1::RecordedChannel& c) { return c.name() == one.channel; };
     if (!one.channel.empty() &&
         std::none_of(stream.channels().begin(), stream.channels().end(), named)) {
-      return trouble(fmt::format("a refusal blames channel '{}', which is none", one.channel));
+      return trouble(fmt::format("a rejection names channel '{}', which does not exist", one.channel));
     }
   }
   const std::uint64_t refused = refused_rows(rows.refused);
@@ -215,7 +215,7 @@ v1::RefusalCount to_message(const Refusal& refusal) {
 
 Result<Refusal> from_message(const v1::RefusalCount& count) {
   const auto reason = refused_from_word(count.reason());
-  if (!reason) return fail(fmt::format("'{}' is no reason to refuse a sample", count.reason()));
+  if (!reason) return fail(fmt::format("'{}' is not a reason to reject a sample", count.reason()));
   return Refusal{*reason, count.channel(), count.samples()};
 }
 

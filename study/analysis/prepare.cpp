@@ -15,7 +15,7 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
     const Eigen::ArrayXd& own = measured[k].variance;
     if ((own == 0.0).all()) {
       return fail(fmt::format(
-          "{}: {} never changes, so that there is no noise to model; is the channel in use? "
+          "{}: {} never changes, so it has no noise to model; check that the channel is in use. "
           "--channel chooses others",
           series.channel, series.names[k]));
     }
@@ -23,7 +23,7 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
       const Eigen::ArrayXd& before = measured[other].variance;
       if (own.size() == before.size() && (own == before).all()) {
         return fail(fmt::format(
-            "{}: {} and {} hold the same samples: a recording that is named twice is no replicate",
+            "{}: {} and {} have the same samples; name each recording once",
             series.channel, series.names[other], series.names[k]));
       }
     }

@@ -40,7 +40,7 @@ Result<v1::Study> parse_study(const std::string& text) {
 Result<v1::Study> read_study(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad()) return fail(file.string() + ": cannot be read; is it there?");
+  if (!in.is_open() || in.bad()) return fail(file.string() + ": cannot be read; check the path and its permissions");
   auto out = parse_study(text);
   if (!out) return fail(file.string() + ": " + out.error().message);
   return out;

@@ -224,7 +224,7 @@ TEST_F(Imunoised, SigtermClosesWithinFiveSecondsAndARestartGoesOn) {
   auto found = newest("bench");
   ASSERT_EQ(found->state.notes.size(), 2U);
   EXPECT_EQ(found->state.notes[1].state(), v1::interrupted);
-  EXPECT_EQ(found->state.notes[1].reason(), "it was stopped");
+  EXPECT_EQ(found->state.notes[1].reason(), "stopped");
   expect_sound(found->folder);
 
   EXPECT_EQ(run({"bench.toml"}), 0);
@@ -268,7 +268,7 @@ TEST_F(Imunoised, IsHeldUpWithoutADeviceAndEndsWhenAsked) {
   campaign("bench", "length = \"1 s\"\npatience = \"200 ms\"\n" + device("a"));
   tell("a", "absent");
   start({"bench.toml"});
-  ASSERT_TRUE(comes("is held up, and tries again")) << read("errors");
+  ASSERT_TRUE(comes("is blocked and will try again")) << read("errors");
   EXPECT_NE(read("errors").find("the device is absent"), std::string::npos);
   tell("a", "here");
   EXPECT_EQ(wait(), 0);

@@ -34,7 +34,7 @@ drivers::DriverInfo describe_driver() {
            .choices = drivers::wire_format_names()},
           {.name = "speed",
            .type = kNumber,
-           .description = "Times real time; 0: as fast as it is read",
+           .description = "Speed relative to real time; 0 is as fast as possible",
            .by_default = "1",
            .minimum = 0.0,
            .maximum = 1e9},

@@ -140,7 +140,7 @@ TEST(Tokens, WrongFilesAreRefusedWithoutTellingTokens) {
   refuses("viewer\n", "1: a token has 32");
   refuses("viewer " + kViewer + "\xc3\xa4\n", "1: a token has 32");
   refuses("\nadmin " + kViewer, "2: begin the line");
-  refuses("viewer " + kViewer + "\noperator " + kViewer, "2: this token came before");
+  refuses("viewer " + kViewer + "\noperator " + kViewer, "2: duplicate token; remove one");
 }
 
 TEST(Tokens, FilesThatOthersReadAreRefused) {
@@ -277,11 +277,11 @@ TEST(StudyStore, ADeletedStudyDoesNotComeBack) {
   recording::DiskCalls calls;
   StudyStore studies(folder.path() / "studies", calls);
   ASSERT_TRUE(studies.create("s", {}).has_value());
-  EXPECT_EQ(studies.create("s", {}).error().message, "there is one of this name");
+  EXPECT_EQ(studies.create("s", {}).error().message, "a study of this name exists");
   EXPECT_TRUE(studies.replace("s", {}).has_value());
   ASSERT_TRUE(studies.remove("s").has_value());
   EXPECT_EQ(studies.remove("s").error().status, 404U);
-  EXPECT_EQ(studies.replace("s", {}).error().message, "the study was deleted meanwhile");
+  EXPECT_EQ(studies.replace("s", {}).error().message, "the study was deleted while the command ran");
   EXPECT_FALSE(studies.contains("s"));
 }
 
