@@ -52,7 +52,8 @@ class Run {
     std::stop_source& of;
     void operator()() const { of.request_stop(); }
   };
-  // What is remembered, and what is told of it, keep their distance from now when the clock is set.
+  // What is remembered, and what is told of it, keep their distance from the present when the clock
+  // is set.
   void follow_clock() {
     const auto leap = leaps_.look();
     if (!leap) return;

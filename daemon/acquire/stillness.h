@@ -1,6 +1,6 @@
 #pragma once
 
-// Watches whether a bench lies still: a knock widens the scatter within a second, whoever moves the
+// Watches whether a bench lies still: a knock widens the scatter within a second, moving the
 // bench shifts the mean from one second to the next.
 
 #include <cstddef>

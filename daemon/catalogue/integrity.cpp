@@ -60,12 +60,11 @@ bool tells_of_damage(const Error& error, const fs::path& file) {
 }
 
 tl::unexpected<Error> with_way_out(const Error& error) {
-  return fail(
-      error.message +
-      (says(error, kNoDatabase)
-           ? "; name another one with --catalogue, unless this was a catalogue: you can "
-             "delete it, and imunoise rebuilds it from the recordings"
-           : "; you can delete a catalogue: imunoise rebuilds it from the recordings"));
+  return fail(error.message +
+              (says(error, kNoDatabase)
+                   ? "; name another one with --catalogue, unless this was a catalogue: you can "
+                     "delete it, and imunoise rebuilds it from the recordings"
+                   : "; you can delete a catalogue: imunoise rebuilds it from the recordings"));
 }
 
 Result<SoundDatabase> open_and_check(const std::string& where, std::string& damage) {
@@ -134,7 +133,7 @@ Result<void> forget_damaged_entries(const std::string& where, SoundDatabase& sou
   auto found = damaged_entries(*sound.database);
   if (!found) return tl::unexpected(found.error());
   if (found->empty()) return {};
-  // Looked at again where nobody writes.
+  // Checked again under the lock.
   const auto work = [&]() -> Result<void> {
     found = damaged_entries(*sound.database);
     if (!found) return tl::unexpected(found.error());

@@ -22,7 +22,8 @@ using Path = std::filesystem::path;
 
 tl::unexpected<Error> trouble(const Path& path, int error) {
   if (error == ELOOP || error == ENOTDIR)
-    return fail(path.string() + ": a link, or below one; imunoise follows no links in data folders");
+    return fail(path.string() +
+                ": a link, or below one; imunoise follows no links in data folders");
   return fail(path.string() + ": cannot be read: " + std::generic_category().message(error));
 }
 
@@ -60,7 +61,7 @@ class ConfinedFiles final : public recording::FileSystem {
     if (!entries) return trouble(folder, errno);
     const int at = opened->release();  // the stream's now
     std::vector<std::string> out;
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody else reads this stream.
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): this stream has no other reader.
     while (const dirent* const entry = ::readdir(entries.get())) {
       const std::string name = entry->d_name;
       struct stat found {};

@@ -35,7 +35,8 @@ tl::unexpected<Error> trouble(const std::string& path, std::string_view what) {
 Result<void> make_room(const std::string& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return {};
-  if (!S_ISSOCK(found.st_mode)) return fail(path + ": exists and is not a socket; choose another path");
+  if (!S_ISSOCK(found.st_mode))
+    return fail(path + ": exists and is not a socket; choose another path");
   const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const bool refused =
       ::connect(probe, Address(path).get(), sizeof(sockaddr_un)) != 0 && errno == ECONNREFUSED;
@@ -54,7 +55,7 @@ Result<int> listen_on(const std::filesystem::path& file) {
                             sizeof(sockaddr_un::sun_path) - 1));
   if (auto done = make_room(path); !done) return tl::unexpected(done.error());
   const int out = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  // Nobody can connect before it listens: the mode is set by then.
+  // No client can connect before it listens: the mode is set by then.
   if (out < 0 || ::bind(out, Address(path).get(), sizeof(sockaddr_un)) != 0 ||
       ::chmod(path.c_str(), kOwnerAndGroup) != 0 || ::listen(out, kBacklog) != 0) {
     auto error = trouble(path, "cannot be listened on");

@@ -208,7 +208,7 @@ std::string LimitedChild::cause_of_death() {
 
 void limit_memory(std::uint64_t bytes) {
   const std::uint64_t now = memory_now();
-  if (now > 0) set_soft_limit(RLIMIT_AS, now + bytes);  // without /proc nobody knows
+  if (now > 0) set_soft_limit(RLIMIT_AS, now + bytes);  // unknown without /proc
 }
 
 void limit_computing(std::uint64_t seconds) {

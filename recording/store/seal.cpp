@@ -87,7 +87,7 @@ v1::DamagedFile damaged_segment(const DeviceFolder& where, std::uint64_t number,
   out.set_file(where.file(numbered(number, kJournalSuffix)));
   out.set_kept_as(where.file(sealed.kept_as));
   out.set_reason(*sealed.damage + "; its whole blocks are kept");
-  // Nobody can tell an interrupted write, which costs nothing, from a damaged end.
+  // An interrupted write, which costs nothing, looks like a damaged end.
   out.set_accepted(sealed.torn);
   return out;
 }

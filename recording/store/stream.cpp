@@ -137,8 +137,8 @@ void append(Rows& to, const Rows& from) {
 }
 
 Result<void> check_device(const v1::RecordedDevice& device) {
-  std::set<std::string> nobody;
-  if (auto good = check_name("device", device.name(), nobody); !good) return good;
+  std::set<std::string> no_others;
+  if (auto good = check_name("device", device.name(), no_others); !good) return good;
   if (device.streams().empty()) return fail("the device has no stream");
   std::set<std::string> streams;
   for (const v1::RecordedStream& stream : device.streams()) {
@@ -194,7 +194,8 @@ Result<void> check_block(const v1::RecordedDevice& device, const Block& block) {
     const auto named = [&](const v1::RecordedChannel& c) { return c.name() == one.channel; };
     if (!one.channel.empty() &&
         std::none_of(stream.channels().begin(), stream.channels().end(), named)) {
-      return trouble(fmt::format("a rejection names channel '{}', which does not exist", one.channel));
+      return trouble(
+          fmt::format("a rejection names channel '{}', which does not exist", one.channel));
     }
   }
   const std::uint64_t refused = refused_rows(rows.refused);

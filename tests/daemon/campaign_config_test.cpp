@@ -209,7 +209,7 @@ TEST(CampaignConfig, SaysWhatWouldBeRight) {
   expect_problem("calibration = { array_model = \"WN\" }", "array = true");
   expect_problem("settling = 2026-01-01", "is a date");
   expect_problem("schedule = { every = \"1 h\" }", "takes 2 h");
-  expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give one of them");
+  expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give only one");
   expect_problem("schedule = { calendar = \"Mon; rm\" }", "systemd-analyze calendar");
   expect_problem("schedule = \"now\"", "a table, headed [schedule]");
   expect_problem("stillness = { repeats = 2 }", "repeat_disturbed = true");

@@ -193,7 +193,7 @@ TEST_F(Imunoised, WrongUsageIsTold) {
   EXPECT_EQ(run({"--help"}), 0);
   std::filesystem::create_directory(folder_ / "empty");
   EXPECT_EQ(run({"empty"}), 1);
-  EXPECT_NE(read("errors").find("holds no campaign"), std::string::npos);
+  EXPECT_NE(read("errors").find("contains no campaign"), std::string::npos);
 }
 
 TEST_F(Imunoised, RecordsCampaignsSideBySide) {

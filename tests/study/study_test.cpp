@@ -189,7 +189,7 @@ TEST(Study, OtherRecordingsAreRefused) {
   };
   const auto next = apply(opened(), adding("QN"), other);
   ASSERT_FALSE(next);
-  EXPECT_NE(next.error().message.find("not those that the study began with"), std::string::npos);
+  EXPECT_NE(next.error().message.find("the recordings changed since"), std::string::npos);
 }
 
 TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
@@ -292,7 +292,7 @@ TEST(Diagnose, WhatRemainsIsToldOnceEverythingIsAdded) {
   EXPECT_EQ(report->verdict(), v1::found);
   ASSERT_TRUE(report->has_remaining());
   EXPECT_EQ(report->remaining(), v1::none);
-  EXPECT_NE(report->summary().find("nothing more is missing"), std::string::npos)
+  EXPECT_NE(report->summary().find("no further effect is missing"), std::string::npos)
       << report->summary();
 }
 

@@ -36,8 +36,8 @@ Table weights(const v1::VirtualSensor& sensor, Digits digits) {
 }
 
 Table gains(const v1::VirtualSensor& sensor, Digits digits) {
-  Table out{"Its wavelet variance over that of the sensors' mean",
-            {"averaging time", "by the model", "on unseen replicates"},
+  Table out{"Wavelet variance relative to the mean of the sensors",
+            {"averaging time", "by the model", "on held-out replicates"},
             {}};
   for (const v1::ScaleGain& one : sensor.scale_gains()) {
     out.rows.push_back({duration(one.tau_s()), number(one.predicted(), 3, digits),
@@ -68,7 +68,7 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   section.title = joined(report.sensors());
   bool shared = false;
   for (const v1::SensorPair& pair : report.pairs()) shared = shared || pair.dependent();
-  section.badge = shared ? "shared noise" : "no shared noise seen";
+  section.badge = shared ? "shared noise" : "no shared noise detected";
   section.mood = shared ? Mood::kDoubtful : Mood::kGood;
   section.facts = fmt::format("{} · {:g} Hz · {} sensors · {} replicates · {}", report.model(),
                               report.rate_hz(), report.sensors_size(), report.replicates(),

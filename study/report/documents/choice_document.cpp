@@ -35,7 +35,7 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
                           report.split_count(), report.splits(), report.weights()) +
               estimator_fact(report.estimator());
   out.summary = report.summary();
-  Table table{"Models by the error of their predictions (noise floor = 1)",
+  Table table{"Models by held-out error (noise floor = 1)",
               {"model", "error", "above the best", "free", ""},
               {}};
   std::vector<IntervalRow> rows;

@@ -24,7 +24,7 @@ std::string name_of(const v1::Rung& rung) {
 }
 
 Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"The ladder: error on replicates not used (noise floor = 1)",
+  Table out{"The ladder: held-out error (noise floor = 1)",
             {"added", "held-out error", "training error", "gained", "misfit p"},
             {}};
   for (const v1::Rung& rung : report.ladder()) {
@@ -47,8 +47,8 @@ std::string confusions(const v1::EffectCandidate& one) {
 }
 
 Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{report.verdict() == v1::none ? "What was tried, best first"
-                                         : "What may be missing, best first",
+  Table out{report.verdict() == v1::none ? "Candidates tried, best first"
+                                         : "Effects that may be missing, best first",
             {"effect", "term", "gain", "p", "held-out error", "looks like"},
             {}};
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
@@ -105,8 +105,9 @@ Table misfit_table(const v1::DiagnosisReport& report) {
 }
 
 Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{
-      "Drift after the bias was averaged as long before: predicted / measured", {"model"}, {}};
+  Table out{"Integrated error after averaging the bias for the same time: predicted / measured",
+            {"model"},
+            {}};
   for (const v1::Drift& one : report.ladder(0).drift())
     out.head.push_back(fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
@@ -121,14 +122,14 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
 }
 
 Table integrity_table(const v1::DiagnosisReport& report) {
-  Table out{"The samples themselves", {"defect", ""}, {}};
+  Table out{"Quality of the samples", {"defect", ""}, {}};
   for (const v1::IntegrityFinding& one : report.integrity())
     out.rows.push_back({one.effect(), one.sentence()});
   return out;
 }
 
 Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"What would have been seen nine times in ten", {"effect", "from", "of"}, {}};
+  Table out{"Detection limits (90 % power)", {"effect", "from", "of"}, {}};
   for (const v1::DetectionLimit& one : report.limits()) {
     const std::string effect =
         one.witness().empty() ? one.effect() : fmt::format("{} ({})", one.effect(), one.witness());
@@ -245,7 +246,7 @@ Document document(const v1::Study& study, Digits digits) {
   v1::DiagnosisReport report = study.diagnosis();
   report.set_channel(study.channel());
   report.clear_ladder();
-  report.clear_compared_after();  // of a candidate that nobody added
+  report.clear_compared_after();  // of a candidate that was not added
   std::vector<const v1::StudyAttempt*> path;
   for (const v1::StudyAttempt* at = &study.attempts(static_cast<int>(study.current()));;
        at = &study.attempts(static_cast<int>(at->parent()))) {
@@ -267,7 +268,7 @@ Document document(const v1::Study& study, Digits digits) {
     if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
     out.tables.push_back(drift_table(report, digits));
   }
-  Table attempts{"Every model that was tried", {"", "model", "held-out error", ""}, {}};
+  Table attempts{"All attempts", {"", "model", "held-out error", ""}, {}};
   for (int i = 0; i < study.attempts_size(); ++i) {
     const v1::StudyAttempt& one = study.attempts(i);
     const bool current = i == static_cast<int>(study.current());

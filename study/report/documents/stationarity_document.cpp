@@ -57,9 +57,9 @@ Section section(const v1::StationarityReport& report, Digits digits) {
   const bool misfit = report.misfit().rejected();
   const bool differ = report.heterogeneity().rejected();
   const bool both_tested = tested(report.misfit()) && tested(report.heterogeneity());
-  out.badge = misfit && differ ? "misfit, and parameters move"
+  out.badge = misfit && differ ? "misfit, and parameters differ"
               : misfit         ? "misfit"
-              : differ         ? "parameters move"
+              : differ         ? "parameters differ"
               : both_tested    ? "near-stationary"
                                : "not tested";
   out.mood = misfit        ? Mood::kBad

@@ -135,7 +135,7 @@ TEST(Tokens, WrongFilesAreRefusedWithoutTellingTokens) {
     EXPECT_NE(tokens.error().message.find(words), std::string::npos) << tokens.error().message;
     EXPECT_EQ(tokens.error().message.find("vvv"), std::string::npos) << tokens.error().message;
   };
-  refuses("", "holds no token");
+  refuses("", "contains no token");
   refuses("viewer " + kViewer.substr(1), "1: a token has 32");
   refuses("viewer\n", "1: a token has 32");
   refuses("viewer " + kViewer + "\xc3\xa4\n", "1: a token has 32");
@@ -250,7 +250,7 @@ TEST_F(Requests, RefuseWhatTheyDoNotKnow) {
   refuses("GET", "/v1/history?level=nan", "", "level");
   refuses("GET", "/v1/history?level=1x", "", "level");
   refuses("GET", "/v1/history", "{}", "no body");
-  refuses("POST", "/v1/studies/s/undo?wait_s=1", "", "no query");
+  refuses("POST", "/v1/studies/s/undo?wait_s=1", "", "not a query");
   refuses("POST", "/v1/studies/s/undo", "{", "body");
   refuses("POST", "/v1/studies/s/undo", "[]", "body");
   refuses("POST", "/v1/studies/s/undo", R"({"wait": 1})", "wait");
@@ -281,7 +281,8 @@ TEST(StudyStore, ADeletedStudyDoesNotComeBack) {
   EXPECT_TRUE(studies.replace("s", {}).has_value());
   ASSERT_TRUE(studies.remove("s").has_value());
   EXPECT_EQ(studies.remove("s").error().status, 404U);
-  EXPECT_EQ(studies.replace("s", {}).error().message, "the study was deleted while the command ran");
+  EXPECT_EQ(studies.replace("s", {}).error().message,
+            "the study was deleted while the command ran");
   EXPECT_FALSE(studies.contains("s"));
 }
 

@@ -36,8 +36,7 @@ TEST_P(FaultyOpen, IsAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FaultyOpen,
-                         ::testing::Values(Fault{"throw_in_open",
-                                                 "the driver threw an exception"},
+                         ::testing::Values(Fault{"throw_in_open", "the driver threw an exception"},
                                            Fault{"endless_error", "eeee"},
                                            Fault{"latin1_error", "no sensor at 20 \xEF\xBF\xBD C"},
                                            Fault{"no_handle", "open succeeded without a device"},
@@ -67,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"unknown_stream", "read delivered stream 1 of 1"},
                       Fault{"nan_number", "stream only: channel x: a number is not finite"},
                       Fault{"counter_beyond", "counter 256 is beyond its maximum 255"},
-                      Fault{"nothing_at_all", "neither samples nor refusals"},
+                      Fault{"nothing_at_all", "without samples, rejections"},
                       Fault{"samples_with_timeout", "read delivered samples and returned 1"},
                       Fault{"throw_in_read", "read threw an exception"},
                       Fault{"unknown_status", "read returned 99, which is not a valid status"}));
