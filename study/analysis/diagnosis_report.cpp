@@ -96,7 +96,7 @@ v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Err
   return to;
 }
 
-// What else to record so that an effect can be told from couplings that nobody could see.
+// What else to record so that an effect can be told from couplings to unrecorded quantities.
 std::string beside(const RankedTerm& best, const Subject& subject) {
   const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
   const bool some = std::any_of(unrecorded.begin(), unrecorded.end(), [&](std::string_view id) {
@@ -111,7 +111,7 @@ std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
     return "No effect is missing that these data could show; the limits say how strong each effect "
            "would have to be.";
   if (!diagnosis.worth_adding)
-    return "The model misses something that no known effect explains: look where it fails.";
+    return "The model fails, and no known effect explains it: see where it fails.";
   const RankedTerm& best = diagnosis.effects.front();
   const Cause& about = info_of(best.tried, subject);
   const std::string chance = chance_words(best.familywise_p);
