@@ -247,7 +247,7 @@ const Effect& line() {
   static const Effect kLine{
       .name = "line",
       .title = "sine wave",
-      .meaning = "Adds a wave and multiples of its frequency, with phases of each replicate.",
+      .meaning = "Adds a line and its harmonics, with separate phases in each replicate.",
       .parameters = {{.name = "f",
                       .meaning = "frequency",
                       .unit = "Hz",
@@ -285,8 +285,8 @@ const Effect& line() {
             .title = "aliased mains frequency",
             .physics =
                 "The mains frequency, or a multiple, is aliased below half the sampling rate.",
-            .record_next = "the same at another sampling rate: the line moves; and on a "
-                           "battery: it goes",
+            .record_next = "the same at another sampling rate: the line moves; on a "
+                           "battery it disappears",
             .looks_like = {"line"},
             .family = "line"}},
       .check = check_line,
