@@ -88,7 +88,7 @@ TEST_F(Dynamic, AnswersPeople) {
   EXPECT_NE(done.out.find("gyro over rate"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("1 recording · 4 bins"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("N of WN grows from"), std::string::npos) << done.out;
-  EXPECT_NE(done.out.find("75 of 16075 samples were left out"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("75 of 16075 samples were discarded"), std::string::npos) << done.out;
   const Outcome again =
       run("--threads 1 dynamic table.csv --rate 100 --unit deg/s --covariate rate --model "
           "'WN(sigma2~linear)'");

@@ -48,7 +48,7 @@ TEST_F(Inference, TestTellsTheFourAnswersApart) {
   Outcome done = run(stable + "'AR1 + WN'");
   ASSERT_EQ(done.status, 0) << done.errors;
   EXPECT_TRUE(contains(done.out, "x: near-stationary\n")) << done.out;
-  EXPECT_TRUE(contains(done.out, "4 replicates say little")) << done.out;
+  EXPECT_TRUE(contains(done.out, "4 replicates hardly show")) << done.out;
   EXPECT_TRUE(contains(run(stable + "'WN + RW'").out, "x: misfit\n"));
   done = run(moved + "'AR1 + WN'");
   EXPECT_TRUE(contains(done.out, "x: parameters move\n")) << done.out;
@@ -126,7 +126,7 @@ TEST_F(Inference, SelectComparesAllSubModels) {
   ASSERT_EQ(done.status, 0) << done.errors;
   EXPECT_TRUE(contains(done.out, "AR1 + WN predicts replicates")) << done.out;
   EXPECT_TRUE(contains(done.out, "4 splits (leave one out)")) << done.out;
-  EXPECT_TRUE(contains(done.out, "4 replicates say little")) << done.out;
+  EXPECT_TRUE(contains(done.out, "4 replicates hardly show")) << done.out;
   std::istringstream lines(done.out);
   for (std::string line; std::getline(lines, line);) {
     EXPECT_EQ(std::count(line.begin(), line.end(), '('), std::count(line.begin(), line.end(), ')'))

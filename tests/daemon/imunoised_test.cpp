@@ -285,7 +285,7 @@ TEST_F(Imunoised, RepeatsAReplicateThatWasDisturbed) {
   std::this_thread::sleep_for(100ms);
   tell("a", "here");
   ASSERT_TRUE(comes("as replicate-2 on disk")) << read("errors");
-  EXPECT_NE(read("errors").find("did not lie still: 1 time"), std::string::npos) << read("errors");
+  EXPECT_NE(read("errors").find("the sensors moved 1 time"), std::string::npos) << read("errors");
   signal(SIGTERM);
   EXPECT_EQ(wait(), 0);
   const auto found = newest("bench");

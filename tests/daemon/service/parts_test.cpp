@@ -249,7 +249,7 @@ TEST_F(Requests, RefuseWhatTheyDoNotKnow) {
   refuses("GET", "/v1/campaigns?x=1", "", "there are none");
   refuses("GET", "/v1/history?level=nan", "", "level");
   refuses("GET", "/v1/history?level=1x", "", "level");
-  refuses("GET", "/v1/history", "{}", "no body");
+  refuses("GET", "/v1/history", "{}", "not a body");
   refuses("POST", "/v1/studies/s/undo?wait_s=1", "", "not a query");
   refuses("POST", "/v1/studies/s/undo", "{", "body");
   refuses("POST", "/v1/studies/s/undo", "[]", "body");
