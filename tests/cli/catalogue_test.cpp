@@ -66,7 +66,7 @@ TEST_F(CatalogueCommands, ACalibrationSaysEverythingAboutARecording) {
 
 TEST_F(CatalogueCommands, ListsRecordingsAndCalibrations) {
   EXPECT_EQ(std::filesystem::create_directories(folder_ / "bench"), true);
-  EXPECT_NE(run("recordings bench").out.find("There is not a recording"), std::string::npos);
+  EXPECT_NE(run("recordings bench").out.find("This folder has no recordings"), std::string::npos);
   record_week(0, "4e-6");
   record_week(1, "4e-6");
   EXPECT_NE(run("calibrations bench").out.find("imunoise calibrate"), std::string::npos);
