@@ -293,7 +293,7 @@ std::vector<Cause> noise_causes() {
        "noise behind two lags",
        "A fluctuation that passes two lags in a row: temperature behind a housing, or a filter of "
        "second order.",
-       "ten times its longer time constant, with the temperature beside it",
+       "ten times its longer time constant, together with the temperature",
        {"gauss_markov", "temperature", "low_pass"},
        "second_order",
        false,

@@ -261,7 +261,7 @@ Document document(const v1::Study& study, Digits digits) {
     out.mood = Mood::kNeutral;
     const v1::Rung& now = path.back()->rung();
     out.facts = "model " + now.model() + estimator_fact(now.estimator());
-    out.summary = "Ask for candidates to learn what this model lacks.";
+    out.summary = "Run imunoise study candidates to find what this model lacks.";
     out.figures.clear();
     const v1::Rung& last = path.back()->rung();
     out.tables = {ladder_table(report, digits)};
