@@ -67,8 +67,9 @@ int run(const StudyArguments& arguments) {
                              study::SeenPlaces{.other = cache_folder()});
     if (!done) return print_error(done.error());
     if (!opens && changed_since(study, arguments.file))
-      return print_error({arguments.file.string() +
-                          ": the study file changed while the command ran; nothing was saved. Run it again"});
+      return print_error(
+          {arguments.file.string() +
+           ": the study file changed while the command ran; nothing was saved. Run it again"});
     study = std::move(*done);
     if (auto saved = write_file(arguments.file, study::study_text(study)); !saved)
       return print_error(saved.error());

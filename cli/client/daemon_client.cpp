@@ -105,7 +105,8 @@ struct DaemonClient::Connection {
     curl_easy_setopt(curl, CURLOPT_URL, url.c_str());
     const CURLcode done = curl_easy_perform(curl);
     if (incoming.enough || incoming.stop.stop_requested()) return std::string();
-    if (incoming.silent()) return fail(place() + ": stopped sending; check the machine of imunoised");
+    if (incoming.silent())
+      return fail(place() + ": stopped sending; check the machine of imunoised");
     if (done != CURLE_OK)
       return fail(
           fmt::format("{}: no answer ({}); check that imunoised runs and that you are in the group "
@@ -172,7 +173,8 @@ Result<void> read_answer(const std::string& json, google::protobuf::Message& to)
   google::protobuf::util::JsonParseOptions lenient;
   lenient.ignore_unknown_fields = true;  // of a newer daemon
   const auto status = google::protobuf::util::JsonStringToMessage(json, &to, lenient);
-  if (!status.ok()) return fail("invalid reply from imunoised (not JSON): " + std::string(status.message()));
+  if (!status.ok())
+    return fail("invalid reply from imunoised (not JSON): " + std::string(status.message()));
   return {};
 }
 

@@ -36,8 +36,9 @@ Fastest fastest_of(const DeviceCourse& course) {
 
 std::string shortfall(const DeviceCourse& course, std::optional<double> planned_s) {
   if (course.discarded > 0) {
-    return fmt::format("device {}: {} samples were discarded, because its disk could not store them: {}",
-                       course.device.name(), course.discarded, course.disk);
+    return fmt::format(
+        "device {}: {} samples were discarded, because its disk could not store them: {}",
+        course.device.name(), course.discarded, course.disk);
   }
   if (!planned_s) return "";
   const Fastest fastest = fastest_of(course);

@@ -101,8 +101,8 @@ class Selection {
     std::vector<std::string> out;
     for (const CampaignFile& other : out_.found) {
       if (other.campaign.name() == one.campaign.name()) {
-        out.push_back(fmt::format("{}: has the same name '{}' as {}; rename one",
-                                  one.file.string(), one.campaign.name(), other.file.string()));
+        out.push_back(fmt::format("{}: has the same name '{}' as {}; rename one", one.file.string(),
+                                  one.campaign.name(), other.file.string()));
       }
       if (other.folder == one.folder) {
         out.push_back(

@@ -145,8 +145,7 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
         reload.request();
       }
     } else if (signal > 0) {
-      log.fact(
-          fmt::format("{}: closing recordings", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
+      log.fact(fmt::format("{}: closing recordings", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
       manager.stopping();
       supervisor.stop();
       stays = false;

@@ -74,7 +74,8 @@ void Supervisor::tell_changes(const std::map<std::string, CampaignFile>& wanted)
     if (after == wanted.end()) {
       log_.fact(fmt::format("{}: campaign file deleted; the campaign ends {}", name, when(name)));
     } else if (!same(after->second.campaign, file.campaign)) {
-      log_.fact(fmt::format("{}: campaign file changed; the change takes effect {}", name, when(name)));
+      log_.fact(
+          fmt::format("{}: campaign file changed; the change takes effect {}", name, when(name)));
     }
   }
   for (const auto& [name, file] : wanted) {

@@ -79,8 +79,9 @@ void read_schedule(const TomlEntry& entry, std::vector<Problem>& problems,
   }
   if (const auto calendar = reader.text("calendar")) {
     if (!may_be_calendar(*calendar)) {
-      reader.complain("calendar",
-                      "is not a systemd calendar expression; check it with systemd-analyze calendar");
+      reader.complain(
+          "calendar",
+          "is not a systemd calendar expression; check it with systemd-analyze calendar");
     }
     out.set_calendar(*calendar);
   }

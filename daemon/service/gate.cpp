@@ -64,7 +64,8 @@ Answer<void> Gate::check_sender(const RequestHead& head) {
   if (!known_host(head.host, options_.hosts))
     return service::refuse(403, "the header Host names another machine; ask for localhost");
   if (!same_origin(head.origin, head.host))
-    return service::refuse(403, "the header Origin names another site; its pages cannot use this API");
+    return service::refuse(403,
+                           "the header Origin names another site; its pages cannot use this API");
   return {};
 }
 

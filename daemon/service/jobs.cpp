@@ -152,7 +152,9 @@ Answer<v1::Job> Jobs::get(const std::string& job) const {
 Answer<v1::Job> Jobs::wait(const std::string& job, std::chrono::duration<double> patience) const {
   std::unique_lock lock(mutex_);
   const auto entry = find(job);
-  if (!entry) return refuse(404, fmt::format("there is no job '{}'; its number is wrong, or it is too old", job));
+  if (!entry)
+    return refuse(404,
+                  fmt::format("there is no job '{}'; its number is wrong, or it is too old", job));
   news_.wait_for(lock, patience, [&] { return over(entry->job); });
   return entry->job;
 }
@@ -162,7 +164,9 @@ Answer<v1::Job> Jobs::cancel(const std::string& job) {
   {
     const std::lock_guard lock(mutex_);
     const auto entry = find(job);
-    if (!entry) return refuse(404, fmt::format("there is no job '{}'; its number is wrong, or it is too old", job));
+    if (!entry)
+      return refuse(
+          404, fmt::format("there is no job '{}'; its number is wrong, or it is too old", job));
     entry->stop.request_stop();
     if (entry->job.state() == v1::queued) {
       entry->job.set_state(v1::cancelled);

@@ -25,7 +25,8 @@ Answer<void> check_study_name(const std::string& name) {
       });
   if (good) return {};
   return refuse(
-      400, "a study's name has 1 to 64 letters, digits, '_', '-' and '.', and does not begin with '.'");
+      400,
+      "a study's name has 1 to 64 letters, digits, '_', '-' and '.', and does not begin with '.'");
 }
 
 StudyStore::StudyStore(std::filesystem::path folder, recording::DiskCalls& calls)

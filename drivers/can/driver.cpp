@@ -31,7 +31,9 @@ drivers::DriverInfo describe_driver() {
            .type = kText,
            .description = "Known IMU",
            .choices = {presets.begin(), presets.end()}},
-          {.name = "dbc", .type = kText, .description = "DBC file that describes the messages of the IMU"},
+          {.name = "dbc",
+           .type = kText,
+           .description = "DBC file that describes the messages of the IMU"},
           {.name = "channel",
            .type = kText,
            .description = "Signal to record, such as gyro_x=RateOfTurn.X (default: all of the dbc "

@@ -164,7 +164,8 @@ Result<ReadOutcome> Device::outcome(std::int32_t status, const Block& block,
       disconnection_ = failure(driver_, status, text);
       return ReadOutcome::kDisconnected;
     default:
-      if (status > 0) return broken(fmt::format("read returned {}, which is not a valid status", status));
+      if (status > 0)
+        return broken(fmt::format("read returned {}, which is not a valid status", status));
       return fail(failure(driver_, status, text));
   }
 }

@@ -120,8 +120,8 @@ Result<const Driver*> Drivers::find(std::string_view name) const {
   }
   for (const RefusedPlugin& plugin : refused) {
     if (plugin.file.filename() == fmt::format("imunoise-{}.so", name)) {
-      return fail(
-          fmt::format("driver {}: {} cannot be loaded: {}", name, plugin.file.string(), plugin.reason));
+      return fail(fmt::format("driver {}: {} cannot be loaded: {}", name, plugin.file.string(),
+                              plugin.reason));
     }
   }
   return fail(fmt::format("no driver '{}'; there are: {} (see imunoise drivers)", name,

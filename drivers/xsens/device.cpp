@@ -49,12 +49,11 @@ XsensDevice::Started XsensDevice::start_again() const {
     try {
       Started out = start(settings_, closing_, wire_);
       if (out.setup.serial == setup_.serial && out.setup.sends == setup_.sends) return out;
-      throw plugin::DeviceError(
-          IMUNOISE_FAILED,
-          fmt::format("{}: found another device or configuration ({} {} "
-                      "instead of {} {}); begin a new recording",
-                      settings_.port, out.setup.product, out.setup.serial, setup_.product,
-                      setup_.serial));
+      throw plugin::DeviceError(IMUNOISE_FAILED,
+                                fmt::format("{}: found another device or configuration ({} {} "
+                                            "instead of {} {}); begin a new recording",
+                                            settings_.port, out.setup.product, out.setup.serial,
+                                            setup_.product, setup_.serial));
     } catch (const plugin::DeviceError& error) {
       if (!may_pass(error) || closing_.is_set()) throw;
     }

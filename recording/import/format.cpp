@@ -62,12 +62,12 @@ Result<Format> detect_format(const std::filesystem::path& path) {
         "is not an HDF5 file, despite its name (a MATLAB file must be saved as v7.3); "
         "it may be truncated: copy it again");
   }
-  if (extension == ".npy")
-    return trouble("is not a NumPy file, despite its name; save it again");
+  if (extension == ".npy") return trouble("is not a NumPy file, despite its name; save it again");
   const bool text = std::none_of(head.begin(), head.end(), [](char c) { return c == '\0'; });
   if (text || contains(kTextExtensions, extension)) return Format::kText;
   return trouble(
-      "has an unknown format; known are HDF5 (.h5), NumPy (.npy), text (.csv, .tsv, .txt, .dat) or raw "
+      "has an unknown format; known are HDF5 (.h5), NumPy (.npy), text (.csv, .tsv, .txt, .dat) or "
+      "raw "
       "numbers with a sidecar (.f64, .f32, .i16, .i32, .bin)");
 }
 

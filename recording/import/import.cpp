@@ -90,10 +90,10 @@ Result<void> check_agreement(const std::string& first_file, const Table& first,
                       column.name, first_file));
     }
     if (found->unit.symbol != column.unit.symbol) {
-      return fail(
-          fmt::format("{}: channel {} is in {}, but in {} it is in {}; import them separately, or state "
-                      "the true unit with --unit",
-                      file, column.name, found->unit.symbol, first_file, column.unit.symbol));
+      return fail(fmt::format(
+          "{}: channel {} is in {}, but in {} it is in {}; import them separately, or state "
+          "the true unit with --unit",
+          file, column.name, found->unit.symbol, first_file, column.unit.symbol));
     }
   }
   for (const Column& column : table.columns) {

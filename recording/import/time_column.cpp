@@ -85,7 +85,8 @@ Result<std::optional<double>> time_unit(std::string_view name, std::string_view 
 
 Result<EvenTimes> even_times(std::span<const double> times, const TimeColumn& column) {
   if (times.size() < 2) {
-    return fail(fmt::format("{}: cannot derive the sampling rate from one time stamp; pass --rate HZ", column.place));
+    return fail(fmt::format(
+        "{}: cannot derive the sampling rate from one time stamp; pass --rate HZ", column.place));
   }
   const double median = median_step(times);
   double scatter = 0.0;

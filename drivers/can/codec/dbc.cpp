@@ -125,8 +125,8 @@ class Parser {
     const char* const end = token.text.data() + token.text.size();
     const auto [stop, failure] = std::from_chars(token.text.data(), end, out);
     if (failure != std::errc() || stop != end || out > most) {
-      refuse(token,
-             fmt::format("'{}' is not a valid {} (a whole number, at most {})", token.text, what, most));
+      refuse(token, fmt::format("'{}' is not a valid {} (a whole number, at most {})", token.text,
+                                what, most));
       return 0;
     }
     return out;

@@ -82,7 +82,8 @@ std::vector<NumberParameter> hum_parameters(std::optional<double> frequency, dou
 
 const std::vector<Entry>& catalogue() {
   static const std::vector<Entry> kEntries = {
-      {"temperature", "temperature swings and drifts; the channel follows (per K, per K²) with a lag",
+      {"temperature",
+       "temperature swings and drifts; the channel follows (per K, per K²) with a lag",
        witness_parameters("K", "K/h"),
        [](const Wanted& w, Effects& to) { add_witness(kTemperature, w, to); }},
       {"supply", "the same with the supply voltage (per V, per V²)", witness_parameters("V", "V/h"),

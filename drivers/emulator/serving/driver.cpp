@@ -29,19 +29,21 @@ drivers::DriverInfo describe_driver() {
            .choices = {"adis16405", "xsens", "can"}},
           {.name = "model",
            .type = kText,
-           .description = "Noise, such as gyro:WN(sigma2=1e-6)+RW(gamma2=1e-12), per sample in SI; also "
-                          "acc, mag, one axis (gyro_x), temperature, supply (default: of a "
-                          "consumer's IMU)",
+           .description =
+               "Noise, such as gyro:WN(sigma2=1e-6)+RW(gamma2=1e-12), per sample in SI; also "
+               "acc, mag, one axis (gyro_x), temperature, supply (default: of a "
+               "consumer's IMU)",
            .repeated = true},
           {.name = "effect",
            .type = kText,
-           .description =
-               "Effect, such as fan(frequency=23,amplitude=1e-3,channel=gyro_x); see imunoise emulate "
-               "--help",
+           .description = "Effect, such as fan(frequency=23,amplitude=1e-3,channel=gyro_x); see "
+                          "imunoise emulate "
+                          "--help",
            .repeated = true},
           {.name = "fault",
            .type = kText,
-           .description = "Fault, such as unplug(sample=500,count=100); see imunoise emulate --help",
+           .description =
+               "Fault, such as unplug(sample=500,count=100); see imunoise emulate --help",
            .repeated = true},
           {.name = "seed",
            .type = kInteger,
