@@ -41,13 +41,12 @@ enum {
       2,            /* read: cancel was called; so will every later read say; open: likewise */
   IMUNOISE_END = 3, /* read: nothing will ever come again (a replay is over) */
 
-  IMUNOISE_FAILED = -1,     /* none of the others */
-  IMUNOISE_BAD_OPTION = -2, /* open: a value that this device cannot do */
-  IMUNOISE_NOT_FOUND = -3,  /* open: no such device (or file) */
-  IMUNOISE_NO_ACCESS = -4,  /* open: no permission, or in use by another program */
-  IMUNOISE_BAD_DEVICE = -5, /* the device answers, but not as it should: close it */
-  IMUNOISE_DISCONNECTED =
-      -6 /* the device is disconnected. Reading may go on: the driver looks for it */
+  IMUNOISE_FAILED = -1,      /* none of the others */
+  IMUNOISE_BAD_OPTION = -2,  /* open: a value that this device cannot do */
+  IMUNOISE_NOT_FOUND = -3,   /* open: no such device (or file) */
+  IMUNOISE_NO_ACCESS = -4,   /* open: no permission, or in use by another program */
+  IMUNOISE_BAD_DEVICE = -5,  /* the device answers, but not as it should: close it */
+  IMUNOISE_DISCONNECTED = -6 /* disconnected. Reading may go on: the driver looks for it */
 };
 
 /* Types of stored numbers. */
