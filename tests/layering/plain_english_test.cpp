@@ -8,7 +8,7 @@ namespace {
 TEST(PlainEnglish, GuidesAndMessagesHaveNoRiddles) {
   const Tree prose = read_prose(IMUNOISE_SOURCE_DIR);
   ASSERT_TRUE(prose.contains("docs/campaigns.md"));
-  ASSERT_TRUE(prose.contains("cli/study_command.cpp"));
+  ASSERT_TRUE(prose.contains("cli/commands/study_command.cpp"));
   for (const std::string& found : riddles(prose)) ADD_FAILURE() << found;
 }
 

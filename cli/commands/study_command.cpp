@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/parse/input_options.h"
 #include "cli/progress_line.h"
