@@ -16,7 +16,7 @@ using Steady = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPatience{100};  // of one read
 constexpr std::size_t kBlockRows = 1024;
 constexpr std::chrono::milliseconds kDiskSlice{250};  // of waiting for the disk's room
-constexpr std::chrono::seconds kLastDiskPatience{2};  // once somebody wants the reader's end
+constexpr std::chrono::seconds kLastDiskPatience{2};  // once the reader is to stop
 
 }  // namespace
 

@@ -53,12 +53,13 @@ std::optional<figure::Figure> gain_figure(const v1::VirtualSensor& sensor) {
     rows.push_back({duration(one.tau_s()), seen, std::min(seen, one.predicted()),
                     std::max(seen, one.predicted()), seen > 1.0});
   }
-  return interval_figure(
-      "What the virtual sensor gains", "wavelet variance over that of the sensors' mean",
-      "A dot a scale: measured on replicates that the weights were not made from where there are "
-      "any, else by the model; the whisker runs to what the model predicts. Left of 1 the virtual "
-      "sensor is quieter than the mean of all sensors; orange: noisier there.",
-      rows, 1.0);
+  return interval_figure("Gain of the virtual sensor",
+                         "wavelet variance relative to the mean of the sensors",
+                         "One dot per scale: measured on held-out replicates if there are "
+                         "any, else by the model; the whisker ends at the prediction of the model. "
+                         "Left of 1, the virtual "
+                         "sensor is quieter than the mean of all sensors; orange: noisier there.",
+                         rows, 1.0);
 }
 
 }  // namespace

@@ -160,26 +160,25 @@ std::optional<figure::Figure> ladder_figure(const v1::DiagnosisReport& report) {
     rows.push_back({name_of(rung), rung.heldout_error(), rung.heldout_lower(), rung.heldout_upper(),
                     rung.misfit_p() < 0.01});
   }
-  return interval_figure(
-      "The error falling", "held-out error, 1 = noise floor",
-      "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
-      "noise alone makes; orange models do not fit.",
-      rows, 1.0);
+  return interval_figure("How the error falls", "held-out error, 1 = noise floor",
+                         "Each model was fitted without the held-out replicates. The line at 1 is "
+                         "the noise floor; orange models do not fit.",
+                         rows, 1.0);
 }
 
 void add_figures(const v1::DiagnosisReport& report, Section& to) {
   if (report.ladder_size() == 0) return;
   const bool grown = report.has_compared_after();
-  to.figures.push_back(titled(before_figure(report), grown ? "Before" : "The model beside the data",
-                              report.model()));
+  to.figures.push_back(
+      titled(before_figure(report), grown ? "Before" : "Model and data", report.model()));
   add_spectrum(report, report.compared_before(), grown ? "Spectrum before" : "Spectrum", to);
   for (figure::Figure& one : comparison_figures(report, report.compared_before()))
     to.figures.push_back(std::move(one));
   if (report.ladder_size() < 2) return;
   if (grown) {
     const v1::Rung& last = report.ladder(report.ladder_size() - 1);
-    to.figures.push_back(titled(after_figure(report),
-                                "After: the effects taken out of the measurements", last.model()));
+    to.figures.push_back(
+        titled(after_figure(report), "After: measurements without the effects", last.model()));
     add_spectrum(report, report.compared_after(), "Spectrum after", to);
   }
   if (auto ladder = ladder_figure(report)) to.figures.push_back(std::move(*ladder));
