@@ -57,10 +57,9 @@ std::string shortfall(const DeviceCourse& course, std::optional<double> planned_
         course.device.name(), fastest.received, expected, config::print_duration(*planned_s),
         fastest.rate_hz);
   }
-  const std::string when = course.last_s
-                               ? fmt::format("its last sample came {} after the start",
-                                             config::print_duration(*course.last_s))
-                               : "it sent no samples";
+  const std::string when = course.last_s ? fmt::format("its last sample came {} after the start",
+                                                       config::print_duration(*course.last_s))
+                                         : "it sent no samples";
   return fmt::format("device {}: {}; {} of about {:.0f} samples in {} are stored",
                      course.device.name(), when, fastest.stored, expected,
                      config::print_duration(*planned_s));
