@@ -143,7 +143,7 @@ TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
   expect("recordings absent", "absent");
   expect("recordings bench --catalogue absent/x.sqlite", "absent/x.sqlite");
   std::ofstream(folder_ / "junk.sqlite") << "this is no database, whatever its name may say";
-  expect("recordings bench --catalogue junk.sqlite", "may be deleted");
+  expect("recordings bench --catalogue junk.sqlite", "you can delete it");
   expect("history bench", "--device");
   expect("history bench --device 7", "there are simulated:0042");
   expect("history bench --device 0042", "imunoise calibrate");

@@ -317,7 +317,7 @@ TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   ASSERT_EQ(report->compared_before().replicates_size(), 5);
   EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
   EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
-  EXPECT_TRUE(tells(*report, "stands still for 500 samples in 2 places"));
+  EXPECT_TRUE(tells(*report, "repeats its value for 500 samples in 2 places"));
 }
 
 TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {
