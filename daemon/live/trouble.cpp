@@ -23,11 +23,10 @@ std::string sentence(const Trouble& trouble) {
 
 std::optional<Trouble> trouble_of(const recording::DiskCall& call, Steady::time_point now) {
   if (now - call.since < kHangsAfter) return std::nullopt;
-  return Trouble{
-      fmt::format("the disk does not respond: {} of {} does not return; check the disk and the "
-                  "kernel's log (dmesg)",
-                  call.what, call.path.string()),
-      call.since, true};
+  return Trouble{fmt::format("the disk hangs: {} of {} does not return; check the disk and the "
+                             "kernel's log (dmesg)",
+                             call.what, call.path.string()),
+                 call.since, true};
 }
 
 std::optional<Trouble> trouble_of(const std::string& device, const recording::DeviceDisk& disk,

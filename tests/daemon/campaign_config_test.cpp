@@ -187,7 +187,7 @@ driver = "emulatd"
       "a.toml:3:1: replicate: unknown; did you mean 'replicates'?",
       "a.toml:4:1: length: '2': a unit is missing",
       "a.toml:5:27: calibration.models: ",
-      "a.toml:7:2: schedule: says nothing",
+      "a.toml:7:2: schedule: is empty",
       "a.toml:8:1: schedule.evry: unknown; did you mean 'every'?",
       "a.toml:12:18: device 1.options.device: 'adis16504' is none of: adis16405, xsens, can",
       "a.toml:13:9: device 1.options.sed: driver emulated: unknown; did you mean 'seed'?",

@@ -165,7 +165,7 @@ class Imunoised : public testing::Whims {
 TEST_F(Imunoised, ChecksCampaignsAndSaysWhatIsWrongAndWhere) {
   campaign("good", "length = \"2 s\"\n" + device("a"));
   EXPECT_EQ(run({"--check-config", "good.toml"}), 0);
-  EXPECT_NE(read("out").find("good.toml: sound: good: 1 device, 1 replicate of 2 s, once"),
+  EXPECT_NE(read("out").find("good.toml: no errors: good: 1 device, 1 replicate of 2 s, once"),
             std::string::npos)
       << read("out");
   campaign("bad", "lenght = \"2 s\"\n" + device("a"));
