@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `imunoise study add` of terms that nobody foresaw, the whole program, on six replicates of a million samples beside
+# `imunoise study add` of unforeseen terms, the whole program, on six replicates of a million samples beside
 # a temperature that was looked at before: median wall time of nine.
 set -euo pipefail
 # shellcheck source=scripts/common.sh

@@ -18,7 +18,7 @@ bool is_recording(const InputArguments& arguments) {
   return arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files.front());
 }
 
-// Whether the channels lie in several devices. What cannot be read is somebody else's matter.
+// Whether the channels lie in several devices. Files that cannot be read are reported elsewhere.
 bool several_devices(const InputArguments& arguments) {
   if (!is_recording(arguments)) return false;
   const std::filesystem::path& root = arguments.files.front();

@@ -5,7 +5,7 @@
 namespace imunoise::cli {
 namespace {
 
-// Whoever started the program with nohup wants it to outlive the terminal. A signal that is blocked
+// Under nohup the program outlives its terminal. A signal that is blocked
 // comes even where it is ignored.
 bool ignored(int signal) {
   struct sigaction found {};

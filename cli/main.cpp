@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "core/support/memory.h"
 #include "core/support/parallel.h"
 

@@ -46,7 +46,7 @@ enum {
   IMUNOISE_NOT_FOUND = -3,   /* open: no such device (or file) */
   IMUNOISE_NO_ACCESS = -4,   /* open: no permission, or in use by another program */
   IMUNOISE_BAD_DEVICE = -5,  /* the device answers, but not as it should: close it */
-  IMUNOISE_DISCONNECTED = -6 /* the device is gone. Reading may go on: the driver looks for it */
+  IMUNOISE_DISCONNECTED = -6 /* disconnected. Reading may go on: the driver looks for it */
 };
 
 /* Types of stored numbers. */
@@ -190,11 +190,11 @@ typedef struct imunoise_host {
   void (*note)(void* context, const char* text);
   /* Takes bytes as they came over the device's wire, in the form of captures of its kind: Xbus
    * frames, lines of candump, SPI bursts. Calls of one device may not overlap. Returns 0 where
-   * nobody wants them, as a call without bytes asks; else 1. `context` as above. Appended later:
+   * they are not wanted, as a call without bytes asks; else 1. `context` as above. Appended later:
    * look at size first. */
   int32_t (*wire)(void* context, const uint8_t* bytes, uint64_t count);
-  /* For an open that waits: while it runs, the host calls cancel(argument) once nobody wants the
-   * device any more, from any thread, or here and now. Open then fails with IMUNOISE_CANCELLED as
+  /* For an open that waits: while it runs, the host calls cancel(argument) once it no longer wants
+   * the device, from any thread, or here and now. Open then fails with IMUNOISE_CANCELLED as
    * soon as it can. NULL takes the request back: no call is under way when this returns, and none
    * follows; do so before open returns. `context` as above. Appended later: look at size first. */
   void (*while_opening)(void* context, void (*cancel)(void* argument), void* argument);

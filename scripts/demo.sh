@@ -37,7 +37,7 @@ echo
 "$imunoise" fit "${recordings[@]}" --model "$model" --json > "$out/fit.json"
 
 echo
-echo "Fitted against true (of 95 % intervals, one in twenty misses the truth):"
+echo "Fitted and true values (95 % intervals: one in twenty misses the true value):"
 awk -v truth="$truth" -f scripts/fit_against_truth.awk "$out/fit.json"
 
 echo

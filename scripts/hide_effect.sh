@@ -29,7 +29,7 @@ esac
 rm -rf "$out/hidden" "$out/sealed.txt"
 mkdir -p "$out"
 echo "$hidden" > "$out/sealed.txt"
-echo "Recording three replicates of an emulated ADIS16405 with something hidden inside (seed $seed) ..."
+echo "Recording three replicates of an emulated ADIS16405 with a hidden effect (seed $seed) ..."
 for replicate in 1 2 3; do
   "$imunoise" record "$out/hidden" --replicate "$replicate" --device "emulated device=adis16405 \
 speed=0 length=2400 seed=$((seed + replicate)) 'model=gyro: WN(sigma2=9e-6) + RW(gamma2=1e-11)' 'effect=$hidden'" \
@@ -42,5 +42,5 @@ echo
 "$imunoise" diagnose "$out/hidden" --channel emulated/imu/gyro_x --model "WN + RW" --auto \
   --report "$out/diagnosis.html" 2> "$out/diagnose.txt"
 echo
-echo "The seal: $(cat "$out/sealed.txt")"
+echo "The hidden effect: $(cat "$out/sealed.txt")"
 echo "The page: file://$(realpath -m "$out")/diagnosis.html"

@@ -12,7 +12,7 @@ revision=${1:-1}
 out=build/package/package
 
 bash scripts/install_packages.sh package
-echo "Building imunoise as it is shipped ..."
+echo "Building the package ..."
 configure package -D IMUNOISE_PACKAGE_REVISION="$revision"
 compile package
 quietly build/log/package-cpack.txt cpack --config build/package/CPackConfig.cmake
@@ -21,6 +21,6 @@ package=$(find "$out" -maxdepth 1 -name "*.deb" -newer build/log/package-build.t
 echo
 dpkg-deb --info "$package"
 echo "lintian:"
-lintian --allow-root --fail-on error,warning "$package" && echo "nothing to complain of"
+lintian --allow-root --fail-on error,warning "$package" && echo "no errors, no warnings"
 echo
 echo "The package: $package"

@@ -117,7 +117,7 @@ while (($(now_ms) - begin < total * 1000)); do
   fi
   own=$(awk '/^(RssAnon|VmSwap)/ {sum += $2} END {print sum}' "/proc/$daemon/status" 2> /dev/null || true)
   if [[ -z $own ]]; then
-    echo "imunoised ended by itself; the end of $out/daemon.log:" >&2
+    echo "imunoised ended unexpectedly; the end of $out/daemon.log:" >&2
     tail -n 20 "$out/daemon.log" >&2
     exit 1
   fi

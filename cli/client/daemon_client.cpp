@@ -22,7 +22,7 @@ constexpr std::size_t kLargest = std::size_t{256} << 20U;
 Result<std::string> token_in(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string token;
-  if (!(in >> token)) return fail(file.string() + ": holds no token; is it there?");
+  if (!(in >> token)) return fail(file.string() + ": contains no token; write the token into it");
   return token;
 }
 
@@ -105,10 +105,11 @@ struct DaemonClient::Connection {
     curl_easy_setopt(curl, CURLOPT_URL, url.c_str());
     const CURLcode done = curl_easy_perform(curl);
     if (incoming.enough || incoming.stop.stop_requested()) return std::string();
-    if (incoming.silent()) return fail(place() + ": fell silent; is the daemon's machine well?");
+    if (incoming.silent())
+      return fail(place() + ": stopped sending; check the machine of imunoised");
     if (done != CURLE_OK)
       return fail(
-          fmt::format("{}: no answer ({}); does imunoised run, and are you in the group "
+          fmt::format("{}: no answer ({}); check that imunoised runs and that you are in the group "
                       "imunoise?",
                       place(), curl_easy_strerror(done)));
     long status = 0;
@@ -172,7 +173,8 @@ Result<void> read_answer(const std::string& json, google::protobuf::Message& to)
   google::protobuf::util::JsonParseOptions lenient;
   lenient.ignore_unknown_fields = true;  // of a newer daemon
   const auto status = google::protobuf::util::JsonStringToMessage(json, &to, lenient);
-  if (!status.ok()) return fail("the daemon's answer is none: " + std::string(status.message()));
+  if (!status.ok())
+    return fail("invalid reply from imunoised (not JSON): " + std::string(status.message()));
   return {};
 }
 

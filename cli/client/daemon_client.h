@@ -29,7 +29,7 @@ struct DaemonArguments {
 /// Takes an event's name and data; false: no more.
 using TakeEvent = std::function<bool(std::string_view name, const std::string& data)>;
 
-/// One thread at a time. Errors: nobody answers there, the token's file, what the daemon refuses
+/// One thread at a time. Errors: no answer, the token file, what the daemon rejects
 /// (in its own words), an answer that is none.
 class DaemonClient {
  public:
@@ -38,7 +38,7 @@ class DaemonClient {
   /// The answer as it came: JSON.
   Result<std::string> get(const std::string& target);
   Result<std::string> post(const std::string& target, const google::protobuf::Message& request);
-  /// Hands over events as they come, until they are not wanted any more, somebody wants it to stop,
+  /// Hands over events as they come, until the receiver has enough, the caller stops it,
   /// or the daemon ends. Error: not even a heartbeat came for so long (the daemon's own: 15 s).
   Result<void> follow(const std::string& target, const TakeEvent& take, const std::stop_token& stop,
                       std::chrono::milliseconds silence = std::chrono::minutes(1));

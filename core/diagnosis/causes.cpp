@@ -15,7 +15,7 @@ std::vector<Cause> defects() {
       {"lost_samples",
        "lost samples",
        "The transfer dropped samples.",
-       "the device's counter beside the samples",
+       "the counter of the device with the samples",
        {},
        "integrity"},
       {"duplicated_samples",
@@ -38,7 +38,7 @@ std::vector<Cause> defects() {
        "integrity"},
       {"stuck",
        "stuck output",
-       "The output stood still while the noise should have moved it.",
+       "The output repeats its value although the noise should change it.",
        "the device's status word",
        {},
        "integrity"},
@@ -73,8 +73,8 @@ const Cause& cause_info(std::string_view id, const Witness* witness) {
   static const Cause kAnything{
       "cross_axis",
       "coupling to another channel",
-      "What that channel shows, or something that moves with it, enters the output.",
-      "the same while that channel is moved on purpose",
+      "That channel, or a quantity that changes with it, affects the output.",
+      "the same while you change that channel on purpose",
       {},
       "cross_axis"};
   const bool unknown = witness != nullptr && measures_unknown(*witness);
@@ -85,7 +85,7 @@ const Cause& defect_info(std::string_view id) {
   static const Cause kCodes{
       "quantisation",
       "few codes",
-      "The noise is smaller than the step of the converter: rounding is then no white noise, and "
+      "The noise is smaller than the step of the converter: rounding is then not white noise, and "
       "depends on where between two codes the mean lies.",
       "the same at a finer resolution or a smaller range",
       {},

@@ -36,7 +36,7 @@ std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level)
   for (std::size_t t = 0; t < noise.terms.size() && noise.terms.size() > 1; ++t) {
     const std::vector<bool>& given = noise.terms[t].given;
     const auto free = std::count(given.begin(), given.end(), false);
-    if (free < static_cast<std::ptrdiff_t>(given.size())) continue;  // somebody wants it so
+    if (free < static_cast<std::ptrdiff_t>(given.size())) continue;  // kept on purpose
     Model without = noise;
     without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(t));
     Model alone;

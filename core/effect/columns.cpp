@@ -90,7 +90,7 @@ Result<void> check(const EffectTerm& term, const Subject& subject) {
   if (effect.witness && subject.find(term.witness) == nullptr) {
     std::string known;
     for (const Witness& one : subject.witnesses) known += (known.empty() ? "" : ", ") + one.name;
-    return unfit(term, known.empty() ? "no channel was recorded beside this one that changes"
+    return unfit(term, known.empty() ? "no other recorded channel changes"
                                      : "no such witness; there are " + known);
   }
   for (std::size_t i = 0; i < term.values.size(); ++i) {

@@ -156,7 +156,8 @@ Result<EffectTerm> parse_effect(const Effect& effect, std::string_view whole,
     } else if (effect.witness && out.witness.empty() && !one.empty()) {
       out.witness = one;
     } else {
-      return wrong(whole, fmt::format("'{}' is not known here; it takes {}", one, choices(effect)));
+      return wrong(whole,
+                   fmt::format("unknown parameter '{}'; known are {}", one, choices(effect)));
     }
   }
   if (effect.witness && out.witness.empty()) return wrong(whole, "needs the name of a channel");

@@ -14,7 +14,7 @@ std::vector<Cause> coupling_causes();
 std::string_view coupling_effect(Quantity subject, const Witness& witness);
 /// True for a witness of which nothing says what it measures.
 bool measures_unknown(const Witness& witness);
-/// Couplings to surroundings that nobody recorded: what stood still is no suspect.
+/// Couplings to surroundings without a recording; constant ones are excluded.
 std::vector<std::string_view> unrecorded_couplings(const Subject& subject);
 /// True where both sensors could feel the same motion, so that it need not be the one leaking into
 /// the other.

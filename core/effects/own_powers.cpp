@@ -80,7 +80,7 @@ const Effect& own_powers() {
   static const Effect kOwnPowers{
       .name = "own_powers",
       .title = "powers of each replicate",
-      .meaning = "Gives every replicate noise powers of its own.",
+      .meaning = "Gives every replicate its own noise powers.",
       .parameters = {{.name = "spread",
                       .meaning = "standard deviation over the replicates of the logarithm of the "
                                  "noise power",

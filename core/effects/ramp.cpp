@@ -57,7 +57,7 @@ const Effect& ramp() {
       .title = "ramp",
       .meaning = "Adds a constant slope.",
       .parameters = {{.name = "own",
-                      .meaning = "each replicate has a slope of its own",
+                      .meaning = "separate slope in each replicate",
                       .form = ParameterForm::kFlag},
                      {.name = "slope",
                       .meaning = "slope; with own, its standard deviation over the replicates",
@@ -67,9 +67,9 @@ const Effect& ramp() {
       .coefficient = "slope",
       .causes = {{.id = "rate_ramp",
                   .title = "ramp",
-                  .physics = "The bias drifts at a constant rate: ageing, or a temperature that "
+                  .physics = "The bias changes at a constant rate: ageing, or a temperature that "
                              "rises steadily.",
-                  .record_next = "longer, with the temperature beside it",
+                  .record_next = "longer, together with the temperature",
                   .looks_like = {"warm_up", "temperature", "random_walk", "step"},
                   .family = "rate_ramp",
                   .slow = true}},

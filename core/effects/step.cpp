@@ -36,7 +36,7 @@ Result<void> check_step(const EffectTerm& term, const Subject& subject) {
   if (term[kStepReplicate] > static_cast<double>(recorded))
     return unfit(term, fmt::format("there are only {} replicates", recorded));
   if (!stepping(term, subject))
-    return unfit(term, "nothing of the replicate is used around that time");
+    return unfit(term, "the replicate has no usable samples at that time");
   return {};
 }
 
@@ -117,7 +117,7 @@ const Effect& step() {
       .anywhere = true,
       .causes = {{.id = "step",
                   .title = "step",
-                  .physics = "Stress is released, a connector moves, or someone touched the bench.",
+                  .physics = "Stress is released, a connector moves, or the bench is touched.",
                   .record_next = "nothing: cut the recording there, or keep the step in the model",
                   .looks_like = {"random_walk", "telegraph", "rate_ramp"},
                   .family = "step"}},

@@ -83,7 +83,7 @@ const Effect& warm_up() {
                       .rounding = Rounding::kFourDigits,
                       .error = ShapeError::kLogarithm},
                      {.name = "own",
-                      .meaning = "each replicate has an amplitude of its own",
+                      .meaning = "separate amplitude in each replicate",
                       .form = ParameterForm::kFlag},
                      {.name = "amplitude",
                       .meaning =

@@ -301,7 +301,7 @@ const Effect& witness() {
             .meaning = "the change of the witness per second",
             .form = ParameterForm::kFlag},
            {.name = "own",
-            .meaning = "each replicate has a coefficient of its own",
+            .meaning = "separate coefficient in each replicate",
             .form = ParameterForm::kFlag},
            {.name = "coefficient",
             .meaning = "output per unit of the witness; with own, its standard deviation over the "

@@ -22,7 +22,7 @@ class Descriptor {
   }
 
   int get() const { return value_; }
-  /// Hands it over: whoever takes it closes it.
+  /// Hands it over: the new owner closes it.
   int release() { return std::exchange(value_, -1); }
 
  private:

@@ -6,7 +6,7 @@
 namespace imunoise {
 
 /// Calls work(i) for i = 0 .. count-1, on several threads. The items are the fixed blocks of a
-/// computation: whoever calls stores each item's result under its index and combines them in order,
+/// computation: the caller stores each item's result under its index and combines them in order,
 /// so that the answer does not depend on the number of threads. `work` must be thread-safe.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work);
 

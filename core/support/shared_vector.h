@@ -6,7 +6,7 @@
 
 namespace imunoise {
 
-/// Numbers that many hold and nobody changes: a vector's, or those of a file that is mapped into
+/// Numbers with many holders and no writer: a vector's, or those of a file that is mapped into
 /// memory. Copies share them. Reads as any vector does; but `const Eigen::VectorXd& x = shared`
 /// makes a copy of them all: take `const SharedVector&` or `const VectorRef&`.
 class SharedVector : public Eigen::Map<const Eigen::VectorXd> {

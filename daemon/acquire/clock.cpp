@@ -71,12 +71,12 @@ bool SystemClock::synchronised() const {
 bool SystemClock::wait_until(Time time, const std::stop_token& stop) {
   constexpr std::chrono::seconds kSlice{10};  // after which a clock that was set is looked at anew
   std::mutex mutex;
-  std::condition_variable_any nobody;
+  std::condition_variable_any never_notified;
   std::unique_lock lock(mutex);
   LeapWatch leaps(*this);
   while (!stop.stop_requested() && now() < time) {
     const auto left = std::min<nanoseconds>(time - now(), kSlice);
-    nobody.wait_for(lock, stop, left, [] { return false; });
+    never_notified.wait_for(lock, stop, left, [] { return false; });
     if (leaps.look()) break;
   }
   return !stop.stop_requested();

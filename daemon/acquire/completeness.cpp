@@ -36,8 +36,9 @@ Fastest fastest_of(const DeviceCourse& course) {
 
 std::string shortfall(const DeviceCourse& course, std::optional<double> planned_s) {
   if (course.discarded > 0) {
-    return fmt::format("device {}: {} samples were discarded, because its disk took none: {}",
-                       course.device.name(), course.discarded, course.disk);
+    return fmt::format(
+        "device {}: {} samples were discarded, because its disk could not store them: {}",
+        course.device.name(), course.discarded, course.disk);
   }
   if (!planned_s) return "";
   const Fastest fastest = fastest_of(course);
@@ -56,10 +57,9 @@ std::string shortfall(const DeviceCourse& course, std::optional<double> planned_
         course.device.name(), fastest.received, expected, config::print_duration(*planned_s),
         fastest.rate_hz);
   }
-  const std::string when = course.last_s
-                               ? fmt::format("its last sample came {} after the beginning",
-                                             config::print_duration(*course.last_s))
-                               : "no sample came";
+  const std::string when = course.last_s ? fmt::format("its last sample came {} after the start",
+                                                       config::print_duration(*course.last_s))
+                                         : "it sent no samples";
   return fmt::format("device {}: {}; {} of about {:.0f} samples in {} are stored",
                      course.device.name(), when, fastest.stored, expected,
                      config::print_duration(*planned_s));

@@ -49,11 +49,11 @@ Result<void> check_room(const DiskPlan& plan, std::uint64_t free) {
   if (needed <= room) return {};
   const std::string until =
       room <= 0.0 || rate <= 0.0
-          ? "the reserve is touched already"
+          ? "the reserve is already in use"
           : fmt::format("it would be reached in {}", print_duration(std::floor(room / rate)));
   return fail(
-      fmt::format("{} are needed at most, and the disk has {} free, of which {} are to stay free: "
-                  "{}; make room, "
+      fmt::format("{} may be needed; the disk has {} free, and {} must stay free: "
+                  "{}; free some space, "
                   "or record less",
                   print_bytes(needed), print_bytes(static_cast<double>(free)),
                   print_bytes(static_cast<double>(plan.reserve_bytes)), until));

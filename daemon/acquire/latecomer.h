@@ -14,7 +14,7 @@
 
 namespace imunoise::acquire {
 
-/// Opens it again and again, on a thread of its own, until it comes or nobody waits any more.
+/// Opens it again and again, on a thread of its own, until it comes or is no longer awaited.
 class Latecomer {
  public:
   using Open = std::function<Result<std::unique_ptr<drivers::Device>>(const std::stop_token&)>;

@@ -62,7 +62,7 @@ Result<OpenDevices> open_devices(
     wait(std::min<std::chrono::duration<double>>(left, kBetween), progress);
   }
   if (out.missing.size() < plans.size()) return out;
-  return fail(fmt::format("no device is there: {}", out.missing.front().reason()));
+  return fail(fmt::format("no device answers: {}", out.missing.front().reason()));
 }
 
 }  // namespace imunoise::acquire

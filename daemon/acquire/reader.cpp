@@ -16,7 +16,7 @@ using Steady = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPatience{100};  // of one read
 constexpr std::size_t kBlockRows = 1024;
 constexpr std::chrono::milliseconds kDiskSlice{250};  // of waiting for the disk's room
-constexpr std::chrono::seconds kLastDiskPatience{2};  // once somebody wants the reader's end
+constexpr std::chrono::seconds kLastDiskPatience{2};  // once the reader is to stop
 
 }  // namespace
 
@@ -111,7 +111,7 @@ bool Reader::deliver(const recording::Block& block) {
       disk_pause_.reset();
       return true;
     }
-    disk_failure_ = taken ? "it took nothing for too long" : taken.error().message;
+    disk_failure_ = taken ? "it accepted no samples for too long" : taken.error().message;
     disk_patience_ = {};  // enough was waited; from now on what finds no room is counted
     disk_next_ = Steady::now() + disk_pause_.next();
   }

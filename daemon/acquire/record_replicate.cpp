@@ -209,7 +209,7 @@ class Replicate {
     Steady::time_point looked = begin;
     const auto over = [&] {
       if (progress_.stopped()) {
-        if (plan_.duration) interruption_ = "it was stopped";
+        if (plan_.duration) interruption_ = "stopped";
         return true;
       }
       if (std::all_of(readers_.begin(), readers_.end(), [](const auto& r) { return r->ended(); })) {
@@ -251,7 +251,7 @@ class Replicate {
   bool reserve_is_reached() {
     const auto free = files_.free_space(plan_.folder);
     if (!free || *free >= plan_.reserve_bytes) return false;
-    interruption_ = "the disk's reserve was reached; make room";
+    interruption_ = "the disk reserve was reached; free some space";
     return true;
   }
 

@@ -59,8 +59,8 @@ Result<void> WireFile::close() {
   file_.reset();
   if (trouble_) return tl::make_unexpected(*trouble_);
   if (lost_ == 0) return {};
-  return fail(fmt::format("{}: {} bytes are missing: the disk was too slow for them",
-                          path_.string(), lost_));
+  return fail(fmt::format("{}: {} bytes are missing, because the disk was too slow", path_.string(),
+                          lost_));
 }
 
 }  // namespace imunoise::acquire

@@ -17,7 +17,7 @@
 namespace imunoise::acquire {
 
 /// Takes bytes from the moment when a device is opened, which is before there is a folder to write
-/// into. A thread of its own writes them: whoever reads the device never waits for the disk.
+/// into. A thread of its own writes them: the reader of the device never waits for the disk.
 /// Functions are thread-safe.
 class WireFile {
  public:

@@ -40,7 +40,7 @@ Result<v1::Manifest> manifest_of(const recording::FileSystem& files,
                                  const std::filesystem::path& recording) {
   auto manifest = recording::read_manifest(files, recording);
   if (!manifest) return tl::make_unexpected(manifest.error());
-  if (!*manifest) return fail(recording.string() + ": its manifest is gone");
+  if (!*manifest) return fail(recording.string() + ": has no manifest");
   return std::move(**manifest);
 }
 
@@ -81,7 +81,7 @@ Result<std::string> Aftercare::calibrate(const v1::Campaign& campaign,
   if (!done) return tl::make_unexpected(done.error());
   const auto made = study::read_calibration(files_, recording);
   if (!made) return tl::make_unexpected(made.error());
-  if (!*made) return fail(recording.string() + ": was calibrated, but nothing came of it");
+  if (!*made) return fail(recording.string() + ": imunoise calibrate ended without a result");
   return (*made)->summary();
 }
 

@@ -49,14 +49,14 @@ class Selection {
     const auto files = files_at(place);
     if (!files) return reject(place, {files.error().message});
     if (files->empty()) {  // what was there is gone
-      complain(place, {fmt::format("{}: holds no campaign (*.toml)", place.string())});
+      complain(place, {fmt::format("{}: contains no campaign files (*.toml)", place.string())});
     }
     for (const fs::path& file : *files) {
       std::error_code trouble;
       if (file == place || fs::is_regular_file(file, trouble)) {
         read_file(file, drivers);
       } else {  // a pipe would be waited for
-        reject(file, {file.string() + ": is no regular file"});
+        reject(file, {file.string() + ": is not a regular file"});
       }
     }
   }
@@ -101,12 +101,12 @@ class Selection {
     std::vector<std::string> out;
     for (const CampaignFile& other : out_.found) {
       if (other.campaign.name() == one.campaign.name()) {
-        out.push_back(fmt::format("{}: the name '{}' is that of {} too; rename one",
-                                  one.file.string(), one.campaign.name(), other.file.string()));
+        out.push_back(fmt::format("{}: has the same name '{}' as {}; rename one", one.file.string(),
+                                  one.campaign.name(), other.file.string()));
       }
       if (other.folder == one.folder) {
         out.push_back(
-            fmt::format("{}: the folder {} is that of {} too; give each a folder of its own",
+            fmt::format("{}: has the same folder {} as {}; give each campaign its own folder",
                         one.file.string(), one.campaign.folder(), other.file.string()));
       }
     }

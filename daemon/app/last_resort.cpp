@@ -26,7 +26,7 @@ void LastResort::watch(const std::stop_token& stop) {
     if (const std::string hanging = supervisor_.hanging(kPatience); !hanging.empty()) {
       log_.error(hanging);
       log_.error(
-          "ends without closing its recordings; samples that were acknowledged are in the "
+          "exits without closing recordings; acknowledged samples are in the "
           "journals, and the next start recovers them");
       std::_Exit(kNotClosed);
     }

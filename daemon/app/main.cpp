@@ -42,7 +42,7 @@ sigset_t block_signals() {
 
 int check_config(const CampaignFiles& files, const drivers::Drivers& drivers) {
   for (const CampaignFile& one : files.found) {
-    fmt::print("{}: sound: {}\n", one.file.string(), summary(one.campaign, drivers));
+    fmt::print("{}: no errors: {}\n", one.file.string(), summary(one.campaign, drivers));
   }
   for (const std::string& problem : problems(files)) fmt::print("{}\n", problem);
   return files.rejected.empty() ? 0 : 1;
@@ -79,7 +79,7 @@ std::unique_ptr<service::Service> serve(const Arguments& arguments,
   options.version = IMUNOISE_VERSION;
   auto out = service::Service::start(options, subjects);
   if (!out) {
-    log.error(fmt::format("nobody is answered: {}", out.error().message));
+    log.error(fmt::format("API disabled: {}; recording continues", out.error().message));
     return nullptr;
   }
   if (arguments.socket) log.fact("answers on " + arguments.socket->string());
@@ -140,13 +140,12 @@ int record(const Arguments& arguments, CampaignFiles files, const drivers::Drive
     const int signal = sigtimedwait(&signals, nullptr, &kPatience);
     if (signal == SIGHUP) {
       if (arguments.once) {
-        log.fact("SIGHUP: with --once campaigns are read once");
+        log.fact("SIGHUP ignored: --once reads campaigns only at the start");
       } else {
         reload.request();
       }
     } else if (signal > 0) {
-      log.fact(
-          fmt::format("{}: recordings are being closed", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
+      log.fact(fmt::format("{}: closing recordings", signal == SIGTERM ? "SIGTERM" : "SIGINT"));
       manager.stopping();
       supervisor.stop();
       stays = false;

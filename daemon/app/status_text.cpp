@@ -14,7 +14,7 @@ std::string time_text(std::int64_t ns) {
 std::string what(const v1::CampaignStatus& status) {
   switch (status.phase()) {
     case v1::settling:
-      return "comes to rest";
+      return "settling";
     case v1::recording:
       return fmt::format("records replicate {} of {}{}", status.replicate(), status.replicates(),
                          status.attempt() == status.replicate()
@@ -29,7 +29,7 @@ std::string what(const v1::CampaignStatus& status) {
     case v1::waiting:
       return "waits for the next recording";
     case v1::held_up:
-      return "is held up, and tries again";
+      return "is blocked and will try again";
     case v1::finished:
       return "is finished";
     default:

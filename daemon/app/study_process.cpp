@@ -71,7 +71,7 @@ service::ComputeStudy compute_in_child(recording::DiskCalls& calls,
                                        std::vector<std::string> command) {
   return [&calls, command = std::move(command)](const v1::JobOrder& order,
                                                 const Progress& progress) -> Result<v1::Study> {
-    Result<v1::Study> out = fail("it ended without a word");
+    Result<v1::Study> out = fail("it ended without a message");
     const auto hear = [&](std::string_view line) {
       v1::JobReport report;
       if (!JsonStringToMessage({line.data(), line.size()}, &report).ok()) return;

@@ -67,14 +67,15 @@ void Supervisor::tell_changes(const std::map<std::string, CampaignFile>& wanted)
     const auto run = runs_.find(name);
     const bool records = run != runs_.end() && run->second.state.running &&
                          run->second.state.status.phase() == v1::recording;
-    return records ? "once the replicate under way is recorded" : "now";
+    return records ? "after the current replicate" : "now";
   };
   for (const auto& [name, file] : wanted_) {
     const auto after = wanted.find(name);
     if (after == wanted.end()) {
-      log_.fact(fmt::format("{}: its file is gone; it ends {}", name, when(name)));
+      log_.fact(fmt::format("{}: campaign file deleted; the campaign ends {}", name, when(name)));
     } else if (!same(after->second.campaign, file.campaign)) {
-      log_.fact(fmt::format("{}: its file has changed, which takes effect {}", name, when(name)));
+      log_.fact(
+          fmt::format("{}: campaign file changed; the change takes effect {}", name, when(name)));
     }
   }
   for (const auto& [name, file] : wanted) {
@@ -212,7 +213,7 @@ void Supervisor::end(const std::string& campaign) {
     if (state.status.phase() != v1::finished) {
       state.status.set_phase(v1::finished);
       state.status.clear_until_ns();
-      state.status.set_reason("it was stopped");
+      state.status.set_reason("stopped");
     }
   }
   tell(campaign);
@@ -246,7 +247,7 @@ void Supervisor::tell_troubles() {
   }
   for (const auto& [name, trouble] : told_) {
     if (now.contains(name)) continue;
-    log_.fact(fmt::format("{}: is over: {}", name, live::sentence(trouble)));
+    log_.fact(fmt::format("{}: failed: {}", name, live::sentence(trouble)));
     changed.push_back(name);
   }
   told_ = std::move(now);
@@ -311,10 +312,10 @@ Result<void> Supervisor::start(const std::string& campaign, bool once) {
   std::jthread before;  // joined without the mutex, which it may still want
   const std::lock_guard lock(mutex_);
   const auto found = runs_.find(campaign);
-  if (found == runs_.end()) return fail(campaign + ": its file is gone");
+  if (found == runs_.end()) return fail(campaign + ": its campaign file was deleted");
   Run& run = found->second;
   if (ending_) return fail("the daemon is ending");
-  if (run.state.running) return fail(campaign + ": runs already");
+  if (run.state.running) return fail(campaign + ": is already running");
   if (left_to_timer(run.state.campaign)) {
     return fail(
         fmt::format("{0}: is started by its timer; systemctl start imunoise-campaign@{0} "
@@ -332,20 +333,20 @@ Result<void> Supervisor::start(const std::string& campaign, bool once) {
 Result<void> Supervisor::stop(const std::string& campaign, const std::string& recording) {
   const std::lock_guard lock(mutex_);
   const auto found = runs_.find(campaign);
-  if (found == runs_.end()) return fail(campaign + ": its file is gone");
+  if (found == runs_.end()) return fail(campaign + ": its campaign file was deleted");
   Run& run = found->second;
-  if (!run.state.running) return fail(campaign + ": does not run");
+  if (!run.state.running) return fail(campaign + ": is not running");
   const std::string under_way = service::recording_under_way(run.state.status);
   if (!under_way.empty() && recording != under_way) {
     return fail(
         fmt::format("{}: replicate {} of {} of recording {} is being recorded and would be "
-                    "interrupted; to stop it all the same, name it: recording = {}",
+                    "interrupted; to stop it anyway, name it: recording = {}",
                     campaign, run.state.status.replicate(), run.state.status.replicates(),
                     under_way, under_way));
   }
   if (under_way.empty() && !recording.empty()) {
     return fail(
-        fmt::format("{}: does not record {} at the moment; to stop what it does, name no "
+        fmt::format("{}: is not recording {}; to stop the campaign, name no "
                     "recording",
                     campaign, recording));
   }

@@ -23,7 +23,7 @@ Result<v1::BatchStatus> run_batch(recording::FileSystem& files, const Worker& wo
   auto status = study::batch_status(files, worker.folder);
   if (!status) return status;
   const auto lock = files.lock(worker.folder);
-  if (!lock) return fail(worker.folder.string() + ": another imunoise batch run works on it");
+  if (!lock) return fail(worker.folder.string() + ": another imunoise batch run uses it");
   auto told = std::chrono::steady_clock::time_point::min();
   const auto go_on = [&] {
     const auto now = std::chrono::steady_clock::now();
@@ -38,7 +38,7 @@ Result<v1::BatchStatus> run_batch(recording::FileSystem& files, const Worker& wo
     auto done = engine.run(numbers_of(*status), go_on);
     if (!done) return tl::unexpected(done.error());
     if (progress.stopped()) {
-      return fail(fmt::format("{}: stopped; run it again to go on", worker.folder.string()));
+      return fail(fmt::format("{}: stopped; run it again to continue", worker.folder.string()));
     }
     status = study::batch_status(files, worker.folder);
     if (!status) return status;

@@ -114,8 +114,8 @@ Result<void> SlurmEngine::run(const std::vector<std::uint32_t>& shards,
       }
     } else if (now - answered > kPatience) {
       return fail(
-          fmt::format("squeue: the controller does not answer; job {} may run on. imunoise "
-                      "batch run goes on later",
+          fmt::format("squeue: the controller does not answer; job {} may still run. imunoise "
+                      "batch run continues later",
                       *job));
     }
     std::this_thread::sleep_for(look_);

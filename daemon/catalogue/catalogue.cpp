@@ -195,7 +195,7 @@ Result<v1::CataloguedDevice> Catalogue::device(const std::string& wanted) {
   std::string list;
   for (const std::string& id : meant.empty() ? all : meant) list += (list.empty() ? "" : ", ") + id;
   if (!meant.empty())
-    return fail(fmt::format("device '{}': several are called so: name one of {}", wanted, list));
+    return fail(fmt::format("device '{}': ambiguous name; give one of {}", wanted, list));
   return fail(list.empty() ? "there is no device: no recording was found"
                            : fmt::format("device '{}': there is none; there are {}", wanted, list));
 }

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::string_view kPostgres = "postgresql://";
 constexpr std::string_view kInMemory = ":memory:";
-constexpr int kPatience = 3;        // s that a SQLite file may be locked by somebody else
+constexpr int kPatience = 3;        // s that a SQLite file may be locked by another program
 constexpr int kAttempts = 6;        // of a transaction that others disturb
 constexpr int kLocks = 0x696d756e;  // our advisory locks in PostgreSQL, beside those of others
 
@@ -72,7 +72,7 @@ Value cell(const soci::row& row, std::size_t column) {
   }
 }
 
-// Passwords of a connection are nobody's business.
+// Passwords of a connection stay secret.
 std::string name_of(const std::string& where) {
   return where.starts_with(kPostgres) ? "the PostgreSQL catalogue" : where;
 }
@@ -144,7 +144,7 @@ class Transaction {
   bool committed_ = false;
 };
 
-// Those who disturbed each other shall not meet again.
+// Random waits, so that two programs do not collide again.
 void wait_before(int attempt) {
   static thread_local std::minstd_rand random(
       static_cast<unsigned>(::getpid()) ^

@@ -128,10 +128,10 @@ std::string summary_of(const v1::History& history, std::size_t testable) {
                           one.parameter(), one.term());
   }
   if (alarms.empty()) {
-    return fmt::format("The newest calibration is compatible with those before it ({} parameters).",
-                       testable);
+    return fmt::format(
+        "The newest calibration is compatible with the earlier ones ({} parameters).", testable);
   }
-  return fmt::format("Drift: {} changed by more than chance and what this device does by itself.",
+  return fmt::format("Changed: {}, by more than the errors and the usual scatter of this device.",
                      alarms);
 }
 

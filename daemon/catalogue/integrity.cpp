@@ -31,7 +31,7 @@ Result<std::vector<Row>> tables_of(Database& database) {
 Result<std::string> structural_damage(Database& database) {
   const auto found = database.query("pragma integrity_check(1)");
   if (!found) return tl::unexpected(found.error());
-  const std::string said = found->empty() ? "it says nothing" : text(found->front().front());
+  const std::string said = found->empty() ? "it returned nothing" : text(found->front().front());
   if (said != "ok") return said.substr(said.rfind('\n') + 1);
   if (auto ready = prepare_schema(database); !ready) return tl::unexpected(ready.error());
   const auto model = Database::open(":memory:");
@@ -44,7 +44,7 @@ Result<std::string> structural_damage(Database& database) {
   const bool whole = std::all_of(wanted->begin(), wanted->end(), [&](const Row& one) {
     return std::find(tables->begin(), tables->end(), one) != tables->end();
   });
-  return whole ? "" : "its tables are not those of a catalogue";
+  return whole ? "" : "it has other tables than a catalogue";
 }
 
 bool says(const Error& error, std::string_view what) {
@@ -60,12 +60,11 @@ bool tells_of_damage(const Error& error, const fs::path& file) {
 }
 
 tl::unexpected<Error> with_way_out(const Error& error) {
-  return fail(
-      error.message +
-      (says(error, kNoDatabase)
-           ? "; name another one with --catalogue, unless this was a catalogue: that may be "
-             "deleted, and is made again from the recordings"
-           : "; a catalogue may be deleted: it is made again from the recordings"));
+  return fail(error.message +
+              (says(error, kNoDatabase)
+                   ? "; name another one with --catalogue, unless this was a catalogue: you can "
+                     "delete it, and imunoise rebuilds it from the recordings"
+                   : "; you can delete a catalogue: imunoise rebuilds it from the recordings"));
 }
 
 Result<SoundDatabase> open_and_check(const std::string& where, std::string& damage) {
@@ -134,7 +133,7 @@ Result<void> forget_damaged_entries(const std::string& where, SoundDatabase& sou
   auto found = damaged_entries(*sound.database);
   if (!found) return tl::unexpected(found.error());
   if (found->empty()) return {};
-  // Looked at again where nobody writes.
+  // Checked again under the lock.
   const auto work = [&]() -> Result<void> {
     found = damaged_entries(*sound.database);
     if (!found) return tl::unexpected(found.error());

@@ -62,7 +62,7 @@ Result<void> prepare_schema(Database& database) {
     if (version > kSchemaVersion) {
       return fail(fmt::format(
           "the catalogue was made by a later imunoise (its version is {}, this program knows {}): "
-          "name another with --catalogue, or take that program",
+          "name another with --catalogue, or use that version",
           version, kSchemaVersion));
     }
     return version == kSchemaVersion ? Result<void>() : make_anew(database);

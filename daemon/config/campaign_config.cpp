@@ -55,7 +55,7 @@ void read_times(TableReader& reader, v1::Campaign& out) {
     if (*length < kShortest) reader.complain("length", "is shorter than a second");
     out.set_length_s(*length);
   }
-  reader.require("length", "how long each replicate lasts, as \"2 h\"");
+  reader.require("length", "length of each replicate, such as \"2 h\"");
   out.set_settling_s(reader.duration("settling").value_or(0.0));
   out.set_pause_s(reader.duration("pause").value_or(0.0));
   out.set_patience_s(reader.duration("patience").value_or(kPatience));
@@ -79,18 +79,19 @@ void read_schedule(const TomlEntry& entry, std::vector<Problem>& problems,
   }
   if (const auto calendar = reader.text("calendar")) {
     if (!may_be_calendar(*calendar)) {
-      reader.complain("calendar",
-                      "is no systemd calendar expression; systemd-analyze calendar checks one");
+      reader.complain(
+          "calendar",
+          "is not a systemd calendar expression; check it with systemd-analyze calendar");
     }
     out.set_calendar(*calendar);
   }
   if (reader.has("every") && reader.has("calendar")) {
-    reader.complain("calendar", "stands beside 'every'; give one of them");
+    reader.complain("calendar", "conflicts with 'every'; give only one");
   }
   if (!reader.has("every") && !reader.has("calendar")) {
     reader.complain("",
-                    "says nothing; give every = \"6 h\" or calendar = \"Mon 02:00\", or leave "
-                    "the table out to record once, at once");
+                    "is empty; give every = \"6 h\" or calendar = \"Mon 02:00\", or remove "
+                    "the table to record once, now");
   }
   reader.finish();
 }
@@ -102,7 +103,7 @@ void read_retention(const TomlEntry& entry, std::vector<Problem>& problems,
     out.set_recordings(static_cast<std::uint32_t>(*recordings));
   }
   if (const auto age = reader.duration("age")) {
-    if (*age <= 0.0) reader.complain("age", "is zero; give how old a recording may become");
+    if (*age <= 0.0) reader.complain("age", "is zero; give the greatest age of a recording");
     out.set_age_s(*age);
   }
   reader.finish();
@@ -128,7 +129,7 @@ void check_rhythm(TableReader& reader, const v1::Campaign& campaign) {
   if (needed <= campaign.schedule().every_s()) return;
   reader.complain("schedule",
                   fmt::format("a recording takes {} (settling, {} replicates, pauses), longer than "
-                              "every = {}; make one of them fit the other",
+                              "every = {}; record less, or less often",
                               print_duration(needed), campaign.replicates(),
                               print_duration(campaign.schedule().every_s())));
 }
@@ -139,9 +140,9 @@ void read_all(TableReader& reader, const drivers::Drivers& drivers, CampaignConf
     if (const auto good = check_name(*name); !good) reader.complain("name", good.error().message);
     campaign.set_name(*name);
   }
-  reader.require("name", "the campaign's name, as \"bench-3\"");
+  reader.require("name", "name of the campaign, such as \"bench-3\"");
   campaign.set_folder(reader.text("folder").value_or(""));
-  reader.require("folder", "where its recordings lie, as \"recordings/bench-3\"");
+  reader.require("folder", "folder of the recordings, such as \"recordings/bench-3\"");
   const auto replicates = reader.integer("replicates", 1, kMostReplicates);
   campaign.set_replicates(static_cast<std::uint32_t>(replicates.value_or(1)));
   read_times(reader, campaign);

@@ -23,7 +23,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-constexpr std::size_t kLongest = 64;  // letters; nobody means a longer one
+constexpr std::size_t kLongest = 64;  // letters; longer ones match nothing
 
 }  // namespace
 

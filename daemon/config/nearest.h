@@ -6,7 +6,7 @@
 
 namespace imunoise::config {
 
-/// Which of the known names somebody meant who wrote `name`: that of the fewest changed, added or
+/// The known name that `name` probably means: that of the fewest changed, added or
 /// missing letters. Empty where none is near: more than a third of the letters differ.
 std::string_view nearest(std::string_view name, std::span<const std::string> known);
 

@@ -68,7 +68,7 @@ Result<double> parse_sum(std::string_view text, std::span<const NamedUnit> units
   std::string_view rest = text;
   double sum = 0.0;
   skip_blanks(rest);
-  if (rest.empty()) return trouble("says nothing");
+  if (rest.empty()) return trouble("is empty");
   while (!rest.empty()) {
     double number = 0.0;
     const auto [end, error] =

@@ -114,7 +114,7 @@ std::vector<PlacedText> TableReader::texts(const std::string& key) {
     if (const auto* const text = std::get_if<std::string>(&one.content)) {
       out.push_back({*text, one.place});
     } else {
-      complain_at(one.place, key, fmt::format("holds {}; give texts only", type_of(one)));
+      complain_at(one.place, key, fmt::format("contains {}; give texts only", type_of(one)));
     }
   }
   return out;
@@ -134,7 +134,7 @@ std::vector<const TomlValue*> TableReader::tables(const std::string& key) {
       out.push_back(&one);
     } else {
       complain_at(one.place, key,
-                  fmt::format("holds {}; give tables, each headed [[{}]]", type_of(one), key));
+                  fmt::format("contains {}; give tables, each headed [[{}]]", type_of(one), key));
     }
   }
   return out;
@@ -151,8 +151,8 @@ void TableReader::finish() {
 std::string unknown_name(std::string_view name, const std::vector<std::string>& known) {
   const std::string_view near = nearest(name, known);
   if (!near.empty()) return fmt::format("unknown; did you mean '{}'?", near);
-  if (known.empty()) return "unknown; there is none here";
-  return fmt::format("unknown; there are: {}", fmt::join(known, ", "));
+  if (known.empty()) return "unknown; this table has no keys";
+  return fmt::format("unknown; known keys: {}", fmt::join(known, ", "));
 }
 
 }  // namespace imunoise::config

@@ -53,7 +53,7 @@ class TableReader {
   void complain_at(Place place, const std::string& key, const std::string& message);
   /// A problem unless the key is there.
   void require(const std::string& key, const std::string& example);
-  /// Complains of keys that nobody asked for, naming the nearest that is known.
+  /// Reports keys that were not read, with the nearest known one.
   void finish();
 
  private:

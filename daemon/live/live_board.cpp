@@ -40,7 +40,7 @@ std::optional<Trouble> LiveReplicate::trouble(Steady::time_point now) const {
     if (auto found = trouble_of(devices_[i]->live.name(), recorder.disks[i], now)) return found;
   }
   if (devices_.empty() || now - beat_ < kHangsAfter) return std::nullopt;
-  return Trouble{"its recording makes no progress; a device or the disk holds it up", beat_, true};
+  return Trouble{"its recording makes no progress; check the devices and the disk", beat_, true};
 }
 
 void LiveReplicate::join(const v1::RecordedDevice& device) {

@@ -40,10 +40,10 @@ class LiveReplicate : public acquire::ReplicateObserver {
  private:
   struct Watched {
     explicit Watched(const v1::RecordedDevice& device) : live(device) {}
-    std::mutex mutex;  // of its reader's thread and of whoever looks
+    std::mutex mutex;  // of its reader's thread and of those who look
     LiveDevice live;
   };
-  // Those of this moment: they stay while somebody looks at them.
+  // The current ones: they stay while a caller looks at them.
   std::vector<std::shared_ptr<Watched>> devices() const;
 
   // Of the recorder; without devices while nothing is recorded.

@@ -166,13 +166,13 @@ void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
   };
   if (const auto since = of.lost.since(of.now_ns)) {
     add(v1::lost_samples, "", *since,
-        fmt::format("samples were refused or lost, {} times within the last minutes",
+        fmt::format("samples were rejected or are missing, {} times in the last minutes",
                     of.lost.count()));
   }
   for (const Channel& one : of.channels) {
     if (const auto since = one.saturated.since(of.now_ns)) {
       add(v1::saturated, name(one.index), *since,
-          fmt::format("{} samples are at the end of the range", one.saturated.count()));
+          fmt::format("{} samples are at the limit of the range", one.saturated.count()));
     }
     if (of.now_ns - one.same_since_ns > kStuckAfter) {
       add(v1::stuck, name(one.index), one.same_since_ns,

@@ -1,6 +1,6 @@
 #pragma once
 
-// What keeps a campaign from recording, though nobody ended it.
+// What keeps a running campaign from recording.
 
 #include <chrono>
 #include <optional>

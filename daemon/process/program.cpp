@@ -52,7 +52,7 @@ Result<Pipe> make_pipe() {
 }
 
 // A file in memory rather than a pipe: it takes any text at once, and a child that does not read
-// it harms nobody.
+// it does no harm.
 Result<Descriptor> file_of(std::string_view text) {
   Descriptor out(::memfd_create("imunoise", MFD_CLOEXEC));
   if (out.get() < 0) return fail("no file in memory: " + reason(errno));

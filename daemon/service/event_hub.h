@@ -1,6 +1,6 @@
 #pragma once
 
-// Tells every change to whoever listens.
+// Sends every change to its listeners.
 
 #include <functional>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace imunoise::service {
 
-/// Thread-safe. Nobody who tells something waits for those who listen.
+/// Thread-safe. Senders never wait for listeners.
 class EventHub {
  public:
   EventHub() = default;
@@ -27,7 +27,7 @@ class EventHub {
   Result<std::shared_ptr<EventQueue>> subscribe(const std::vector<std::string>& topics,
                                                 const std::function<std::vector<v1::Event>()>& now);
   void tell(const v1::Event& event);
-  /// Somebody listens to a topic.
+  /// Whether a topic has a listener.
   bool wanted(const std::string& topic) const;
 
  private:

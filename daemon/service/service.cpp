@@ -102,7 +102,7 @@ class Service::Implementation {
       }
       if (!control_.trouble().empty()) return refuse(503, "a disk hangs; the log tells which");
       if (!held_up.empty())
-        return refuse(503, "cannot record: " + held_up + "; GET /v1/campaigns tells why");
+        return refuse(503, "cannot record: " + held_up + "; GET /v1/campaigns shows why");
       v1::Health out;
       out.set_status("ok");
       out.set_version(options_.version);

@@ -23,7 +23,7 @@ class BurstReader {
  public:
   /// Borrows the bus, which a Sensor has started. `poll`: bursts back to back, most of them stale;
   /// else one at each data-ready.
-  /// `wire`: told each burst as it came, where somebody wants them.
+  /// `wire`: receives each burst as it came; may be empty.
   BurstReader(SpiBus& bus, const Settings& settings, bool poll, Note note, plugin::WireTap wire);
 
   /// Waits at most `timeout` for an answer and takes all that are there.

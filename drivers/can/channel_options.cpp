@@ -22,7 +22,8 @@ drivers::CanDatabase read_database(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
   if (!file.is_open() || file.bad()) {
-    throw plugin::DeviceError(IMUNOISE_NOT_FOUND, path + ": cannot be read; is it there?");
+    throw plugin::DeviceError(IMUNOISE_NOT_FOUND,
+                              path + ": cannot be read; check the path and its permissions");
   }
   return plugin::or_throw(drivers::parse_dbc(text, path));
 }

@@ -21,7 +21,7 @@ constexpr int kLonger = 4;  // times as long as asked for, for messages that cam
 
 std::string no_rate(const CanStream& stream, double listened_s) {
   return fmt::format(
-      "message {} (0x{:x}) came once in {:.3g} s, which tells no rate; give the rate of the "
+      "message {} (0x{:x}) came once in {:.3g} s, too few to derive its rate; give the rate of the "
       "fastest message (rate=100), or listen longer (listen=10)",
       stream.message().name, stream.message().id, listened_s);
 }

@@ -94,7 +94,7 @@ Result<void> CanStream::add_channel(const CanSignal& signal,
   if (mapping.channel == kCounter) {
     if (signal.type != SignalType::kUnsigned || signal.factor != 1.0 || signal.offset != 0.0) {
       return fail(
-          fmt::format("channel counter: signal {} of message {} is no unsigned whole "
+          fmt::format("channel counter: signal {} of message {} is not an unsigned whole "
                       "number; give it another name",
                       signal.name, message_->name));
     }

@@ -14,7 +14,7 @@ enum class Clock : std::uint8_t {
   kNone,     ///< There is no time stamp.
   kDevice,   ///< The device's own, from its own zero.
   kHost,     ///< The recording computer's, since 1970-01-01 UTC.
-  kNominal,  ///< Counted samples over the configured rate: nobody measured it.
+  kNominal,  ///< Counted samples over the configured rate: not measured.
 };
 
 /// One word, e.g. "device".

@@ -32,7 +32,7 @@ class ErrorText {
 
 constexpr std::int32_t kThrew = INT32_MIN;
 
-// Calls into a plugin; kThrew where it let an exception out.
+// Calls into a plugin; kThrew where it threw an exception.
 template <class Call>
 std::int32_t guarded(Call&& call) noexcept {
   try {
@@ -55,11 +55,11 @@ std::string_view meaning(std::int32_t status) {
     case IMUNOISE_BAD_DEVICE:
       return "the device does not answer as it should";
     case IMUNOISE_DISCONNECTED:
-      return "the device is gone";
+      return "the device is disconnected";
     case kThrew:
-      return "the driver let an exception out";
+      return "the driver threw an exception";
     default:
-      return "an error without a name";
+      return "unknown error";
   }
 }
 
@@ -138,13 +138,13 @@ Result<ReadOutcome> Device::outcome(std::int32_t status, const Block& block,
   const auto broken = [&](std::string_view what) {
     broken_ =
         Error{fmt::format("driver {}: {}; it breaks the rules of driver.h and is not called "
-                          "again: report it to whoever made {}",
+                          "again; report this to the author of {}",
                           driver_.info.name, what, driver_.file.string())};
     block.table_->rows = 0;
     block.table_->stream = 0;
     return tl::make_unexpected(*broken_);
   };
-  if (status == kThrew) return broken("read let an exception out");
+  if (status == kThrew) return broken("read threw an exception");
   if (status == IMUNOISE_OK) {
     const Result<void> sound = check_samples(block);
     if (!sound) return broken(sound.error().message);
@@ -164,7 +164,8 @@ Result<ReadOutcome> Device::outcome(std::int32_t status, const Block& block,
       disconnection_ = failure(driver_, status, text);
       return ReadOutcome::kDisconnected;
     default:
-      if (status > 0) return broken(fmt::format("read returned {}, which means nothing", status));
+      if (status > 0)
+        return broken(fmt::format("read returned {}, which is not a valid status", status));
       return fail(failure(driver_, status, text));
   }
 }
@@ -180,7 +181,7 @@ Result<void> Device::check_samples(const Block& block) const {
                             stream.name, table.row_capacity));
   }
   if (table.rows == 0 && !block.any_refused()) {
-    return fail("read delivered neither samples nor refusals, and no other reason to return");
+    return fail("read returned without samples, rejections or another reason");
   }
   if (stream.counter_maximum > 0) {
     for (const std::uint64_t counter : block.counter()) {
@@ -199,8 +200,8 @@ Result<void> Device::check_samples(const Block& block) const {
     });
     if (!finite) {
       return fail(
-          fmt::format("stream {}: channel {}: a number is not finite; such samples are to "
-                      "be refused",
+          fmt::format("stream {}: channel {}: a number is not finite; such samples must "
+                      "be rejected",
                       stream.name, stream.channels[c].name));
     }
   }

@@ -43,7 +43,7 @@ Result<Driver> load_driver(const fs::path& file) {
   try {
     table = (*entry)(IMUNOISE_DRIVER_ABI, &host_services());
   } catch (...) {
-    return fail(IMUNOISE_DRIVER_ENTRY " let an exception out");
+    return fail(IMUNOISE_DRIVER_ENTRY " threw an exception");
   }
   Result<DriverInfo> info = check_driver(table);
   if (!info) return tl::make_unexpected(info.error());
@@ -120,11 +120,11 @@ Result<const Driver*> Drivers::find(std::string_view name) const {
   }
   for (const RefusedPlugin& plugin : refused) {
     if (plugin.file.filename() == fmt::format("imunoise-{}.so", name)) {
-      return fail(
-          fmt::format("driver {}: {} was refused: {}", name, plugin.file.string(), plugin.reason));
+      return fail(fmt::format("driver {}: {} cannot be loaded: {}", name, plugin.file.string(),
+                              plugin.reason));
     }
   }
-  return fail(fmt::format("no driver '{}'; there are: {} (imunoise drivers says more)", name,
+  return fail(fmt::format("no driver '{}'; there are: {} (see imunoise drivers)", name,
                           known.empty() ? "none" : known));
 }
 

@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> driver_folders(
     std::span<const std::filesystem::path> first = {});
 
 /// Loads every imunoise-*.so of the folders, in order of folders and names; the first of a name
-/// wins. What is not a driver is refused, with the reason, and harms nobody: no entry symbol,
+/// wins. What is not a driver is rejected, with the reason, and affects no other: no entry symbol,
 /// another ABI, a table that check_driver() refuses, a name that is taken, or whatever dlopen says.
 /// Folders that do not exist are passed over. Nothing is ever unloaded. Thread-safe.
 Drivers load_drivers(std::vector<std::filesystem::path> folders);

@@ -67,7 +67,7 @@ Result<imunoise_option_value> parse_value(const Option& option, std::string_view
                                 repaired_utf8(text)));
       }
       if (text.find('\0') != std::string_view::npos) {
-        return fail("holds a character 0, where a driver sees its end; leave it out");
+        return fail("contains a NUL character; remove it");
       }
       if (!option.choices.empty() &&
           std::find(option.choices.begin(), option.choices.end(), text) == option.choices.end()) {

@@ -22,8 +22,8 @@ struct DeviceHandlers {
 };
 
 /// The host's clock for time stamps, ns since 1970-01-01 UTC: the time of day when this process
-/// asked first, continued by the time since the machine started (CLOCK_BOOTTIME). It never steps,
-/// whoever sets the time of day; that it was set shows in the difference between the two.
+/// asked first, continued by the time since the machine started (CLOCK_BOOTTIME). It never steps
+/// when the time of day is set; the difference between the two shows that it was set.
 std::int64_t host_time_ns();
 
 /// The table that every plugin is given. The context of its functions is a DeviceHandlers. Lives

@@ -37,7 +37,7 @@ class Host {
  public:
   Host(const imunoise_host* table, void* context) : table_(table), context_(context) {}
 
-  /// Set once nobody wants the device any more that is being opened: waits of its constructor go
+  /// Set once the device being opened is no longer wanted: waits of its constructor go
   /// through Wait(host.opening(), ...), and end in a DeviceError of IMUNOISE_CANCELLED.
   const CancelSignal& opening() const { return *opening_; }
   /// The host's clock: ns since 1970-01-01 UTC. It never steps, even when the time of day is set.
@@ -45,7 +45,7 @@ class Host {
   /// Tells what a person should know of the device: "reset after 3 bad checksums".
   void note(const std::string& text) const { table_->note(context_, text.c_str()); }
   /// Where to put the bytes that come over the device's wire, in the form of its captures; empty
-  /// where nobody wants them. Ask once: at the device's opening.
+  /// if they are not wanted. Ask once: at the device's opening.
   WireTap wire_tap() const {
     constexpr std::size_t kNeeded = offsetof(imunoise_host, wire) + sizeof(imunoise_host::wire);
     if (table_->size < kNeeded || table_->wire(context_, nullptr, 0) == 0) return {};

@@ -38,7 +38,8 @@ std::int32_t at_the_edge(imunoise_error* error, Operation&& operation) noexcept 
   } catch (const std::exception& failure) {
     return report(error, IMUNOISE_FAILED, failure.what());
   } catch (...) {
-    return report(error, IMUNOISE_FAILED, "the driver threw something that is no std::exception");
+    return report(error, IMUNOISE_FAILED,
+                  "the driver threw an object that is not a std::exception");
   }
 }
 

@@ -9,7 +9,7 @@ namespace imunoise::replay {
 
 /// How fast samples come.
 struct Pace {
-  double speed = 1.0;      ///< Times real time; 0: as fast as they are read.
+  double speed = 1.0;      ///< Relative to real time; 0 is as fast as possible.
   double latency_s = 0.0;  ///< Samples come in groups, this often in real time; 0: one by one.
 };
 
@@ -17,7 +17,7 @@ struct Pace {
 inline drivers::Option speed_option() {
   return {.name = "speed",
           .type = drivers::OptionType::kNumber,
-          .description = "Times real time; 0: as fast as it is read",
+          .description = "Speed relative to real time; 0 is as fast as possible",
           .by_default = "1",
           .minimum = 0.0,
           .maximum = 1e9};

@@ -145,7 +145,7 @@ std::optional<ReceivedCanFrame> CanSocket::receive() {
          fmt::format("{}; plug the adapter in, or bring it up: ip link set {} up",
                      std::generic_category().message(errno), interface_));
   }
-  if (count == 0) fail(IMUNOISE_DISCONNECTED, "the emulated bus is gone; start it again");
+  if (count == 0) fail(IMUNOISE_DISCONNECTED, "the emulated bus has ended; start it again");
   ReceivedCanFrame out;
   for (cmsghdr* part_of = CMSG_FIRSTHDR(&message); part_of != nullptr;
        part_of = CMSG_NXTHDR(&message, part_of)) {
@@ -161,7 +161,7 @@ std::optional<ReceivedCanFrame> CanSocket::receive() {
     }
   }
   const auto frame = frame_of(drivers::Bytes(bytes.bytes).first(static_cast<std::size_t>(count)));
-  if (!frame) fail(IMUNOISE_BAD_DEVICE, "the kernel delivered what is no CAN frame");
+  if (!frame) fail(IMUNOISE_BAD_DEVICE, "the kernel delivered an invalid CAN frame");
   out.frame = *frame;
   return out;
 }

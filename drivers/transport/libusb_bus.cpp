@@ -112,7 +112,7 @@ std::unique_ptr<Device> LibusbBus::open(const Address& address) {
                                             clock_);
     }
   }
-  throw DeviceError(IMUNOISE_NOT_FOUND, describe(address) + ": is gone; plug it in again");
+  throw DeviceError(IMUNOISE_NOT_FOUND, describe(address) + ": was unplugged; plug it in again");
 }
 
 }  // namespace imunoise::drivers::usb

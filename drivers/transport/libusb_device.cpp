@@ -178,8 +178,8 @@ Duration LibusbDevice::now() const { return Clock::now().time_since_epoch(); }
 void LibusbDevice::sleep(Duration duration) { std::this_thread::sleep_for(duration); }
 
 void LibusbDevice::gone(const std::string& why) const {
-  throw DeviceError(IMUNOISE_DISCONNECTED, fmt::format("{}: {}; plug it in again, and it goes on",
-                                                       describe(address_), why));
+  throw DeviceError(IMUNOISE_DISCONNECTED,
+                    fmt::format("{}: {}; plug it in again to continue", describe(address_), why));
 }
 
 }  // namespace imunoise::drivers::usb

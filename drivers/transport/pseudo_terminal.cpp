@@ -42,7 +42,7 @@ PseudoTerminal::PseudoTerminal(const std::string& path)
     : SerialPort("pty:" + path), owned_(open_terminal(path)) {
   lock(owned_.get());
   termios2 mode{};
-  if (::ioctl(descriptor(), TCGETS2, &mode) != 0) fail(IMUNOISE_BAD_DEVICE, "is no terminal");
+  if (::ioctl(descriptor(), TCGETS2, &mode) != 0) fail(IMUNOISE_BAD_DEVICE, "is not a terminal");
   mode.c_iflag = mode.c_oflag = mode.c_lflag = 0;  // bytes pass as they are
   ::ioctl(descriptor(), TCSETS2, &mode);
 }

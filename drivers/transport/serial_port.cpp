@@ -26,7 +26,7 @@ void SerialPort::fail(std::int32_t code, const std::string& what) const {
 }
 
 void SerialPort::fail_as_gone() const {
-  fail(IMUNOISE_DISCONNECTED, "the port is gone; plug the device in again");
+  fail(IMUNOISE_DISCONNECTED, "the port disappeared; plug the device in again");
 }
 
 }  // namespace imunoise::transport

@@ -2,7 +2,7 @@
 
 // USB as a driver needs it: vendor requests and one bulk endpoint each way, with many transfers in
 // flight. Time belongs to it, so that an emulated bus may run faster than life. Trouble is thrown
-// as plugin::DeviceError: NOT_FOUND, NO_ACCESS, DISCONNECTED (the device is gone), FAILED.
+// as plugin::DeviceError: NOT_FOUND, NO_ACCESS, DISCONNECTED (the device is disconnected), FAILED.
 
 #include <chrono>
 #include <cstdint>

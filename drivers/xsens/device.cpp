@@ -49,12 +49,11 @@ XsensDevice::Started XsensDevice::start_again() const {
     try {
       Started out = start(settings_, closing_, wire_);
       if (out.setup.serial == setup_.serial && out.setup.sends == setup_.sends) return out;
-      throw plugin::DeviceError(
-          IMUNOISE_FAILED,
-          fmt::format("{}: another device, or one that sends something else, is there now ({} {} "
-                      "instead of {} {}); begin a new recording",
-                      settings_.port, out.setup.product, out.setup.serial, setup_.product,
-                      setup_.serial));
+      throw plugin::DeviceError(IMUNOISE_FAILED,
+                                fmt::format("{}: found another device or configuration ({} {} "
+                                            "instead of {} {}); begin a new recording",
+                                            settings_.port, out.setup.product, out.setup.serial,
+                                            setup_.product, setup_.serial));
     } catch (const plugin::DeviceError& error) {
       if (!may_pass(error) || closing_.is_set()) throw;
     }
@@ -149,7 +148,7 @@ void XsensDevice::take_other(const XbusFrame& frame) {
   switch (static_cast<XsensMessage>(frame.message_id)) {
     case XsensMessage::kWakeUp:
       rows_->restart();
-      return host_.note(settings_.port + ": the device started anew by itself; is its power good?");
+      return host_.note(settings_.port + ": the device restarted; check its power supply");
     case XsensMessage::kError:
       return host_.note(fmt::format(
           "{}: the device says: {}", settings_.port,

@@ -50,7 +50,7 @@ class XsensDevice final : public plugin::Device {
 
   Settings settings_;
   plugin::Host host_;
-  plugin::WireTap wire_;  // whoever reads the port calls it: a recovery, or the reading thread
+  plugin::WireTap wire_;  // called by the reader of the port: a recovery, or the reading thread
   plugin::CancelSignal closing_;
   Setup setup_;
   std::unique_ptr<RowMaker> rows_;

@@ -9,7 +9,7 @@ namespace imunoise::xsens {
 /// Counts what a parser refuses as refused samples of the first stream.
 class RefusalCounter {
  public:
-  /// What was refused so far is nobody's sample.
+  /// What was rejected so far belongs to no sample.
   void begin(const drivers::XbusParser& parser) { told_ = parser.refused(); }
   /// Counts what came since.
   void count(const drivers::XbusParser& parser, plugin::Samples& samples);

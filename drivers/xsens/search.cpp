@@ -82,7 +82,7 @@ class Search {
           *std::max_element(rates.begin(), rates.end()));
     }
     return fmt::format(
-        "{}: silent at every baud rate; is the device powered, and its cable one for data?",
+        "{}: silent at every baud rate; check power, and that the cable carries data",
         port_.path());
   }
 

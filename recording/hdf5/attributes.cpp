@@ -63,7 +63,7 @@ Result<std::optional<std::uint64_t>> read_count_attribute(hid_t object, const ch
   std::uint64_t value = 0;
   if (!whole || (has_sign && H5Aread(attribute, H5T_NATIVE_INT64, &sign) < 0) || sign < 0 ||
       H5Aread(attribute, H5T_NATIVE_UINT64, &value) < 0) {
-    return fail(fmt::format("attribute {} is no count", name));
+    return fail(fmt::format("attribute {} is not a count", name));
   }
   return std::optional(value);
 }

@@ -107,7 +107,7 @@ std::vector<std::uint8_t> stored_chunk(hid_t dataset, hsize_t offset, std::size_
   return out;
 }
 
-// False: something is unusual, and HDF5 shall say what.
+// False: something is unusual; let HDF5 report it.
 bool read_chunks(hid_t dataset, hsize_t chunk, std::span<std::uint8_t> bytes, std::size_t width) {
   const std::size_t largest = ChunkFilters(chunk, width).largest();
   return for_groups(bytes.size(), chunk * width, [&](std::size_t first, std::size_t count) {

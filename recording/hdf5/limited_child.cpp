@@ -144,7 +144,7 @@ bool Line::receive(std::span<char> bytes, const std::function<bool()>& stopped,
 
 Result<LimitedChild> LimitedChild::start(const std::function<void(const Line&)>& work) {
   const auto trouble = [](int error) {
-    return fail(fmt::format("no process can be made to read it: {}; try again",
+    return fail(fmt::format("cannot start a process to read it: {}; try again",
                             std::generic_category().message(error)));
   };
   std::array<int, 2> ends = {};
@@ -202,13 +202,13 @@ std::string LimitedChild::cause_of_death() {
   }
   if (!WIFSIGNALED(status)) return "it ended early";
   const int signal = WTERMSIG(status);
-  if (signal == SIGXCPU) return "it computed without an end";
+  if (signal == SIGXCPU) return "it exceeded its computing time";
   return fmt::format("it crashed, signal {}", signal);
 }
 
 void limit_memory(std::uint64_t bytes) {
   const std::uint64_t now = memory_now();
-  if (now > 0) set_soft_limit(RLIMIT_AS, now + bytes);  // without /proc nobody knows
+  if (now > 0) set_soft_limit(RLIMIT_AS, now + bytes);  // unknown without /proc
 }
 
 void limit_computing(std::uint64_t seconds) {

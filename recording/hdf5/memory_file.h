@@ -1,6 +1,6 @@
 #pragma once
 
-// HDF5 files in memory: the library never touches the disk, so that whoever does can decide when
+// HDF5 files in memory: the library never touches the disk, so that its caller can decide when
 // bytes are safe, and read each file once for its checksum and its contents.
 
 #include <memory>

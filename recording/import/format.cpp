@@ -64,7 +64,7 @@ Result<const ImportFormat*> detect_format(const std::filesystem::path& path) {
     if (!claimed) return tl::make_unexpected(claimed.error());
     if (*claimed) return format;
   }
-  return trouble(fmt::format("is of no known kind: {}", known_kinds()));
+  return trouble(fmt::format("has an unknown format; known are {}", known_kinds()));
 }
 
 }  // namespace imunoise::recording

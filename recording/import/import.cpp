@@ -47,7 +47,7 @@ Result<void> check_length(const std::string& file, const Table& table, std::size
   for (const Column& column : table.columns) {
     if (size(column.samples) != size(first.samples)) {
       return fail(
-          fmt::format("{}: channel {} has {} samples where {} has {}; read them apart with "
+          fmt::format("{}: channel {} has {} samples where {} has {}; read them separately with "
                       "--channel",
                       file, column.name, size(column.samples), first.name, size(first.samples)));
     }
@@ -65,7 +65,7 @@ Result<void> check_agreement(const std::string& first_file, const Table& first,
                              const std::string& file, const Table& table) {
   if (std::abs(table.rate.value / first.rate.value - 1.0) > kRateTolerance) {
     return fail(
-        fmt::format("{}: sampled at {} Hz, but {} at {} Hz; import them apart, or state the "
+        fmt::format("{}: sampled at {} Hz, but {} at {} Hz; import them separately, or state the "
                     "true rate with --rate HZ",
                     file, table.rate.value, first_file, first.rate.value));
   }
@@ -80,10 +80,10 @@ Result<void> check_agreement(const std::string& first_file, const Table& first,
                       column.name, first_file));
     }
     if (found->unit.symbol != column.unit.symbol) {
-      return fail(
-          fmt::format("{}: channel {} is in {}, but in {} it is in {}; import them apart, or state "
-                      "the true unit with --unit",
-                      file, column.name, found->unit.symbol, first_file, column.unit.symbol));
+      return fail(fmt::format(
+          "{}: channel {} is in {}, but in {} it is in {}; import them separately, or state "
+          "the true unit with --unit",
+          file, column.name, found->unit.symbol, first_file, column.unit.symbol));
     }
   }
   for (const Column& column : table.columns) {

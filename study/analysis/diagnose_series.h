@@ -27,7 +27,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
                                             const Progress& progress = {});
 
 /// The same of a channel that was looked at beside the witnesses that may be blamed;
-/// `options.witnesses` is not heeded.
+/// `options.witnesses` is not used.
 Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
                                              const DiagnoseOptions& options,
                                              const Progress& progress = {});

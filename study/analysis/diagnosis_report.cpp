@@ -89,29 +89,29 @@ v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Err
   std::string sentence = fmt::format("{}{}{}{}: explains {:.1f} nats", about.title, with,
                                      told.empty() ? "" : ", ", told, tried.likelihood_gain);
   if (to.has_heldout_error_after()) {
-    sentence += fmt::format(", and takes the error on replicates not used from {:.3g} to {:.3g}",
+    sentence += fmt::format(", and lowers the held-out error from {:.3g} to {:.3g}",
                             to.heldout_error_before(), to.heldout_error_after());
   }
   to.set_sentence(sentence + fmt::format(" ({}).", chance_words(from.familywise_p)));
   return to;
 }
 
-// What else to record so that an effect can be told from couplings that nobody could see.
+// What else to record so that an effect can be told from couplings to unrecorded quantities.
 std::string beside(const RankedTerm& best, const Subject& subject) {
   const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
   const bool some = std::any_of(unrecorded.begin(), unrecorded.end(), [&](std::string_view id) {
     return std::find(best.confused_with.begin(), best.confused_with.end(), id) !=
            best.confused_with.end();
   });
-  return some ? " Record with it whatever could couple in." : "";
+  return some ? " Also record all channels that could couple in." : "";
 }
 
 std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
   if (diagnosis.verdict == DiagnosisVerdict::kNone)
-    return "Nothing is missing that these data could show; the limits say how strong each effect "
-           "would have had to be.";
+    return "No effect is missing that these data could show; the limits say how strong each effect "
+           "would have to be.";
   if (!diagnosis.worth_adding)
-    return "The model misses something that no known effect explains: look where it fails.";
+    return "The model fails, and no known effect explains it: see where it fails.";
   const RankedTerm& best = diagnosis.effects.front();
   const Cause& about = info_of(best.tried, subject);
   const std::string chance = chance_words(best.familywise_p);
@@ -119,11 +119,11 @@ std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
     return fmt::format("Missing: {} ({}). {}", about.title, chance, about.physics);
   if (diagnosis.verdict == DiagnosisVerdict::kOneOf)
     return fmt::format(
-        "Something is missing: {}, or {}. These data cannot tell them apart. Record {}.{}",
+        "An effect is missing: {}, or {}. These data cannot separate them. Record {}.{}",
         about.title, titles(best.confused_with), about.record_next, beside(best, subject));
   return fmt::format(
-      "Missing: {} ({}), but it does not explain everything: something more remains. Add it and "
-      "look again (--auto does), and see where the model fails.",
+      "Missing: {} ({}), but it does not explain everything. Add it and run the diagnosis "
+      "again (--auto does this), and see where the model fails.",
       about.title, chance);
 }
 
@@ -185,8 +185,8 @@ void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to) {
     to.set_summary(fmt::format("Missing: {}.", all));
   }
   const std::string_view left = verdict == DiagnosisVerdict::kNone
-                                    ? "nothing more is missing that these data could show"
-                                    : "something remains that no known effect explains";
+                                    ? "no further effect is missing that these data could show"
+                                    : "a misfit remains that no known effect explains";
   to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));
 }
 

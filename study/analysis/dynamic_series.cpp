@@ -21,8 +21,8 @@ Result<Model> read_dynamic_model(const std::optional<std::string>& text, Hertz r
   if (!varies(*model)) model = with_varying_powers(std::move(*model));
   if (varies(*model)) return model;
   return fail(
-      fmt::format("model: {} gives every power, so that nothing follows the covariate; "
-                  "leave one open, or say what follows: AR1(sigma2=1, phi~)",
+      fmt::format("model: {} fixes every power, so no parameter depends on the covariate; "
+                  "leave one open, or mark a parameter: AR1(sigma2=1, phi~)",
                   print(*model)));
 }
 
@@ -160,7 +160,8 @@ std::string what_moves(const v1::DynamicReport& report) {
                     last.value() > first.value() ? "grows" : "falls",
                     place_words(first, one.unit(), report), place_words(last, one.unit(), report));
   }
-  return out.empty() ? fmt::format("No noise is seen to follow {}. ", report.covariate()) : out;
+  return out.empty() ? fmt::format("No parameter depends significantly on {}. ", report.covariate())
+                     : out;
 }
 
 std::string summary_of(const v1::DynamicReport& report) {
@@ -168,14 +169,14 @@ std::string summary_of(const v1::DynamicReport& report) {
   const std::string misfit = chance_words(report.misfit().p_value());
   const std::string links = chance_words(report.links().p_value());
   if (report.misfit().degrees_of_freedom() == 0) {
-    out += "There are too few scales to test the model's shape";
+    out += "There are too few scales to test the model";
   } else if (report.misfit().rejected()) {
     out += fmt::format(
-        "The model's shape does not fit the bins even by themselves ({}): a process "
+        "The model does not fit even single bins ({}): a process "
         "is missing",
         misfit);
   } else {
-    out += fmt::format("The model's shape fits in the bins ({})", misfit);
+    out += fmt::format("The model fits each bin ({})", misfit);
   }
   if (report.links().degrees_of_freedom() == 0) {
     return out + "; there are too few bins to test the curves.";
@@ -183,7 +184,7 @@ std::string summary_of(const v1::DynamicReport& report) {
   return out +
          (report.links().rejected()
               ? fmt::format("; the curves miss the bins ({}): look at the points beside them, "
-                            "and try another link or let more follow.",
+                            "and try another link, or let more parameters depend on it.",
                             links)
               : fmt::format("; the curves follow the bins ({}).", links));
 }
@@ -193,12 +194,12 @@ void add_notes(const DynamicFit& fit, const CovariateData& covariate, const Dyna
   const std::size_t left_out = covariate.bins.left_out;
   if (left_out > 0) {
     out.add_notes(fmt::format(
-        "{} of {} samples were left out: between the bins, settling, or in runs of fewer than {}.",
+        "{} of {} samples were discarded: between the bins, settling, or in runs of fewer than {}.",
         left_out, samples, kLeastRun));
   }
   if (!covariate.bins.plateaus) {
     out.add_notes(fmt::format(
-        "{} passes through the bins rather than staying: what it does to the sensor's output "
+        "{} moves through the bins instead of staying: its effect on the output of the sensor "
         "within a bin counts as noise.",
         covariate.name));
   }

@@ -154,7 +154,7 @@ void add_sensors(v1::DiagnosisReport& to) {
     v1::Misfit& misfit =
         add(to, "sensors", one.sigma(),
             fmt::format("At {:.3g} to {:.3g} Hz it moves with {} (correlation {:.2f}, {:.1f} "
-                        "sigma), which the model does not say.",
+                        "sigma), which the model does not explain.",
                         one.from_hz(), one.to_hz(), one.second(), one.correlation(),
                         std::abs(one.sigma())));
     misfit.set_from(one.from_hz());

@@ -15,16 +15,15 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
     const Eigen::ArrayXd& own = measured[k].variance;
     if ((own == 0.0).all()) {
       return fail(fmt::format(
-          "{}: {} never changes, so that there is no noise to model; is the channel in use? "
+          "{}: {} never changes, so it has no noise to model; check that the channel is in use. "
           "--channel chooses others",
           series.channel, series.names[k]));
     }
     for (std::size_t other = 0; other < k; ++other) {
       const Eigen::ArrayXd& before = measured[other].variance;
       if (own.size() == before.size() && (own == before).all()) {
-        return fail(fmt::format(
-            "{}: {} and {} hold the same samples: a recording that is named twice is no replicate",
-            series.channel, series.names[other], series.names[k]));
+        return fail(fmt::format("{}: {} and {} have the same samples; name each recording once",
+                                series.channel, series.names[other], series.names[k]));
       }
     }
   }
@@ -46,7 +45,7 @@ Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance
   if (free_parameters(model) <= scales) return {};
   return fail(
       fmt::format("model: {} has {} free parameters, but the recording has only {} scales; take a "
-                  "smaller model, record longer, or ask for more scales an octave",
+                  "smaller model, record longer, or use more scales per octave",
                   print(model), free_parameters(model), scales));
 }
 

@@ -89,17 +89,17 @@ const v1::CandidateModel& simplest_equivalent(const v1::ChoiceReport& report) {
 std::string summary_of(const v1::ChoiceReport& report) {
   const v1::CandidateModel& best = report.candidates(0);
   std::string out = fmt::format(
-      "{} predicts replicates that it was not fitted to best: its error is {:.3g} times the noise "
+      "{} has the smallest held-out error: {:.3g} times the noise "
       "floor.",
       best.model(), best.merit());
   if (const v1::CandidateModel& simplest = simplest_equivalent(report); &simplest != &best) {
     out +=
-        fmt::format(" {} is simpler, and the data cannot say that it is worse.", simplest.model());
+        fmt::format(" {} is simpler, and the data do not show that it is worse.", simplest.model());
   }
   if (report.far_from_floor()) {
     out +=
         " That is far from the floor: either every model lacks a process, or the replicates differ "
-        "by more than chance; imunoise test says which.";
+        "significantly; imunoise test shows which.";
   }
   return out;
 }
@@ -116,10 +116,10 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
         given.channel, given.replicates.front().size(), kBlocks, kLeastSamples));
   }
   if (options.choice.splits == Splits::kHalf && given.replicates.size() > kMostForHalves) {
-    return fail(fmt::format(
-        "{}: {} replicates can be halved in too many ways, and each is a fit: leave out one at a "
-        "time (--splits leave-one-out)",
-        given.channel, given.replicates.size()));
+    return fail(
+        fmt::format("{}: {} replicates have too many splits into halves; leave out one at a "
+                    "time (--splits leave-one-out)",
+                    given.channel, given.replicates.size()));
   }
   const Series series = blocks ? in_blocks(given) : given;
   std::vector<std::string> texts = options.models;
@@ -149,15 +149,16 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   out.set_far_from_floor(best.merit() > kFarFromFloor && best.merit_lower() > 1.0);
   out.set_summary(summary_of(out));
   if (blocks) {
-    out.add_notes(fmt::format(
-        "There is one recording: it was cut into {} contiguous blocks. They share whatever changes "
-        "from day to day and from power-on to power-on, so this is weaker evidence than "
-        "replicates.",
-        kBlocks));
+    out.add_notes(
+        fmt::format("There is one recording; imunoise cut it into {} contiguous blocks. They do "
+                    "not show changes "
+                    "from day to day or between power-ons, so this is weaker evidence than "
+                    "replicates.",
+                    kBlocks));
   }
   if (series.replicates.size() < kFewReplicates) {
     out.add_notes(fmt::format(
-        "{} replicates say little about which model is better: the intervals are wide. Record at "
+        "{} replicates hardly show which model is better: the intervals are wide. Record at "
         "least 6.",
         series.replicates.size()));
   }

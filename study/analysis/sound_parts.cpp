@@ -52,10 +52,10 @@ void cut(const Replicate& whole, std::size_t k, std::size_t channel,
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
-  to.notes.push_back(
-      fmt::format("{}: {} stands still for {} in {}; it is cut there, which leaves {}.", whole.name,
-                  whole.channels[channel].name, counted(lost, "sample"),
-                  counted(runs.size(), "place"), counted(parts.size(), "part")));
+  to.notes.push_back(fmt::format(
+      "{}: {} repeats its value for {} in {}; the replicate is cut there, which leaves {}.",
+      whole.name, whole.channels[channel].name, counted(lost, "sample"),
+      counted(runs.size(), "place"), counted(parts.size(), "part")));
   to.replicates.insert(to.replicates.end(), parts.begin(), parts.end());
   to.changed = true;
 }
@@ -81,10 +81,9 @@ void mend(Replicate& replicate, std::size_t channel, const std::vector<WrongSamp
   const Signal signal = of.signal();
   const bool few = static_cast<double>(wrong.size()) <= kMost * static_cast<double>(signal.size());
   to.notes.push_back(fmt::format(
-      "{}: {} samples of {} repeat the one before or were cut off; {}", replicate.name,
-      wrong.size(), of.name,
-      few ? "each is replaced by a draw that its neighbours allow, which keeps the spectrum."
-          : "they are too many to be replaced."));
+      "{}: {} samples of {} are repeated or clipped; {}", replicate.name, wrong.size(), of.name,
+      few ? "each is replaced by a draw conditional on its neighbours, which keeps the spectrum."
+          : "they are too many to replace."));
   if (!few) return;
   to.changed = true;
   of.samples = std::make_shared<const recording::Samples>(mended(signal, wrong));

@@ -58,11 +58,11 @@ std::string half_summary(const v1::StationarityReport& report, const std::string
                          const std::string& differ) {
   std::string out;
   if (report.misfit().degrees_of_freedom() == 0) {
-    out = "There are too few scales to test the model's shape";
+    out = "There are too few scales to test the model";
   } else if (report.misfit().rejected()) {
-    out = fmt::format("The model's shape does not fit the replicates ({})", misfit);
+    out = fmt::format("The model does not fit the replicates ({})", misfit);
   } else {
-    out = fmt::format("The model's shape fits every replicate ({})", misfit);
+    out = fmt::format("The model fits every replicate ({})", misfit);
   }
   if (report.heterogeneity().degrees_of_freedom() == 0) {
     return out +
@@ -70,8 +70,8 @@ std::string half_summary(const v1::StationarityReport& report, const std::string
            "replicates.";
   }
   return out + (report.heterogeneity().rejected()
-                    ? fmt::format("; its parameters differ by more than chance ({}).", differ)
-                    : fmt::format("; one set of parameters serves them all ({}).", differ));
+                    ? fmt::format("; its parameters differ significantly ({}).", differ)
+                    : fmt::format("; one set of parameters fits them all ({}).", differ));
 }
 
 std::string summary_of(const v1::StationarityReport& report, const NearStationarity& result) {
@@ -83,30 +83,30 @@ std::string summary_of(const v1::StationarityReport& report, const NearStationar
   }
   const std::string who = moving(report);
   const std::string moves =
-      who.empty() ? "No single parameter stands out." : "What moves: " + who + ".";
+      who.empty() ? "No single parameter stands out." : "Different: " + who + ".";
   if (!report.misfit().rejected() && !report.heterogeneity().rejected()) {
     return fmt::format(
-        "Near-stationary: the model's shape fits every replicate ({}), and one set of parameters "
-        "serves them all ({}).",
+        "Near-stationary: the model fits every replicate ({}), and one set of parameters "
+        "fits them all ({}).",
         misfit, differ);
   }
   if (!report.heterogeneity().rejected()) {
     return fmt::format(
-        "The replicates agree with each other ({}), but the model's shape fits none of them well "
-        "({}): a process is missing, and it is the same in all. More replicates will not help; a "
-        "better model will.",
+        "The replicates agree with each other ({}), but the model fits none of them well "
+        "({}): a process is missing, the same in all. More replicates do not help; a "
+        "better model does.",
         differ, misfit);
   }
   if (!report.misfit().rejected()) {
     return fmt::format(
-        "The model's shape fits every replicate ({}), but their parameters differ by more than "
-        "chance ({}). {} One set of parameters describes their average, not the next recording.",
+        "The model fits every replicate ({}), but their parameters differ significantly "
+        "({}). {} One set of parameters describes their average, not the next recording.",
         misfit, differ, moves);
   }
   return fmt::format(
-      "Two things are wrong: the model's shape does not fit the replicates even with parameters of "
-      "their own ({}), and those parameters differ by more than chance ({}). {} Find the missing "
-      "process first: what is missing can pass for a parameter that moves.",
+      "Two problems: the model does not fit the replicates even with separate parameters "
+      "({}), and these parameters differ significantly ({}). {} Find the missing "
+      "process first: it can look like a parameter that differs.",
       misfit, differ, moves);
 }
 
@@ -117,7 +117,7 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
   if (series.replicates.size() < 2) {
     return fail(fmt::format(
         "{}: a test between replicates needs at least two: name more files, or cut this one with "
-        "--split-into 6 (parts of one recording tell less than recordings of different days)",
+        "--split-into 6 (parts of one recording show less than recordings of different days)",
         series.channel));
   }
   if (options.bootstrap.sets > 0 && options.bootstrap.sets < kFewestSets) {
@@ -150,7 +150,7 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
   out.set_summary(summary_of(out, result));
   if (series.replicates.size() < 5) {
     out.add_notes(fmt::format(
-        "{} replicates say little about how much the next one will differ: the intervals of the "
+        "{} replicates hardly show how much the next one will differ: the intervals of the "
         "spread are wide. Record at least 6.",
         series.replicates.size()));
   }

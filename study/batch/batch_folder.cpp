@@ -81,7 +81,7 @@ Result<void> make_batch(recording::FileSystem& files, const fs::path& folder,
   if (auto done = files.make_folder(folder); !done) return done;
   const auto there = recording::contains(files, folder, kBatchName);
   if (!there) return tl::unexpected(there.error());
-  if (*there) return fail(folder.string() + ": holds a batch already; name another folder");
+  if (*there) return fail(folder.string() + ": contains a batch; name another folder");
   for (const char* const part : {"shards", "results", "log"}) {
     if (auto done = files.make_folder(folder / part); !done) return done;
   }
@@ -96,7 +96,7 @@ Result<void> make_batch(recording::FileSystem& files, const fs::path& folder,
 Result<v1::Batch> read_batch(const recording::FileSystem& files, const fs::path& folder) {
   const auto there = recording::contains(files, folder, kBatchName);
   if (!there) return tl::unexpected(there.error());
-  if (!*there) return fail(folder.string() + ": holds no batch; imunoise batch new makes one");
+  if (!*there) return fail(folder.string() + ": contains no batch; imunoise batch new makes one");
   const auto text = files.read(folder / kBatchName);
   if (!text) return tl::unexpected(text.error());
   auto batch = parse<v1::Batch>(*text, "a batch");

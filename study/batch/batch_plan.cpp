@@ -68,7 +68,7 @@ std::uint32_t default_shard_size(const v1::Batch& batch) {
 
 Result<void> check_batch(const v1::Batch& batch) {
   const std::uint32_t items = item_count(batch);
-  if (items == 0) return fail("batch: there is nothing to do");
+  if (items == 0) return fail("batch: no recordings and no simulation");
   if (batch.shard_size() == 0) return fail("batch: a shard has at least one piece of work");
   if (const std::uint32_t shards = shards_for(items, batch.shard_size()); shards > kMostShards) {
     return fail(fmt::format("batch: {} shards; at most {}: make them larger (--shard-size {})",

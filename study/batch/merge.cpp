@@ -91,7 +91,7 @@ Result<std::vector<v1::ShardResult>> all_results(const recording::FileSystem& fi
   const auto status = batch_status(files, folder);
   if (!status) return tl::unexpected(status.error());
   if (!status->open().empty()) {
-    return fail(fmt::format("{}: {} of {} shards have no result; imunoise batch run works on them",
+    return fail(fmt::format("{}: {} of {} shards have no result; run imunoise batch run",
                             folder.string(), status->open_size(), status->shards()));
   }
   std::vector<v1::ShardResult> out;

@@ -146,7 +146,7 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
   if (!manifest) return tl::unexpected(manifest.error());
   if (!*manifest) {
     return fail(folder.string() +
-                ": is no recording: it has no manifest.json (imunoise verify --repair makes one "
+                ": is not a recording: it has no manifest.json (imunoise verify --repair makes one "
                 "from chunks)");
   }
   // Before minutes are spent on reading; no rate makes a model unreadable.

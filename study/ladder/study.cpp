@@ -28,7 +28,8 @@ std::uint32_t fingerprint(const Series& series) {
 
 Result<void> same_samples(const v1::Study& study, std::uint32_t samples) {
   if (study.fingerprint() == 0 || study.fingerprint() == samples) return {};
-  return fail("the recordings are not those that the study began with; start another study");
+  return fail(
+      "the recordings changed since the study was created; restore them, or start a new study");
 }
 
 // Whether a witness has as many samples as the channel in each replicate.
@@ -225,7 +226,7 @@ Result<void> Operation::add(const v1::StudyRequest::Add& request) {
 
 Result<void> Operation::undo() {
   v1::StudyAttempt& attempt = *study_.mutable_attempts(static_cast<int>(study_.current()));
-  if (!attempt.has_parent()) return fail("nothing to undo: this is the study's first model");
+  if (!attempt.has_parent()) return fail("nothing to undo: this is the first model of the study");
   attempt.set_undone(true);
   study_.set_current(attempt.parent());
   study_.clear_diagnosis();
@@ -270,7 +271,7 @@ Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
       done = operation.undo();
       break;
     case v1::StudyRequest::OPERATION_NOT_SET:
-      return fail("the request asks nothing of the study");
+      return fail("the request names no operation on the study");
   }
   if (!done) return tl::unexpected(done.error());
   return out;

@@ -31,16 +31,17 @@ Result<v1::Study> parse_study(const std::string& text) {
   const auto status = google::protobuf::util::JsonStringToMessage(text, &out, strict);
   if (!status.ok()) return fail("not a study: " + std::string(status.message()));
   if (out.version() != kVersion)
-    return fail(fmt::format("version {} of a study's file; this program reads {}", out.version(),
-                            kVersion));
-  if (!sound(out)) return fail("its attempts do not hang together");
+    return fail(
+        fmt::format("version {} of a study file; this program reads {}", out.version(), kVersion));
+  if (!sound(out)) return fail("its attempts refer to attempts that do not exist");
   return out;
 }
 
 Result<v1::Study> read_study(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad()) return fail(file.string() + ": cannot be read; is it there?");
+  if (!in.is_open() || in.bad())
+    return fail(file.string() + ": cannot be read; check the path and its permissions");
   auto out = parse_study(text);
   if (!out) return fail(file.string() + ": " + out.error().message);
   return out;

@@ -94,7 +94,7 @@ Result<void> write_seen_file(const std::filesystem::path& path, SeenFile file) {
 }
 
 Result<SeenFile> parse_seen_file(std::string_view bytes, std::shared_ptr<const void> owner) {
-  const auto damaged = [] { return fail("is damaged, or another program's"); };
+  const auto damaged = [] { return fail("is damaged, or from another program"); };
   Front front;
   if (bytes.size() < sizeof front) return damaged();
   std::memcpy(&front, bytes.data(), sizeof front);

@@ -22,7 +22,7 @@ constexpr int kVersion = 1;
 constexpr std::string_view kSuffix = ".seen";
 constexpr std::string_view kPartSuffix = ".part";  // write_seen_file()'s
 
-// Names what a file holds as long as nobody writes to it.
+// Identifies the contents of a file that is not being written.
 std::string stamp(const fs::path& file) {
   struct stat at {};
   if (stat(file.c_str(), &at) != 0) return file.string() + " none\n";
@@ -66,7 +66,7 @@ bool make_room(const fs::path& folder, std::uintmax_t bytes, std::uintmax_t most
     std::uintmax_t size;
     fs::path path;
   };
-  constexpr std::chrono::hours kWritten{1};  // nobody writes for so long
+  constexpr std::chrono::hours kWritten{1};  // longer than any write
   const auto now = fs::file_time_type::clock::now();
   std::vector<Kept> all;
   std::uintmax_t total = bytes;

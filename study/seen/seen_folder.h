@@ -1,6 +1,6 @@
 #pragma once
 
-// Where what was worked out of recordings is kept, so that nobody works it out twice. All of it may
+// A cache of results from recordings, so that they are computed once. All of it may
 // be deleted at any time.
 
 #include <filesystem>

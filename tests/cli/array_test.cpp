@@ -71,7 +71,7 @@ TEST_F(Array, FindsWhatIsSharedAndWeighsTheSensors) {
   const json& gain = report["virtual_sensor"]["scale_gains"][0];
   EXPECT_NEAR(gain["predicted"].get<double>(), 1 / sum / (29.0 / 9.0), 0.02);
   EXPECT_NEAR(gain["measured"].get<double>(), gain["predicted"].get<double>(), 0.05);
-  EXPECT_NE(read("out.html").find("What the virtual sensor gains"), std::string::npos);
+  EXPECT_NE(read("out.html").find("Gain of the virtual sensor"), std::string::npos);
 }
 
 TEST_F(Array, AnswersPeople) {

@@ -76,7 +76,7 @@ TEST_F(SlurmBatches, WhatFailsAgainAndAgainIsTold) {
   ASSERT_EQ(shell("printf '{' > there/shards/000001.json"), 0);
   const Outcome done = run("batch run there --engine slurm --retries 1");
   EXPECT_EQ(done.status, 1);
-  EXPECT_NE(done.out.find("1 of 2 shards are done"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("1 of 2 shards are complete"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("not a shard"), std::string::npos) << done.out;
   const std::string log = read("there/log/000001.txt");
   EXPECT_NE(log.find("not a shard"), log.rfind("not a shard")) << "tried twice: " << log;

@@ -65,7 +65,7 @@ TEST_F(BatchCommands, ADamagedResultIsMadeAgain) {
   const std::string good = read("batch/results/000000.json");
   shell("truncate -s 100 batch/results/000000.json");
   const Outcome status = run("batch status batch");
-  EXPECT_NE(status.out.find("0 of 2 shards are done"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("0 of 2 shards are complete"), std::string::npos) << status.out;
   EXPECT_NE(status.out.find("damaged"), std::string::npos) << status.out;
   const Outcome merge = run("batch merge batch");
   EXPECT_EQ(merge.status, 1);
@@ -87,7 +87,7 @@ TEST_F(BatchCommands, CalibratesRecordings) {
   shell("mv tuesday away");
   const Outcome failed = run("batch run batch --retries 1");
   EXPECT_EQ(failed.status, 1);
-  EXPECT_NE(failed.out.find("1 of 2 shards are done"), std::string::npos) << failed.out;
+  EXPECT_NE(failed.out.find("1 of 2 shards are complete"), std::string::npos) << failed.out;
   EXPECT_NE(failed.out.find("tuesday"), std::string::npos) << failed.out;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "monday/calibration.json"));
   shell("mv away tuesday");

@@ -66,7 +66,7 @@ TEST_F(CatalogueCommands, ACalibrationSaysEverythingAboutARecording) {
 
 TEST_F(CatalogueCommands, ListsRecordingsAndCalibrations) {
   EXPECT_EQ(std::filesystem::create_directories(folder_ / "bench"), true);
-  EXPECT_NE(run("recordings bench").out.find("There is no recording"), std::string::npos);
+  EXPECT_NE(run("recordings bench").out.find("This folder has no recordings"), std::string::npos);
   record_week(0, "4e-6");
   record_week(1, "4e-6");
   EXPECT_NE(run("calibrations bench").out.find("imunoise calibrate"), std::string::npos);
@@ -137,13 +137,13 @@ TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
     EXPECT_NE(done.errors.find(words), std::string::npos) << arguments << ": " << done.errors;
   };
   expect("calibrate absent", "absent");
-  expect("calibrate bench", "is no recording");
+  expect("calibrate bench", "is not a recording");
   expect("calibrate bench/week-0 --model WM", "WM");
   expect("calibrate bench/week-0 --channel gyro_w", "it has: gyro_x");
   expect("recordings absent", "absent");
   expect("recordings bench --catalogue absent/x.sqlite", "absent/x.sqlite");
   std::ofstream(folder_ / "junk.sqlite") << "this is no database, whatever its name may say";
-  expect("recordings bench --catalogue junk.sqlite", "may be deleted");
+  expect("recordings bench --catalogue junk.sqlite", "you can delete it");
   expect("history bench", "--device");
   expect("history bench --device 7", "there are simulated:0042");
   expect("history bench --device 0042", "imunoise calibrate");

@@ -80,7 +80,7 @@ TEST_F(DaemonClientTest, AHeartbeatIsEnough) {
 TEST_F(DaemonClientTest, SilenceIsTold) {
   const Followed followed = follow(1h, 1s, 1min);
   ASSERT_FALSE(followed.result);
-  EXPECT_NE(followed.result.error().message.find("fell silent"), std::string::npos)
+  EXPECT_NE(followed.result.error().message.find("stopped sending"), std::string::npos)
       << followed.result.error().message;
   EXPECT_EQ(followed.events, 1);
 }

@@ -105,14 +105,14 @@ TEST_F(Daemon, TellsWhatItDoesAndIsStoppedOnPurposeOnly) {
 
   EXPECT_EQ(ask("stop array --recording " + recording).status, 0);
   ASSERT_TRUE(comes_to("array", false));
-  EXPECT_NE(ask("stop array").errors.find("does not run"), std::string::npos);
+  EXPECT_NE(ask("stop array").errors.find("is not running"), std::string::npos);
   EXPECT_NE(ask("recordings").out.find("imu0"), std::string::npos) << ask("recordings").errors;
   EXPECT_EQ(ask("calibrations").status, 0);
   EXPECT_NE(ask("history --device imu0").errors.find("imunoise calibrate"), std::string::npos);
 
   EXPECT_EQ(ask("start array").status, 0);
   ASSERT_TRUE(comes("as replicate-2 on disk")) << read("log");
-  EXPECT_NE(ask("start array").errors.find("runs already"), std::string::npos);
+  EXPECT_NE(ask("start array").errors.find("is already running"), std::string::npos);
   EXPECT_EQ(end(SIGTERM), 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "api.sock"));
 }
@@ -145,7 +145,7 @@ TEST_F(Daemon, ComesByTcpWithAToken) {
   const std::size_t at = log.find("port ");
   const std::string url =
       " --url http://127.0.0.1:" + log.substr(at + 5, log.find('\n', at) - at - 5);
-  EXPECT_NE(run("status" + url).errors.find("no token"), std::string::npos);
+  EXPECT_NE(run("status" + url).errors.find("missing or unknown token"), std::string::npos);
   EXPECT_EQ(run("status --token-file mine" + url).status, 0)
       << run("status --token-file mine" + url).errors;
   EXPECT_NE(run("stop array --token-file mine" + url).errors.find("operator"), std::string::npos);
@@ -168,7 +168,7 @@ TEST_F(Daemon, TroubleIsTold) {
   std::string told(4096, '\0');
   told.resize(std::fread(told.data(), 1, told.size(), pipe));
   pclose(pipe);
-  EXPECT_NE(told.find("nobody is answered"), std::string::npos) << told;
+  EXPECT_NE(told.find("API disabled"), std::string::npos) << told;
   EXPECT_EQ(ask("status").status, 0) << "the first one goes on answering";
 }
 

@@ -95,7 +95,7 @@ TEST_F(Diagnose, AStudyWhoseRecordingIsGoneSaysSo) {
   std::filesystem::rename(folder_ / first, folder_ / "elsewhere");
   const Outcome done = run("study add a.study RW");
   EXPECT_EQ(done.status, 1);
-  EXPECT_NE(done.errors.find("is gone"), std::string::npos) << done.errors;
+  EXPECT_NE(done.errors.find("not found; this study needs it"), std::string::npos) << done.errors;
 }
 
 }  // namespace

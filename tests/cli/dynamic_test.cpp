@@ -88,7 +88,7 @@ TEST_F(Dynamic, AnswersPeople) {
   EXPECT_NE(done.out.find("gyro over rate"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("1 recording · 4 bins"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("N of WN grows from"), std::string::npos) << done.out;
-  EXPECT_NE(done.out.find("75 of 16075 samples were left out"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("75 of 16075 samples were discarded"), std::string::npos) << done.out;
   const Outcome again =
       run("--threads 1 dynamic table.csv --rate 100 --unit deg/s --covariate rate --model "
           "'WN(sigma2~linear)'");
@@ -113,7 +113,7 @@ TEST_F(Dynamic, SaysWhatItCannotDo) {
   expect("table.csv --rate 100 --covariate rate --bins 30,fast", "bin centres such as");
   expect("table.csv --rate 100 --covariate rate --bins 500,600", "nowhere is a place");
   expect("table.csv --rate 100 --covariate rate --model 'AR1(phi~exp)'", "phi follows a covariate");
-  expect("table.csv --rate 100 --covariate rate --model 'WN(sigma2=1)'", "gives every power");
+  expect("table.csv --rate 100 --covariate rate --model 'WN(sigma2=1)'", "fixes every power");
   expect("table.csv --rate 100 --covariate rate --model '5*AR1 + 4*RES'", "free parameters");
   expect("stuck.csv --rate 1 --covariate rate --model WN", "never changes where rate is about 0");
   const Outcome single = run("fit table.csv --rate 100 --channel gyro --model 'WN(sigma2~)'");

@@ -104,7 +104,7 @@ TEST_F(Faults, SaysWhatItCannotDo) {
   for (int i = 0; i < 64; ++i) other_file << i * i % 7 << ',' << i * i % 5 << '\n';
   other_file.close();
   expect("good.csv --rate 100 --channel gyro_a", "at least two sensors");
-  expect("good.csv --rate 100 --model 'RW[all]'", "noise of its own");
+  expect("good.csv --rate 100 --model 'RW[all]'", "independent noise");
   expect("good.csv --rate 100 --train nobody.csv", "no such file");
   expect("good.csv --rate 100 --train other.csv", "other channels");
   expect("good.csv --rate 100 --false-alarms-per-hour 0", "--false-alarms-per-hour");

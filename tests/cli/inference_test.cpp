@@ -48,12 +48,12 @@ TEST_F(Inference, TestTellsTheFourAnswersApart) {
   Outcome done = run(stable + "'AR1 + WN'");
   ASSERT_EQ(done.status, 0) << done.errors;
   EXPECT_TRUE(contains(done.out, "x: near-stationary\n")) << done.out;
-  EXPECT_TRUE(contains(done.out, "4 replicates say little")) << done.out;
+  EXPECT_TRUE(contains(done.out, "4 replicates hardly show")) << done.out;
   EXPECT_TRUE(contains(run(stable + "'WN + RW'").out, "x: misfit\n"));
   done = run(moved + "'AR1 + WN'");
-  EXPECT_TRUE(contains(done.out, "x: parameters move\n")) << done.out;
-  EXPECT_TRUE(contains(done.out, "What moves: sigma2 of WN by")) << done.out;
-  EXPECT_TRUE(contains(run(moved + "'WN + RW'").out, "x: misfit, and parameters move\n"));
+  EXPECT_TRUE(contains(done.out, "x: parameters differ\n")) << done.out;
+  EXPECT_TRUE(contains(done.out, "Different: sigma2 of WN by")) << done.out;
+  EXPECT_TRUE(contains(run(moved + "'WN + RW'").out, "x: misfit, and parameters differ\n"));
 }
 
 TEST_F(Inference, TestAsJson) {
@@ -124,9 +124,9 @@ TEST_F(Inference, TestWithoutFreeParametersSaysWhatItDidNotTest) {
 TEST_F(Inference, SelectComparesAllSubModels) {
   const Outcome done = run("select s_?.h5 --model 'AR1 + WN + RW'");
   ASSERT_EQ(done.status, 0) << done.errors;
-  EXPECT_TRUE(contains(done.out, "AR1 + WN predicts replicates")) << done.out;
+  EXPECT_TRUE(contains(done.out, "AR1 + WN has the smallest held-out error")) << done.out;
   EXPECT_TRUE(contains(done.out, "4 splits (leave one out)")) << done.out;
-  EXPECT_TRUE(contains(done.out, "4 replicates say little")) << done.out;
+  EXPECT_TRUE(contains(done.out, "4 replicates hardly show")) << done.out;
   std::istringstream lines(done.out);
   for (std::string line; std::getline(lines, line);) {
     EXPECT_EQ(std::count(line.begin(), line.end(), '('), std::count(line.begin(), line.end(), ')'))
@@ -226,7 +226,7 @@ TEST_F(Inference, RefuseWithTheWayOut) {
     EXPECT_TRUE(contains(done.errors, words)) << arguments << "\n" << done.errors;
   };
   refused("test s_1.h5", 1, "--split-into 6");
-  refused("test s_1.h5 s_2.h5 s_1.h5", 1, "hold the same samples");
+  refused("test s_1.h5 s_2.h5 s_1.h5", 1, "have the same samples");
   simulate("WN(sigma2=0)", "--replicates 2 --out still.h5");
   for (const std::string command : {"test", "select"}) {
     refused(command + " still_?.h5 --model WN", 1, "still_1 never changes");

@@ -87,7 +87,7 @@ TEST_F(Mixed, SaysWhatItCannotDo) {
   expect("--channel a,b --regress x=temperature,nothing,temperature", "3 channels for 2 series");
   expect("--channel a,b --regress time --regress time", "named twice");
   expect("--channel a --regress a", "none is left");
-  expect("--channel a,b --regress time --model 'DR + WN'", "ramp");
+  expect("--channel a,b --regress time --model 'DR + WN'", "DR is not noise");
   expect("--channel a,b --regress time --group a,c", "no sensor 'c'");
   expect("--channel a,b --regress time --robust 0.6", "--robust");
 }

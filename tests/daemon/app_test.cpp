@@ -130,7 +130,7 @@ TEST_F(CampaignFolder, WhatIsNoFileOrHasNoNameInUtf8IsTold) {
   ASSERT_EQ(files.rejected.size(), 2U);
   EXPECT_TRUE(files.rejected[0].file().ends_with("b\xEF\xBF\xBD.toml"));
   EXPECT_NE(files.rejected[0].problems(0).find("nonsense: unknown"), std::string::npos);
-  EXPECT_NE(files.rejected[1].problems(0).find("is no regular file"), std::string::npos);
+  EXPECT_NE(files.rejected[1].problems(0).find("is not a regular file"), std::string::npos);
 }
 
 }  // namespace

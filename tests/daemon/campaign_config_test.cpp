@@ -187,7 +187,7 @@ driver = "emulatd"
       "a.toml:3:1: replicate: unknown; did you mean 'replicates'?",
       "a.toml:4:1: length: '2': a unit is missing",
       "a.toml:5:27: calibration.models: ",
-      "a.toml:7:2: schedule: says nothing",
+      "a.toml:7:2: schedule: is empty",
       "a.toml:8:1: schedule.evry: unknown; did you mean 'every'?",
       "a.toml:12:18: device 1.options.device: 'adis16504' is none of: adis16405, xsens, can",
       "a.toml:13:9: device 1.options.sed: driver emulated: unknown; did you mean 'seed'?",
@@ -209,7 +209,7 @@ TEST(CampaignConfig, SaysWhatWouldBeRight) {
   expect_problem("calibration = { array_model = \"WN\" }", "array = true");
   expect_problem("settling = 2026-01-01", "is a date");
   expect_problem("schedule = { every = \"1 h\" }", "takes 2 h");
-  expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give one of them");
+  expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give only one");
   expect_problem("schedule = { calendar = \"Mon; rm\" }", "systemd-analyze calendar");
   expect_problem("schedule = \"now\"", "a table, headed [schedule]");
   expect_problem("stillness = { repeats = 2 }", "repeat_disturbed = true");

@@ -197,7 +197,7 @@ TEST_F(CampaignRun, RepeatsAReplicateThatWasDisturbed) {
   knocks_ = {2};
   run(kBegin);
   EXPECT_EQ(tasks_.size(), 4U);
-  EXPECT_TRUE(was_told("did not lie still"));
+  EXPECT_TRUE(was_told("the sensors moved"));
 }
 
 TEST_F(CampaignRun, AFailedCalibrationIsToldAndStopsNothing) {

@@ -30,7 +30,7 @@ TEST(DiskSpace, NeedsRoomBesideTheReserve) {
       << short_of.error().message;
   const auto none = check_room(plan, 1000);
   ASSERT_FALSE(none.has_value());
-  EXPECT_NE(none.error().message.find("touched already"), std::string::npos);
+  EXPECT_NE(none.error().message.find("already in use"), std::string::npos);
 }
 
 }  // namespace

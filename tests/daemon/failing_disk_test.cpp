@@ -189,7 +189,8 @@ TEST_F(FailingDisk, AReplicateDoesNotBeginWithoutRoom) {
   disk_.set_capacity(kNeeded - 1);
   const auto done = record({});
   ASSERT_FALSE(done.has_value());
-  EXPECT_NE(done.error().message.find("make room"), std::string::npos) << done.error().message;
+  EXPECT_NE(done.error().message.find("free some space"), std::string::npos)
+      << done.error().message;
   EXPECT_FALSE(disk_.exists(plan_.folder).value());
 }
 
@@ -222,7 +223,7 @@ TEST(Shortfall, IsOfTheEndOrOfTheCount) {
   counts[0].received = counts[0].stored = 5700;
   course.last_s = 7.0;
   EXPECT_EQ(shortfall(course, 60.0),
-            "device imu0: its last sample came 7 s after the beginning; 5700 of about 6000 "
+            "device imu0: its last sample came 7 s after the start; 5700 of about 6000 "
             "samples in 1 min are stored");
   counts[0].stored = 6000;
   EXPECT_EQ(shortfall(course, 60.0), "") << "a device that runs faster than real time";

@@ -191,7 +191,7 @@ TEST(LiveBoard, ShowsReplicatesWhileTheyLast) {
   EXPECT_EQ(state[0].devices(0).samples(), 1000U);
   const auto told = board.new_warnings();
   ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].find("bench: imu0: imu: samples were refused or lost"), 0U) << told[0];
+  EXPECT_EQ(told[0].find("bench: imu0: imu: samples were rejected or are missing"), 0U) << told[0];
   EXPECT_TRUE(board.new_warnings().empty()) << "once";
   replicate.join(device());
   replicate.take(1, source.block(500));

@@ -57,7 +57,7 @@ class Whims : public plugin::Device {
     if (word == "gone") {
       wait.until(Clock::now() + kPeriod);
       next_ = Clock::now();
-      throw plugin::DeviceError(IMUNOISE_DISCONNECTED, "the device is gone");
+      throw plugin::DeviceError(IMUNOISE_DISCONNECTED, "the device is disconnected");
     }
     if (word == "over") return samples.end();
     if (word == "stubborn") return std::this_thread::sleep_for(kStubborn);

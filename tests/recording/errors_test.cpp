@@ -20,7 +20,7 @@ TEST_F(Refused, FlawsInRowsOfText) {
   expect_parts(flaw("nan,1"), {"run3.csv: row 22", "'nan' is not a finite number", "column x"});
   expect_parts(flaw("1,-inf"), {"row 22", "'-inf' is not a finite number", "column y"});
   expect_parts(flaw("1,1e999"), {"row 22", "'1e999' is not a finite number"});
-  expect_parts(flaw("1,"), {"row 22", "there is no value", "column y"});
+  expect_parts(flaw("1,"), {"row 22", "no value", "column y"});
   expect_parts(flaw("1"), {"row 22", "1 values where the table has 2 columns", "delete"});
   expect_parts(flaw("1,2,3"), {"row 22", "3 values where the table has 2 columns"});
   expect_parts(flaw("1,2x"), {"row 22", "'2x' is not a number"});

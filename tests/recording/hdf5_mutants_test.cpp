@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
                               for (std::atomic<int> turns = 0;; ++turns) {
                               }
                             },
-                            "it computed without an end"}),
+                            "it exceeded its computing time"}),
     [](const auto& info) { return info.param.what; });
 
 // The parent stops waiting, and the child is gone with the object.

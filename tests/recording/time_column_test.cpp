@@ -82,7 +82,7 @@ TEST(TimeColumn, GapsDuplicatesAndReturnsAreNamed) {
   expect_parts(message_of(times), {"row 100", "gap", "about 1 samples"});
   times = regular(100, 0.01);
   times[50] = times[49];
-  expect_parts(message_of(times), {"row 51", "stands twice", "--rate"});
+  expect_parts(message_of(times), {"row 51", "occurs twice", "--rate"});
   times[50] = times[48];
   expect_parts(message_of(times), {"row 51", "backwards", "split"});
   times = regular(100, 0.01);

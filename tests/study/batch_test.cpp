@@ -94,7 +94,7 @@ TEST(BatchPlan, SaysWhatCannotBeDone) {
   };
   EXPECT_EQ(said(simulations(1000, 1)), "");
   EXPECT_NE(said(simulations(1001, 1)).find("--shard-size 2"), std::string::npos);
-  EXPECT_NE(said(calibrations({})).find("nothing to do"), std::string::npos);
+  EXPECT_NE(said(calibrations({})).find("no recordings and no simulation"), std::string::npos);
   v1::Batch open = simulations(3, 1);
   open.mutable_simulate()->set_model("WN + RW");
   EXPECT_NE(said(open).find("leaves values open"), std::string::npos);
@@ -201,10 +201,10 @@ TEST(Batch, TellsTheEndOfALog) {
 TEST(Batch, IsMadeOnceAndReadStrictly) {
   const testing::TemporaryFolder room;
   const fs::path folder = room.path() / "batch";
-  EXPECT_NE(batch_status(files(), room.path()).error().message.find("holds no batch"),
+  EXPECT_NE(batch_status(files(), room.path()).error().message.find("contains no batch"),
             std::string::npos);
   ASSERT_TRUE(make_batch(files(), folder, simulations(3, 1)).has_value());
-  EXPECT_NE(make_batch(files(), folder, simulations(3, 1)).error().message.find("already"),
+  EXPECT_NE(make_batch(files(), folder, simulations(3, 1)).error().message.find("contains a batch"),
             std::string::npos);
   EXPECT_FALSE(read_shard(files(), folder, 3).has_value());
   std::ofstream(folder / "shards" / "000000.json") << R"({"version": 2})";

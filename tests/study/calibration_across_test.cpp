@@ -215,7 +215,7 @@ TEST(CalibrationAcross, WhatCannotBeJoinedIsTold) {
   EXPECT_EQ(x.troubles(0).step(), "join");
   EXPECT_EQ(x.troubles(0).message(),
             "odd/imu: not joined: rates differ: 102.4 Hz and 100 Hz have no whole ratio");
-  EXPECT_EQ(x.troubles(1).message(), "later/imu: not joined: it has no time in common with a");
+  EXPECT_EQ(x.troubles(1).message(), "later/imu: not joined: it never ran at the same time as a");
   EXPECT_TRUE(got.arrays(0).has_report()) << "each device has its own, all the same";
 }
 

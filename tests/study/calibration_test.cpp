@@ -157,7 +157,7 @@ TEST_F(Calibrated, SaysWhatItCannotDo) {
   expect(absent, "no channel 'gyro_w' (it has: gyro_x, gyro_y, gyro_z, temperature)");
   const auto nowhere = calibrate(files_, folder_.path() / "replicate-1", {});
   ASSERT_FALSE(nowhere);
-  EXPECT_NE(nowhere.error().message.find("is no recording"), std::string::npos);
+  EXPECT_NE(nowhere.error().message.find("is not a recording"), std::string::npos);
 }
 
 TEST_F(Calibrated, ProgressGoesToTheEndAndAStopIsHeeded) {

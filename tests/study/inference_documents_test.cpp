@@ -241,11 +241,11 @@ TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
   };
   EXPECT_EQ(badge(test_result(72, false), test_result(20, false)), "near-stationary");
   EXPECT_EQ(badge(test_result(72, true), test_result(20, false)), "misfit");
-  EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters move");
-  EXPECT_EQ(badge(test_result(72, true), test_result(20, true)), "misfit, and parameters move");
+  EXPECT_EQ(badge(test_result(72, false), test_result(20, true)), "parameters differ");
+  EXPECT_EQ(badge(test_result(72, true), test_result(20, true)), "misfit, and parameters differ");
   EXPECT_EQ(badge(test_result(72, false), test_result(0, false)), "not tested");
   EXPECT_EQ(badge(test_result(0, false), test_result(20, false)), "not tested");
-  EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters move");
+  EXPECT_EQ(badge(test_result(0, false), test_result(20, true)), "parameters differ");
 }
 
 // Eleven sub-models of the default model, the worst of them 1e5 times the noise floor, in 80

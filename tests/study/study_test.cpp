@@ -189,7 +189,7 @@ TEST(Study, OtherRecordingsAreRefused) {
   };
   const auto next = apply(opened(), adding("QN"), other);
   ASSERT_FALSE(next);
-  EXPECT_NE(next.error().message.find("not those that the study began with"), std::string::npos);
+  EXPECT_NE(next.error().message.find("the recordings changed since"), std::string::npos);
 }
 
 TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
@@ -292,7 +292,7 @@ TEST(Diagnose, WhatRemainsIsToldOnceEverythingIsAdded) {
   EXPECT_EQ(report->verdict(), v1::found);
   ASSERT_TRUE(report->has_remaining());
   EXPECT_EQ(report->remaining(), v1::none);
-  EXPECT_NE(report->summary().find("nothing more is missing"), std::string::npos)
+  EXPECT_NE(report->summary().find("no further effect is missing"), std::string::npos)
       << report->summary();
 }
 
@@ -317,7 +317,7 @@ TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   ASSERT_EQ(report->compared_before().replicates_size(), 5);
   EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
   EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
-  EXPECT_TRUE(tells(*report, "stands still for 500 samples in 2 places"));
+  EXPECT_TRUE(tells(*report, "repeats its value for 500 samples in 2 places"));
 }
 
 TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {

@@ -54,7 +54,8 @@ class Run {
     std::stop_source& of;
     void operator()() const { of.request_stop(); }
   };
-  // What is remembered, and what is told of it, keep their distance from now when the clock is set.
+  // What is remembered, and what is told of it, keep their distance from the present when the clock
+  // is set.
   void follow_clock() {
     const auto leap = leaps_.look();
     if (!leap) return;
@@ -166,7 +167,7 @@ class Run {
     }
     if (note.disturbances_size() > 0) {
       out += fmt::format(
-          "{}the sensors did not lie still: {} times, first at {}", out.empty() ? "" : "; ",
+          "{}the sensors moved {} times, first at {}", out.empty() ? "" : "; ",
           note.disturbances_size(),
           recording_name(Time(std::chrono::nanoseconds(note.disturbances(0).begin_ns()))));
     }
@@ -189,12 +190,12 @@ class Run {
     if (std::count(tidied->removed.begin(), tidied->removed.end(), recorded_) > 0)
       recorded_.clear();
     if (!tidied->removed.empty())
-      add_news(fmt::format("{} recordings are no longer kept", tidied->removed.size()));
+      add_news(fmt::format("deleted {} recordings ([retention])", tidied->removed.size()));
     if (tidied->doubtful > 0) {
       add_news(
-          fmt::format("{} recordings look older than retention.age and are kept: this "
-                      "machine's clock is, or was, not kept right by a time service "
-                      "(timedatectl shows it); delete by hand those that are old",
+          fmt::format("{} recordings look older than retention.age but are kept, because the "
+                      "clock of this machine is not, or was not, set by a time service "
+                      "(see timedatectl). Delete old recordings by hand",
                       tidied->doubtful));
     }
   }

@@ -58,7 +58,7 @@ enum class RunMode {
   kOnce,       ///< One recording: the unfinished one, or else a new one.
 };
 
-/// Runs until the campaign is finished or somebody stops it. Nothing that goes wrong ends it: it is
+/// Runs until the campaign is finished or stopped. Nothing that goes wrong ends it: it is
 /// told, and tried again after 5 s, then after twice as long each time, up to 5 min. A restart goes
 /// on where the manifests say it was.
 void run_campaign(const v1::Campaign& campaign, RunMode mode,

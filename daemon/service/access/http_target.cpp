@@ -50,7 +50,7 @@ Result<std::string> decode(std::string_view text, bool query) {
     out += static_cast<char>(*high * 16 + *low);
     i += 2;
   }
-  if (!printable(out)) return fail("the target holds bytes that are no printable UTF-8");
+  if (!printable(out)) return fail("the target has bytes that are not printable UTF-8");
   return out;
 }
 

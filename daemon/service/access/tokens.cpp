@@ -53,10 +53,10 @@ Result<Tokens> Tokens::parse(std::string_view text) {
     if (!well_formed(token) || token.size() < kShortest || token.size() > kLongestToken)
       return wrong(
           "a token has 32 to 256 letters, digits and -._~+/=; openssl rand -hex 32 makes one");
-    if (out.role_of(token)) return wrong("this token came before");
+    if (out.role_of(token)) return wrong("duplicate token; remove one");
     out.tokens_.push_back({token, role == "viewer" ? v1::viewer : v1::operator_});
   }
-  if (out.tokens_.empty()) return fail("1: holds no token; write a line \"viewer TOKEN\"");
+  if (out.tokens_.empty()) return fail("1: contains no token; write a line \"viewer TOKEN\"");
   return out;
 }
 
@@ -64,9 +64,9 @@ Result<Tokens> Tokens::read(const std::filesystem::path& file) {
   struct stat found {};
   std::ifstream in(file);
   if (!in || ::stat(file.c_str(), &found) != 0)
-    return fail(file.string() + ": cannot be read; is it there?");
+    return fail(file.string() + ": cannot be read; check the path and its permissions");
   if ((found.st_mode & kTooOpen) != 0)
-    return fail(file.string() + ": others may read it, or its group write it; chmod 640 " +
+    return fail(file.string() + ": other users can read it, or its group can write it; chmod 640 " +
                 file.string());
   const std::string text(std::istreambuf_iterator<char>(in), {});
   auto out = parse(text);

@@ -64,7 +64,8 @@ Answer<void> ApiHandler::check_sender(const RequestHead& head) {
   if (!known_host(head.host, options_.hosts))
     return service::refuse(403, "the header Host names another machine; ask for localhost");
   if (!same_origin(head.origin, head.host))
-    return service::refuse(403, "the header Origin names another site; its pages may not ask here");
+    return service::refuse(403,
+                           "the header Origin names another site; its pages cannot use this API");
   return {};
 }
 
@@ -83,8 +84,8 @@ Answer<void> ApiHandler::check_role(const RequestHead& head, v1::Role needed) co
   if (needed == v1::anyone) return {};
   const auto role = role_of(head);
   if (!role)
-    return service::refuse(401, "no token, or none of ours: send Authorization: Bearer TOKEN");
-  if (*role < needed) return service::refuse(403, "this needs the token of an operator");
+    return service::refuse(401, "missing or unknown token; send Authorization: Bearer TOKEN");
+  if (*role < needed) return service::refuse(403, "this needs an operator token");
   return {};
 }
 
@@ -120,7 +121,7 @@ Response ApiHandler::answer(const Request& request) {
     auto response = call(request);
     return response ? counted(std::move(*response)) : refusal(response.error());
   } catch (const std::exception& error) {  // of a library, or of the memory
-    return refusal({500, std::string("this went wrong within the daemon: ") + error.what()});
+    return refusal({500, std::string("internal error of imunoised: ") + error.what()});
   }
 }
 

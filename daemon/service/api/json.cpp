@@ -70,7 +70,7 @@ Result<void> take(Message& message, const TextFields& texts) {
     if (field == nullptr)
       return fail(fmt::format("the parameter '{}' is unknown; {}", name, known_fields(message)));
     if (!set(message, *field, text))
-      return fail(fmt::format("{}: '{}' is no {}", name, text, field->cpp_type_name()));
+      return fail(fmt::format("{}: '{}' is not a valid {}", name, text, field->cpp_type_name()));
   }
   return {};
 }
@@ -81,7 +81,7 @@ Result<void> take_body(Message& message, const std::string& body) {
   strict.ignore_unknown_fields = false;
   const auto status = google::protobuf::util::JsonStringToMessage(body, &message, strict);
   if (!status.ok())
-    return fail("the body is not what this method takes: " + std::string(status.message()));
+    return fail("the body does not fit this method: " + std::string(status.message()));
   return {};
 }
 
@@ -104,8 +104,8 @@ Result<std::unique_ptr<Message>> request_of(const Route& route, const TextFields
                                    ->GetPrototype(route.method->input_type())
                                    ->New());
   const bool post = route.verb == "POST";
-  if (post && !query.empty()) return fail("this method takes a JSON object, no query");
-  if (!post && !body.empty()) return fail("this method takes a query, no body");
+  if (post && !query.empty()) return fail("this method takes a JSON object, not a query");
+  if (!post && !body.empty()) return fail("this method takes a query, not a body");
   for (const auto& done : {take_body(*out, body), take_path(*out, path), take(*out, query)}) {
     if (!done) return tl::unexpected(done.error());
   }

@@ -21,7 +21,7 @@ using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 
 constexpr std::string_view kAbout =
-    "imunoised records static data of inertial sensors and makes noise models of them. Numbers of "
+    "imunoised records static data of inertial sensors and fits noise models. Numbers of "
     "64 "
     "bits are strings; a number that is not known is absent.";
 
@@ -213,7 +213,7 @@ std::string responses(const Route& route, Schemas& schemas) {
   JsonObject out;
   out.add("200", response(stream ? "events, each with the field that is set as its name" : "done"));
   if (route.verb == "POST" && &reply == v1::Job::descriptor())
-    out.add("202", response("the job goes on; ask for it again, or listen to events"));
+    out.add("202", response("the job continues; ask again, or read the events"));
   out.add("default", JsonObject()
                          .add_text("description", "refused")
                          .add("content", content("application/json",

@@ -45,7 +45,7 @@ class CampaignControl {
   /// not (says which one, and what would be lost), or the campaign does not run.
   virtual Result<void> stop(const std::string& campaign, const std::string& recording) = 0;
   /// `changed` is called after each change of a campaign, from its thread; it must not wait. Empty:
-  /// nobody; afterwards the one before is not running.
+  /// no watcher; afterwards the previous one is not running.
   virtual void watch(Watcher changed) = 0;
 };
 

@@ -38,7 +38,7 @@ v1::CampaignState campaign_state(const CampaignSnapshot& campaign, std::int64_t 
   if (!campaign.running) return out;
   out.set_recording(recording_under_way(campaign.status));
   out.set_trouble(campaign.trouble);
-  if (!campaign.trouble.empty()) return out;  // when it will be complete nobody knows
+  if (!campaign.trouble.empty()) return out;  // its end is unknown
   const auto left = time_left(campaign.campaign, campaign.status, now_ns);
   if (!left) return out;
   const double all =

@@ -15,7 +15,7 @@
 
 namespace imunoise::service {
 
-/// Looks from a thread of its own: whoever asks what is known never waits for a disk, and a disk
+/// Looks from a thread of its own: readers of its results never wait for a disk, and a disk
 /// that hangs is noticed while no campaign uses it. Thread-safe.
 class FreeSpace {
  public:

@@ -54,7 +54,7 @@ void for_each_phase(const v1::CampaignState& state, const Add& add) {
 }
 
 void add_campaigns(std::string& out, const Figures& figures) {
-  Family phases(out, "imunoise_campaign_phase", "gauge", "1 for what a campaign does.");
+  Family phases(out, "imunoise_campaign_phase", "gauge", "1 for the current state of a campaign.");
   for (const v1::CampaignState& one : figures.campaigns) {
     for_each_phase(one, [&](const std::string& phase, int holds) {
       phases.add({{"campaign", one.campaign().name()}, {"phase", phase}}, holds);
@@ -68,14 +68,14 @@ void add_campaigns(std::string& out, const Figures& figures) {
   for (const auto& one : figures.campaigns)
     troubled.add({{"campaign", one.campaign().name()}}, one.trouble().empty() ? 0 : 1);
   Family left(out, "imunoise_campaign_left_seconds", "gauge",
-              "Until the recording under way is complete.");
+              "Time until the current recording is complete.");
   for (const auto& one : figures.campaigns) {
     if (one.has_left_s()) left.add({{"campaign", one.campaign().name()}}, one.left_s());
   }
   Family(out, "imunoise_campaign_files_rejected", "gauge",
-         "Campaign files that were not taken up when they were last read.")
+         "Campaign files rejected when they were last read.")
       .add({}, figures.rejected_files);
-  Family free(out, "imunoise_disk_free_bytes", "gauge", "Of the disk that a campaign records to.");
+  Family free(out, "imunoise_disk_free_bytes", "gauge", "Free space of the disk of a campaign.");
   for (const auto& [campaign, bytes] : figures.free_bytes)
     free.add({{"campaign", campaign}}, bytes);
 }
@@ -106,7 +106,7 @@ void add_live(std::string& out, const Figures& figures) {
   add_devices(out, figures, "imunoise_device_gaps", "Places where samples are missing.",
               [](const Device& one) { return one.gaps(); });
   add_devices(out, figures, "imunoise_device_last_sample_timestamp_seconds",
-              "When the last sample came; 0: none did.",
+              "Time of the last sample; 0: no sample yet.",
               [](const Device& one) { return 1e-9 * static_cast<double>(one.last_sample_ns()); });
   add_devices(out, figures, "imunoise_device_disk_troubled",
               "1: the disk under the device's samples fails or hangs.",
@@ -115,7 +115,7 @@ void add_live(std::string& out, const Figures& figures) {
 
 void add_service(std::string& out, const Figures& figures) {
   const HttpCounters& http = figures.http;
-  Family responses(out, "imunoise_http_responses_total", "counter", "By status.");
+  Family responses(out, "imunoise_http_responses_total", "counter", "Requests by status.");
   for (const auto& [status, count] : figures.responses)
     responses.add({{"status", std::to_string(status)}}, count);
   Family(out, "imunoise_http_connections", "gauge", "Open now.").add({}, http.connections);
@@ -124,14 +124,14 @@ void add_service(std::string& out, const Figures& figures) {
   Family(out, "imunoise_http_turned_away_total", "counter", "Connections beyond the limit.")
       .add({}, http.turned_away);
   Family(out, "imunoise_http_evicted_total", "counter",
-         "Connections that made room for others: strangers, and those that idled.")
+         "Connections closed to make room: without a token, or idle.")
       .add({}, http.evicted);
   Family(out, "imunoise_http_timed_out_total", "counter", "Connections that were too slow.")
       .add({}, http.timed_out);
-  Family(out, "imunoise_http_malformed_total", "counter", "Requests that were none, or too large.")
+  Family(out, "imunoise_http_malformed_total", "counter", "Invalid or too large requests.")
       .add({}, http.malformed);
   Family(out, "imunoise_http_event_streams_dropped_total", "counter",
-         "Their readers were too slow.")
+         "Event streams closed because their readers were too slow.")
       .add({}, http.streams_dropped);
 }
 
@@ -140,7 +140,7 @@ void add_jobs(std::string& out, const Figures& figures) {
   for (const v1::Job& job : figures.jobs) {
     if (count.contains(job.state())) ++count[job.state()];
   }
-  Family jobs(out, "imunoise_jobs", "gauge", "Computations on studies that wait or work.");
+  Family jobs(out, "imunoise_jobs", "gauge", "Waiting and running computations of studies.");
   for (const auto& [state, number] : count) jobs.add({{"state", v1::JobState_Name(state)}}, number);
 }
 
@@ -150,7 +150,7 @@ std::string metrics_text(const Figures& figures) {
   std::string out;
   Family(out, "imunoise_info", "gauge", "1; the version is the label.")
       .add({{"version", figures.version}}, 1);
-  Family(out, "imunoise_uptime_seconds", "counter", "Since the daemon began to serve.")
+  Family(out, "imunoise_uptime_seconds", "counter", "Time since imunoised began to serve.")
       .add({}, figures.uptime_s);
   add_campaigns(out, figures);
   add_live(out, figures);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Events on their way to one reader. Whoever tells them never waits for it.
+// Events on their way to one reader. Senders never wait for it.
 
 #include <cstddef>
 #include <functional>

@@ -148,7 +148,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
                error.category() != make_error_code(http::error::bad_method).category()) {
       finish();  // it has gone
     } else {
-      refuse(400, "this is no HTTP/1.1 request");
+      refuse(400, "this is not an HTTP/1.1 request");
     }
   }
 

@@ -56,7 +56,7 @@ class HttpServer::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   Result<void> listen(const Listen& where) {
-    if (!where.socket && !where.address) return fail("the service has nothing to listen on");
+    if (!where.socket && !where.address) return fail("no address to serve the API on");
     if (where.socket) {
       auto descriptor = listen_on(*where.socket);
       if (!descriptor) return tl::unexpected(descriptor.error());

@@ -35,12 +35,13 @@ tl::unexpected<Error> trouble(const std::string& path, std::string_view what) {
 Result<void> make_room(const std::string& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return {};
-  if (!S_ISSOCK(found.st_mode)) return fail(path + ": is there and no socket; name another file");
+  if (!S_ISSOCK(found.st_mode))
+    return fail(path + ": exists and is not a socket; choose another path");
   const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const bool refused =
       ::connect(probe, Address(path).get(), sizeof(sockaddr_un)) != 0 && errno == ECONNREFUSED;
   ::close(probe);
-  if (!refused) return fail(path + ": another process serves it");
+  if (!refused) return fail(path + ": another process uses it; stop it, or choose another path");
   if (::unlink(path.c_str()) != 0) return trouble(path, "cannot be replaced");
   return {};
 }
@@ -50,11 +51,11 @@ Result<void> make_room(const std::string& path) {
 Result<int> listen_on(const std::filesystem::path& file) {
   const std::string path = file.string();
   if (path.size() >= sizeof(sockaddr_un::sun_path))
-    return fail(fmt::format("{}: a socket's path has at most {} bytes", path,
+    return fail(fmt::format("{}: the path of a socket has at most {} bytes", path,
                             sizeof(sockaddr_un::sun_path) - 1));
   if (auto done = make_room(path); !done) return tl::unexpected(done.error());
   const int out = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  // Nobody can connect before it listens: the mode is set by then.
+  // No client can connect before it listens: the mode is set by then.
   if (out < 0 || ::bind(out, Address(path).get(), sizeof(sockaddr_un)) != 0 ||
       ::chmod(path.c_str(), kOwnerAndGroup) != 0 || ::listen(out, kBacklog) != 0) {
     auto error = trouble(path, "cannot be listened on");

@@ -9,7 +9,7 @@
 namespace imunoise::service {
 
 /// A listening socket: its owner and group may connect. A file that a dead process left there is
-/// replaced. Error: a path that is too long, a file that is no socket, somebody serves it, or the
+/// replaced. Error: a path that is too long, a file that is not a socket, a socket in use, or the
 /// system's.
 Result<int> listen_on(const std::filesystem::path& path);
 

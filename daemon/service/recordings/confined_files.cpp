@@ -22,7 +22,8 @@ using Path = std::filesystem::path;
 
 tl::unexpected<Error> trouble(const Path& path, int error) {
   if (error == ELOOP || error == ENOTDIR)
-    return fail(path.string() + ": a link, or below one; links in a data folder are not followed");
+    return fail(path.string() +
+                ": a link, or below one; imunoise follows no links in data folders");
   return fail(path.string() + ": cannot be read: " + std::generic_category().message(error));
 }
 
@@ -37,7 +38,7 @@ class ConfinedFiles final : public recording::FileSystem {
     if (!file) return tl::unexpected(file.error());
     struct stat found {};
     if (::fstat(file->get(), &found) != 0) return trouble(path, errno);
-    if (!S_ISREG(found.st_mode)) return fail(path.string() + ": is no regular file");
+    if (!S_ISREG(found.st_mode)) return fail(path.string() + ": is not a regular file");
     const auto size = static_cast<std::size_t>(found.st_size);
     if (size > limit) return tl::make_unexpected(recording::too_large(path, limit));
     std::string out(size, '\0');
@@ -60,7 +61,7 @@ class ConfinedFiles final : public recording::FileSystem {
     if (!entries) return trouble(folder, errno);
     const int at = opened->release();  // the stream's now
     std::vector<std::string> out;
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody else reads this stream.
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): this stream has no other reader.
     while (const dirent* const entry = ::readdir(entries.get())) {
       const std::string name = entry->d_name;
       struct stat found {};
@@ -113,7 +114,7 @@ class ConfinedFiles final : public recording::FileSystem {
 
   Result<Descriptor> open(const Path& path, int flags) const {
     const auto where = place(path);
-    if (!where) return fail(path.string() + ": lies in no folder of recordings");
+    if (!where) return fail(path.string() + ": is not in a folder of recordings");
     Descriptor at(::open(where->first.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
     if (at.get() < 0) return trouble(path, errno);
     const auto last = std::prev(where->second.end());

@@ -147,7 +147,7 @@ Answer<v1::History> Records::history(const v1::GetHistoryRequest& request) {
   options.parameters.assign(request.parameter().begin(), request.parameter().end());
   if (request.has_level()) options.level = request.level();
   if (options.level < 1e-9 || options.level > 0.5)
-    return refuse(400, "level: a chance from 1e-9 to 0.5");
+    return refuse(400, "level: a probability from 1e-9 to 0.5");
   const std::lock_guard lock(mutex_);
   if (auto done = refresh(); !done) return tl::unexpected(done.error());
   const auto device = catalogue_.device(request.device());

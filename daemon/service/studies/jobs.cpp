@@ -23,7 +23,7 @@ Result<v1::Study> guarded(const Jobs::Work& work, const Progress& progress) {
   try {
     return work(progress);
   } catch (const std::exception& error) {
-    return fail(std::string("this went wrong within the daemon: ") + error.what());
+    return fail(std::string("internal error of imunoised: ") + error.what());
   }
 }
 
@@ -55,7 +55,7 @@ Answer<v1::Job> Jobs::add(const std::string& operation, const std::string& study
       return one->job.state() == v1::queued;
     });
     if (static_cast<std::size_t>(queued) >= waiting_)
-      return refuse(503, fmt::format("{} jobs wait already; try again when some are done", queued));
+      return refuse(503, fmt::format("{} jobs are waiting; try again later", queued));
     entry->job.set_job(fmt::format("job-{}", ++count_));
     entry->job.set_operation(operation);
     entry->job.set_study(study);
@@ -152,7 +152,9 @@ Answer<v1::Job> Jobs::get(const std::string& job) const {
 Answer<v1::Job> Jobs::wait(const std::string& job, std::chrono::duration<double> patience) const {
   std::unique_lock lock(mutex_);
   const auto entry = find(job);
-  if (!entry) return refuse(404, fmt::format("there is no job '{}' (any more)", job));
+  if (!entry)
+    return refuse(404,
+                  fmt::format("there is no job '{}'; its number is wrong, or it is too old", job));
   news_.wait_for(lock, patience, [&] { return over(entry->job); });
   return entry->job;
 }
@@ -162,7 +164,9 @@ Answer<v1::Job> Jobs::cancel(const std::string& job) {
   {
     const std::lock_guard lock(mutex_);
     const auto entry = find(job);
-    if (!entry) return refuse(404, fmt::format("there is no job '{}' (any more)", job));
+    if (!entry)
+      return refuse(
+          404, fmt::format("there is no job '{}'; its number is wrong, or it is too old", job));
     entry->stop.request_stop();
     if (entry->job.state() == v1::queued) {
       entry->job.set_state(v1::cancelled);

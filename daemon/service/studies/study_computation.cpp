@@ -12,8 +12,7 @@ Result<v1::Study> compute_here(const v1::JobOrder& order, const Progress& progre
   const auto files = confined_files({order.folders().begin(), order.folders().end()});
   const auto read = [&](const v1::StudyInput& input,
                         const std::string& channel) -> Result<std::vector<recording::Replicate>> {
-    if (input.files_size() != 1)
-      return fail("the study is of several files; imunoise study works with it");
+    if (input.files_size() != 1) return fail("the study has several files; use imunoise study");
     recording::ImportOptions options;
     options.beside = true;
     if (!channel.empty()) options.channels = {channel};

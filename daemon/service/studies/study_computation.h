@@ -11,7 +11,7 @@
 namespace imunoise::service {
 
 /// Does what an order asks, on the caller's thread or beside it. Error: as study::apply(), or what
-/// became of whoever computed it.
+/// became of the process that computed it.
 using ComputeStudy =
     std::function<Result<v1::Study>(const v1::JobOrder& order, const Progress& progress)>;
 

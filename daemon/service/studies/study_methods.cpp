@@ -74,7 +74,7 @@ class StudyMethods {
   Answer<void> check_new(const std::string& name) const {
     if (auto good = check_study_name(name); !good) return good;
     if (studies_.contains(name))
-      return refuse(409, fmt::format("there is a study '{}' already; take another name", name));
+      return refuse(409, fmt::format("study '{}' exists; choose another name", name));
     return {};
   }
 
@@ -85,7 +85,7 @@ class StudyMethods {
     std::uint64_t bytes = 0;
     for (const v1::ChunkEntry& chunk : manifest->chunks()) bytes += chunk.bytes();
     if (bytes > largest_) {
-      return refuse(409, fmt::format("the recording has {}; up to {} are studied beside recording: "
+      return refuse(409, fmt::format("the recording has {}; the limit here is {}: "
                                      "use imunoise study on another machine",
                                      config::print_bytes(static_cast<double>(bytes)),
                                      config::print_bytes(static_cast<double>(largest_))));

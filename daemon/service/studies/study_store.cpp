@@ -25,7 +25,8 @@ Answer<void> check_study_name(const std::string& name) {
       });
   if (good) return {};
   return refuse(
-      400, "a study's name has 1 to 64 letters, digits, '_', '-' and '.', and begins with no '.'");
+      400,
+      "a study's name has 1 to 64 letters, digits, '_', '-' and '.', and does not begin with '.'");
 }
 
 StudyStore::StudyStore(std::filesystem::path folder, recording::DiskCalls& calls)
@@ -84,13 +85,13 @@ Answer<v1::Study> StudyStore::read(const std::string& name) const {
 
 Result<void> StudyStore::create(const std::string& name, const v1::Study& study) {
   const std::lock_guard lock(changing_);
-  if (contains(name)) return fail("there is one of this name");
+  if (contains(name)) return fail("a study of this name exists");
   return write(name, study);
 }
 
 Result<void> StudyStore::replace(const std::string& name, const v1::Study& study) {
   const std::lock_guard lock(changing_);
-  if (!contains(name)) return fail("the study was deleted meanwhile");
+  if (!contains(name)) return fail("the study was deleted while the command ran");
   return write(name, study);
 }
 

@@ -61,7 +61,7 @@ drivers::DriverInfo describe_driver() {
       "1.0",
       {{.name = "rate",
         .type = drivers::OptionType::kNumber,
-        .description = "Samples a second",
+        .description = "Sampling rate",
         .unit = "Hz",
         .by_default = "100",
         .minimum = 1.0,

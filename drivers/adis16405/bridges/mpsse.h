@@ -42,7 +42,7 @@ bool is_mpsse_mark(std::uint8_t byte);
 void append_mpsse_flush(std::vector<std::uint8_t>& out);
 
 /// Appends a pause of at least `least` between two transfers, as cycles of a clock of `clock` that
-/// nobody listens to.
+/// nothing listens to.
 void append_mpsse_pause(std::vector<std::uint8_t>& out, std::chrono::microseconds least,
                         Hertz clock);
 

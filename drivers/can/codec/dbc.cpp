@@ -112,7 +112,7 @@ class Parser {
     const char* const end = digits.data() + digits.size();
     const auto [stop, failure] = std::from_chars(digits.data(), end, out);
     if (failure != std::errc() || stop != end) {
-      refuse(token, fmt::format("'{}' is no number", token.text));
+      refuse(token, fmt::format("'{}' is not a number", token.text));
       return 0.0;
     }
     return out;
@@ -125,8 +125,8 @@ class Parser {
     const char* const end = token.text.data() + token.text.size();
     const auto [stop, failure] = std::from_chars(token.text.data(), end, out);
     if (failure != std::errc() || stop != end || out > most) {
-      refuse(token,
-             fmt::format("'{}' is no {} (a whole number, at most {})", token.text, what, most));
+      refuse(token, fmt::format("'{}' is not a valid {} (a whole number, at most {})", token.text,
+                                what, most));
       return 0;
     }
     return out;
@@ -166,7 +166,7 @@ class Parser {
     expect(DbcToken::Kind::kName, "the sender's name");
     const bool unused = id == kNoMessage;
     if (!unused && (id & ~kDbcExtendedFlag) > (out.extended ? kExtendedMask : kStandardMask)) {
-      refuse(id_token, fmt::format("{} is no identifier: 11 bits, or 29 and bit 31 set", id));
+      refuse(id_token, fmt::format("{} is not an identifier: 11 bits, or 29 and bit 31 set", id));
     }
     if (!unused && !ids_.insert(id).second) {
       refuse(id_token, fmt::format("identifier {} is defined twice", id));
@@ -225,7 +225,7 @@ class Parser {
     const char* const end = text.data() + text.size();
     const auto [stop, failure] = std::from_chars(text.data() + 1, end, value);
     if (text.front() != 'm' || failure != std::errc() || stop != end) {
-      return refuse(token, fmt::format("'{}' is no multiplexing mark (M, m0, m0M)", token.text));
+      return refuse(token, fmt::format("'{}' is not a multiplexing mark (M, m0, m0M)", token.text));
     }
     out.present_at.push_back({value, value});
   }

@@ -72,8 +72,8 @@ Result<std::vector<double>> numbers_of(const CallText& call,
     place = number_of(value);
     // Written so that what is not a number is refused too.
     if (!place || !(*place >= known->minimum && *place <= known->maximum)) {
-      return wrong(fmt::format("{}={} is no number from {:g} to {:g}", key, value, known->minimum,
-                               known->maximum));
+      return wrong(fmt::format("{}={} is not a number from {:g} to {:g}", key, value,
+                               known->minimum, known->maximum));
     }
   }
   std::vector<double> out;

@@ -82,16 +82,17 @@ std::vector<NumberParameter> hum_parameters(std::optional<double> frequency, dou
 
 const std::vector<Entry>& catalogue() {
   static const std::vector<Entry> kEntries = {
-      {"temperature", "it swings and drifts, and the quantity follows (per K, per K²), maybe late",
+      {"temperature",
+       "temperature swings and drifts; the channel follows (per K, per K²) with a lag",
        witness_parameters("K", "K/h"),
        [](const Wanted& w, Effects& to) { add_witness(kTemperature, w, to); }},
-      {"supply", "the supply voltage does the same (per V, per V²)", witness_parameters("V", "V/h"),
+      {"supply", "the same with the supply voltage (per V, per V²)", witness_parameters("V", "V/h"),
        [](const Wanted& w, Effects& to) { add_witness(kSupply, w, to); }},
-      {"fan", "a rotor's line and its harmonics, the k-th of amplitude / k",
+      {"fan", "a line and its harmonics, the k-th of amplitude / k",
        hum_parameters(std::nullopt, 3.0), add_hum},
-      {"mains", "the mains, folded by sampling", hum_parameters(50.0, 1.0), add_hum},
+      {"mains", "lines of the mains, aliased by sampling", hum_parameters(50.0, 1.0), add_hum},
       {"step",
-       "from a moment on another bias",
+       "a step of the bias",
        {{"at", "s"}, {"height", "", std::nullopt, -kAny}},
        [](const Wanted& w, Effects& to) {
          add_each<Step>(w, to.disturbances,
@@ -106,7 +107,7 @@ const std::vector<Entry>& catalogue() {
          });
        }},
       {"outliers",
-       "a share of the samples carries another normal number",
+       "a share of the samples has an added normal random value",
        {{"share", "", std::nullopt, 0.0, 1.0}, {"deviation", ""}},
        [](const Wanted& w, Effects& to) {
          add_each<Outliers>(w, to.disturbances, [&](QuantityIndex quantity) {
@@ -114,21 +115,21 @@ const std::vector<Entry>& catalogue() {
          });
        }},
       {"warm_up",
-       "a bias that decays since power came on",
+       "a bias that decays after power-on",
        {{"size", "", std::nullopt, -kAny}, {"time", "s", std::nullopt, 1e-6}},
        [](const Wanted& w, Effects& to) {
          add_each<WarmUp>(w, to.disturbances,
                           [&](QuantityIndex) { return std::tuple(w.numbers[0], w.numbers[1]); });
        }},
       {"saturation",
-       "nothing beyond ± limit",
+       "values limited to ± limit",
        {{"limit", ""}},
        [](const Wanted& w, Effects& to) {
          add_each<Saturation>(w, to.limits,
                               [&](QuantityIndex) { return std::tuple(w.numbers[0]); });
        }},
       {"stuck",
-       "the same value again and again for a while",
+       "the same value for a while",
        {{"at", "s"}, {"for", "s"}},
        [](const Wanted& w, Effects& to) {
          add_each<Stuck>(w, to.limits,

@@ -37,7 +37,7 @@ class SocketCanLine final : public CanLine {
 /// type SOCK_SEQPACKET, a frame of Linux a packet. Throws std::system_error.
 class LocalCanLine final : public CanLine {
  public:
-  /// Makes the socket; `path` must be free, or a socket that nobody serves any more.
+  /// Makes the socket; `path` must be free, or a socket without a server.
   explicit LocalCanLine(std::filesystem::path path);
   ~LocalCanLine() override;
 

@@ -21,7 +21,7 @@ class Pty {
 
   /// What the host wrote, as much as fits; 0: nothing within `timeout_ms`.
   std::size_t read(std::span<std::uint8_t> into, int timeout_ms) const;
-  /// Writes what the line has room for; the rest is lost, as on a line that nobody reads.
+  /// Writes what the line has room for; the rest is lost, as on a line without a reader.
   void write(drivers::Bytes bytes) const;
   /// Waits until the host has read what was written; a second at most.
   void drain() const;

@@ -17,7 +17,7 @@
 
 namespace imunoise::emulator {
 
-/// What shall go wrong; may be changed between two transfers.
+/// Faults to inject; may be changed between two transfers.
 struct SensorFaults {
   double bit_error_rate = 0.0;    ///< Probability that a byte of an answer has one wrong bit.
   std::uint64_t stale_every = 0;  ///< Every so many data-readies announce nothing; 0: none.

@@ -96,8 +96,7 @@ bool XsensOnPty::pass(const Fault& fault, std::vector<std::uint8_t>& frame) {
       return false;
     }
     case Fault::Kind::kUnplug:
-      line_
-          ->drain();  // what is unread when a line is cut is lost, and nobody knows how much it was
+      line_->drain();  // unread bytes of a cut line are lost, an unknown number of them
       line_.reset();
       unplugged_for_ = fault.count;
       [[fallthrough]];

@@ -16,8 +16,8 @@ namespace imunoise::emulator {
 struct InProcessPlan {
   std::string driver;  ///< "adis16405", "xsens" or "can".
   SourceTexts source;
-  std::vector<std::string> faults;      ///< As parse_fault() takes them.
-  double speed = 1.0;                   ///< adis16405: times real time; 0: as fast as it is read.
+  std::vector<std::string> faults;  ///< As parse_fault() takes them.
+  double speed = 1.0;  ///< adis16405: speed relative to real time; 0 is as fast as possible.
   std::optional<double> length_s = {};  ///< adis16405: ends after so much of its own time.
   std::string preset = "mti600";        ///< can: which IMU.
 };

@@ -49,7 +49,7 @@ bool Ft232h::control(const drivers::usb::Request& request) {
   }
 }
 
-// Outside of MPSSE mode bytes go to a serial line where nobody listens.
+// Outside MPSSE mode, bytes go to a serial line without a receiver.
 std::size_t Ft232h::out(drivers::Bytes bytes) {
   return mpsse_ ? engine_.accept(bytes) : bytes.size();
 }

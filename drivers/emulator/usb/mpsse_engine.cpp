@@ -90,7 +90,7 @@ void MpsseEngine::run_short(std::uint8_t opcode, Time& now) {
       set_pins(pop(), now);
       pop();
       break;
-    case 0x81:  // levels of the pins; what nobody drives is pulled up
+    case 0x81:  // levels of the pins; undriven pins are pulled up
       answers_.push_back(static_cast<std::uint8_t>(kPulledUp | pins_ |
                                                    (sensor_.data_ready(now) ? kDataReadyPin : 0U)));
       break;

@@ -13,7 +13,7 @@
 namespace imunoise::emulator {
 
 /// Runs commands in order; each takes the time it takes. Commands and answers wait in queues of
-/// 1 KiB, as in the chip: a full queue holds up whoever fills it.
+/// 1 KiB, as in the chip: a full queue blocks its writer.
 class MpsseEngine {
  public:
   /// Borrows the sensor, which hangs on SK, DO, DI, CS and, with data-ready, on GPIOL1.

@@ -9,7 +9,7 @@
 
 namespace imunoise::emulator {
 
-/// Since power was applied. Emulated: nobody waits for it.
+/// Since power was applied. Emulated: without real waiting.
 using Time = std::chrono::nanoseconds;
 
 /// Times never decrease from call to call.

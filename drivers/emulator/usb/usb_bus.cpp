@@ -100,7 +100,7 @@ std::vector<Address> EmulatedBus::find(std::span<const drivers::usb::Id> ids) {
 }
 
 std::unique_ptr<drivers::usb::Device> EmulatedBus::open(const Address& address) {
-  if (!plugged_) throw DeviceError(IMUNOISE_NOT_FOUND, describe(address) + ": is gone");
+  if (!plugged_) throw DeviceError(IMUNOISE_NOT_FOUND, describe(address) + ": is unplugged");
   if (forbidden_) throw DeviceError(IMUNOISE_NO_ACCESS, describe(address) + ": no permission");
   return std::make_unique<EmulatedDevice>(*this);
 }

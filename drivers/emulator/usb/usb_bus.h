@@ -26,7 +26,7 @@ class EmulatedBus final : public drivers::usb::Bus {
   /// open() is refused for want of permission.
   void set_forbidden(bool forbidden) { forbidden_ = forbidden; }
   /// The next receive comes late: the kernel went on with at most so many transfers meanwhile, and
-  /// nobody gave it new ones. 0 transfers: the bus itself was busy.
+  /// it got no new ones. 0 transfers: the bus itself was busy.
   void hold_up(Time duration, std::size_t transfers = drivers::usb::kTransfersInFlight) {
     hold_up_ = {duration, transfers};
   }

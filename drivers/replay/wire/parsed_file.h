@@ -18,8 +18,9 @@ class ParsedFile {
   /// Throws plugin::DeviceError: NOT_FOUND.
   explicit ParsedFile(const std::filesystem::path& path) : file_(path, std::ios::binary) {
     if (!file_ || std::filesystem::is_directory(path)) {
-      throw plugin::DeviceError(IMUNOISE_NOT_FOUND,
-                                path.string() + ": cannot be read; is it there?");
+      throw plugin::DeviceError(
+          IMUNOISE_NOT_FOUND,
+          path.string() + ": cannot be read; check the path and its permissions");
     }
   }
 

@@ -52,7 +52,7 @@ std::uint16_t legacy_period(double rate_hz);
 
 /// Error: any other length than 118 bytes.
 Result<XsensConfiguration> decode_configuration(Bytes payload);
-/// Payload of a Configuration message; fields that nobody reads are zero.
+/// Payload of a Configuration message; unused fields are zero.
 std::vector<std::uint8_t> encode_configuration(const XsensConfiguration& configuration);
 
 /// One number of an MTData message. Texts are the program's.

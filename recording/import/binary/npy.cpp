@@ -58,8 +58,8 @@ Result<Preamble> read_preamble(const File& file) {
 
 Result<bool> claims_npy(const UnknownFile& file) {
   if (file.extension != ".npy") return false;
-  return fail(fmt::format("{}: is not a NumPy file, whatever its name says; save it again",
-                          file.content.name()));
+  return fail(
+      fmt::format("{}: is not a NumPy file, despite its name; save it again", file.content.name()));
 }
 
 }  // namespace

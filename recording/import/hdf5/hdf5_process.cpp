@@ -183,7 +183,7 @@ void serve(const Line& line, const std::filesystem::path& path, std::uint64_t by
     try {
       sent = answer(line, (*source)->read(wanted[0]));
     } catch (const std::bad_alloc&) {
-      sent = answer(line, fail("it needs more memory than there is"));
+      sent = answer(line, fail("it needs more memory than available"));
     }
     if (!sent) return;
   }
@@ -240,7 +240,7 @@ class Hdf5Process : public Hdf5Reader {
            10 * std::chrono::seconds(computing_limit(bytes_, numbers * sizeof(double)));
   }
   tl::unexpected<Error> nonsense() const {
-    return fail("HDF5 read nonsense: it is damaged; copy it again");
+    return fail("HDF5 returned invalid data: the file is damaged; copy it again");
   }
   tl::unexpected<Error> broken_off() {
     if (stopped_()) return fail("the import was stopped");

@@ -38,7 +38,7 @@ Result<bool> claims_hdf5(const UnknownFile& file) {
     return false;
   }
   return fail(
-      fmt::format("{}: is not an HDF5 file, whatever its name says (a MATLAB file must be saved as "
+      fmt::format("{}: is not an HDF5 file, despite its name (a MATLAB file must be saved as "
                   "v7.3); it may be truncated: copy it again",
                   file.content.name()));
 }

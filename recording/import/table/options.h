@@ -18,7 +18,7 @@ inline constexpr std::size_t kMinimumSamples = 16;
 struct ImportOptions {
   /// Names of the channels wanted, in this order. Empty: every channel of the first file.
   std::vector<std::string> channels;
-  /// Those, and every other channel that the files have; a unit that nobody knows is then that of a
+  /// Those, and every other channel that the files have; an unknown unit is then that of a
   /// number as it is, and what counts ticks is left out. Of a recording's folder: that share their
   /// clock (of the first stream where none is named), and what the device's other streams say at
   /// the same times.

@@ -31,12 +31,12 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
                                                 const std::vector<Offer>& offers,
                                                 const ImportOptions& options);
 
-/// Whether what nobody named is wanted beside what somebody did: a count of ticks never is, unless
+/// Whether to read an unnamed channel beside named ones: never a count of ticks, unless
 /// it is a witness that is asked for.
 bool beside_them(const Offer& offer, const ImportOptions& options);
 
 /// The unit of a channel: the user's, else what the file writes ("" and "-" state none).
-/// Error: a spelling nobody knows, of a channel that does not only stand beside others.
+/// Error: an unknown unit of a channel that is not only a witness.
 Result<Unit> resolve_unit(std::string_view file, std::string_view channel, std::string_view text,
                           const ImportOptions& options);
 

@@ -85,7 +85,8 @@ Result<std::optional<double>> time_unit(std::string_view name, std::string_view 
 
 Result<EvenTimes> even_times(std::span<const double> times, const TimeColumn& column) {
   if (times.size() < 2) {
-    return fail(fmt::format("{}: one time shows no rate; give --rate HZ", column.place));
+    return fail(fmt::format(
+        "{}: cannot derive the sampling rate from one time stamp; pass --rate HZ", column.place));
   }
   const double median = median_step(times);
   double scatter = 0.0;
@@ -98,7 +99,7 @@ Result<EvenTimes> even_times(std::span<const double> times, const TimeColumn& co
     if (step < 0.0) {
       return trouble(fmt::format("time goes backwards ({} after {})", times[i], times[i - 1]));
     }
-    if (step == 0.0) return trouble(fmt::format("time {} stands twice", times[i]));
+    if (step == 0.0) return trouble(fmt::format("time {} occurs twice", times[i]));
     if (step > 1.5 * median) {
       return trouble(
           fmt::format("a gap: time steps by {:.6g} where {:.6g} is usual, about {:.0f} "

@@ -37,7 +37,7 @@ bool is_numeric(std::string_view text) {
 }
 
 std::string explain_no_number(std::string_view text) {
-  if (text.empty()) return "there is no value";
+  if (text.empty()) return "no value";
   if (has_decimal_comma(text)) {
     return fmt::format("{} has a decimal comma", quoted(text));
   }

@@ -30,7 +30,7 @@ inline bool is_number(std::string_view text, double& value) {
 bool is_numeric(std::string_view text);
 
 /// Why `text`, for which is_number() is false, is no number: "'abc' is not a number", "'nan' is not
-/// finite", "'1,5' has a decimal comma", "there is no value".
+/// finite", "'1,5' has a decimal comma", "no value".
 std::string explain_no_number(std::string_view text);
 
 /// `text` without blanks at both ends.

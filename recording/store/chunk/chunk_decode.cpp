@@ -37,7 +37,8 @@ class Attributes {
       if (!name.starts_with(kRefused)) continue;
       const auto reason =
           refused_from_word(std::string_view(name).substr(std::string_view(kRefused).size()));
-      if (!reason && !error_) error_ = Error{fmt::format("attribute {} is no known reason", name)};
+      if (!reason && !error_)
+        error_ = Error{fmt::format("attribute {} is not a known reason", name)};
       const std::uint64_t rows = count(name.c_str());
       if (reason) out.push_back({*reason, channel, rows});
     }

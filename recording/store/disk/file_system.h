@@ -21,8 +21,8 @@ class WritableFile {
   virtual ~WritableFile() = default;
   /// Appends all bytes. Error: some of them may be in the file.
   virtual Result<void> write(std::string_view bytes) = 0;
-  /// When it succeeds, the file's contents survive a power cut (fdatasync). After an error nobody
-  /// knows which bytes do: do not try again on this file.
+  /// When it succeeds, the file's contents survive a power cut (fdatasync). After an error it is
+  /// unknown which bytes do: do not try again on this file.
   virtual Result<void> sync() = 0;
 };
 

@@ -61,7 +61,7 @@ struct ReadChunk {
 /// Why a chunk cannot be used.
 struct ChunkTrouble {
   enum class Kind {
-    kUnread,    ///< The disk's error: nobody knows what is in the file.
+    kUnread,    ///< The disk's error: the contents of the file are unknown.
     kDamaged,   ///< Its bytes are no chunk, or not those that the manifest lists.
     kUnusable,  ///< Nothing shows damage: of another version of the format, or another folder.
   };

@@ -85,7 +85,7 @@ Result<void> check_chunks(std::string_view file,
     const auto of = replicate_of_chunk(chunk.file());
     if (!of || (replicate != 0 && *of != replicate)) {
       return tl::make_unexpected(
-          damaged_manifest(file, fmt::format("'{}' is no chunk of this folder", chunk.file())));
+          damaged_manifest(file, fmt::format("'{}' is not a chunk of this folder", chunk.file())));
     }
   }
   return {};

@@ -39,7 +39,7 @@ class DeviceReader {
     if (!names) return tl::make_unexpected(names.error());
     for (const std::string& name : names->unfinished) {
       out_.defects.push_back(where_.file(name) +
-                             ": was not written to its end (imunoise verify --repair removes it)");
+                             ": is incomplete (imunoise verify --repair removes it)");
     }
     for (const std::string& name : names->broken) out_.broken.push_back(where_.file(name));
     using Read = tl::expected<ReadChunk, ChunkTrouble>;

@@ -38,7 +38,7 @@ std::string unfit(const DeviceStream& stream) {
   if (seconds_of({{&stream, 1}}) == 0.0) return "no stretch without a gap has ten seconds";
   const double ppm = clock_ppm(stream);
   if (std::abs(ppm) <= kMostPpm) return {};
-  return fmt::format("it samples {:.1f} % {} than it says, by the host's clock",
+  return fmt::format("it samples {:.1f} % {} than its nominal rate, by the host's clock",
                      std::abs(ppm) * 1e-4, ppm > 0.0 ? "faster" : "slower");
 }
 
@@ -94,7 +94,7 @@ void keep_by_time(WhoJoins& who) {
     const double seconds = seconds_of(with);
     if (!in.empty() && seconds < least) {
       who.left_out.push_back(
-          {one.stream, fmt::format("it has no time in common with {}",
+          {one.stream, fmt::format("it never ran at the same time as {}",
                                    in.size() > 1 ? "the others" : in[0].stream->device)});
     } else if (in.size() > 1 && seconds < kKeptShare * together) {
       who.left_out.push_back(

@@ -31,7 +31,7 @@ struct WhoJoins {
 };
 
 /// By the rules of import_across(): one for each rate that several devices go with, and at least
-/// one. The first has most devices, and tells of whoever is not in it.
+/// one. The first has most devices, and reports the devices left out.
 std::vector<WhoJoins> who_joins(const std::vector<DeviceStream>& streams);
 
 /// What common_grid() needs of a replicate; empty where one of them has no samples.

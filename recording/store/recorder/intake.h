@@ -1,6 +1,6 @@
 #pragma once
 
-// The bounded queue between whoever reads a device and the journal, and the count of every row that
+// The bounded queue between the reader of a device and the journal, and the count of every row that
 // passes or does not.
 
 #include <deque>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Records one replicate of some devices: whoever reads a device hands blocks over, two threads of
+// Records one replicate of some devices: the readers of devices hand blocks over, two threads of
 // the recorder write them: one the journals, one the chunks.
 
 #include <chrono>
@@ -77,8 +77,8 @@ class Recorder {
  public:
   /// Locks the folder (made when missing), recovers what an interrupted recording left, writes the
   /// manifest. Replicates that were closed are not read again. Error: the disk's (nothing is set
-  /// aside because it cannot be read; try again), somebody is recording into it, a plan that cannot
-  /// be, a device whose replicate is recorded already.
+  /// aside because it cannot be read; try again), another process records into it, a plan that
+  /// cannot be, a device whose replicate is recorded already.
   static Result<std::unique_ptr<Recorder>> start(FileSystem& files,
                                                  const std::filesystem::path& folder,
                                                  const RecordingPlan& plan,

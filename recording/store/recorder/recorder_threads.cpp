@@ -335,7 +335,7 @@ Result<void> Recorder::Threads::check_closed(const RecorderState& state) const {
 
 // What was acknowledged came back from the journal.
 Result<void> Recorder::Threads::check_back(const Line& line) {
-  if (!line.segments.empty()) return {};  // nobody knows yet
+  if (!line.segments.empty()) return {};  // not known yet
   std::uint64_t stored = 0;
   std::uint64_t in_chunks = 0;
   for (const StreamCounts& counts : line.intake.counts()) stored += counts.stored;

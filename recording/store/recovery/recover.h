@@ -33,7 +33,7 @@ struct RecoveredDevice {
 };
 
 /// Recovers one folder; `known` is the manifest, empty when it was lost. May be repeated after an
-/// error or a crash at any point. Error: the disk's. Nobody else may be writing: hold the lock
+/// error or a crash at any point. Error: the disk's. No other writer may be active: hold the lock
 /// (FileSystem::lock) of the recording's folder.
 Result<RecoveredDevice> recover_device(FileSystem& files, const DeviceFolder& where,
                                        const v1::Manifest& known, Recovery how);

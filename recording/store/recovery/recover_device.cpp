@@ -60,7 +60,7 @@ class DeviceRecovery {
         return fail(why);
       case ChunkTrouble::Kind::kUnusable:
         out_.settled = false;
-        out_.repaired.push_back(why + "; it is left as it is");
+        out_.repaired.push_back(why + "; imunoise leaves it unchanged");
         if (const auto known = listed_.find(number); known != listed_.end()) {
           chunks_[number] = known->second;
           out_.unproven += known->second.samples();

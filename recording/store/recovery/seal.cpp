@@ -16,7 +16,7 @@ std::optional<std::string> describe_damage(const Segment& segment) {
   std::string out;
   for (const Damage& one : segment.damage) {
     out +=
-        fmt::format("{}{} bytes at byte {} are no whole block{}", out.empty() ? "" : "; ",
+        fmt::format("{}{} bytes at byte {} are not a complete block{}", out.empty() ? "" : "; ",
                     one.bytes, one.offset, one.at_end ? " (an interrupted write or damage)" : "");
     if (out.size() > 400) break;
   }
@@ -70,7 +70,7 @@ v1::DamagedFile damaged_segment(const DeviceFolder& where, std::uint64_t number,
   out.set_file(where.file(numbered(number, kJournalSuffix)));
   out.set_kept_as(where.file(sealed.kept_as));
   out.set_reason(*sealed.damage + "; its whole blocks are kept");
-  // Nobody can tell an interrupted write, which costs nothing, from a damaged end.
+  // An interrupted write, which costs nothing, looks like a damaged end.
   out.set_accepted(sealed.torn);
   return out;
 }

@@ -137,8 +137,8 @@ void append(Rows& to, const Rows& from) {
 }
 
 Result<void> check_device(const v1::RecordedDevice& device) {
-  std::set<std::string> nobody;
-  if (auto good = check_name("device", device.name(), nobody); !good) return good;
+  std::set<std::string> no_others;
+  if (auto good = check_name("device", device.name(), no_others); !good) return good;
   if (device.streams().empty()) return fail("the device has no stream");
   std::set<std::string> streams;
   for (const v1::RecordedStream& stream : device.streams()) {
@@ -194,7 +194,8 @@ Result<void> check_block(const v1::RecordedDevice& device, const Block& block) {
     const auto named = [&](const v1::RecordedChannel& c) { return c.name() == one.channel; };
     if (!one.channel.empty() &&
         std::none_of(stream.channels().begin(), stream.channels().end(), named)) {
-      return trouble(fmt::format("a refusal blames channel '{}', which is none", one.channel));
+      return trouble(
+          fmt::format("a rejection names channel '{}', which does not exist", one.channel));
     }
   }
   const std::uint64_t refused = refused_rows(rows.refused);
@@ -215,7 +216,7 @@ v1::RefusalCount to_message(const Refusal& refusal) {
 
 Result<Refusal> from_message(const v1::RefusalCount& count) {
   const auto reason = refused_from_word(count.reason());
-  if (!reason) return fail(fmt::format("'{}' is no reason to refuse a sample", count.reason()));
+  if (!reason) return fail(fmt::format("'{}' is not a reason to reject a sample", count.reason()));
   return Refusal{*reason, count.channel(), count.samples()};
 }
 

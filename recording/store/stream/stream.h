@@ -61,8 +61,8 @@ struct Refusal {
 void add_refusals(std::vector<Refusal>& to, const std::vector<Refusal>& from);
 std::uint64_t refused_rows(const std::vector<Refusal>& refusals);
 
-/// Rows of one stream: columns of equal length n. Whoever refuses or loses rows sets kLostBefore on
-/// the row that follows them.
+/// Rows of one stream: columns of equal length n. The code that rejects or loses rows sets
+/// kLostBefore on the row that follows them.
 struct Rows {
   std::vector<std::int64_t> host_time;  ///< (n) ns since 1970-01-01 UTC.
   std::vector<std::int64_t> counter;    ///< (n), or empty when the device has none.

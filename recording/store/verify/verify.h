@@ -11,7 +11,7 @@ namespace imunoise::recording {
 
 /// Reads every chunk, journal and the manifest. Changes nothing unless `repair`: then the tail of a
 /// journal becomes a chunk, a damaged chunk is set aside (never deleted), a manifest that is lost
-/// or out of date is made from the chunks. Error: not a recording, the disk's, somebody is
+/// or out of date is made from the chunks. Error: not a recording, the disk's, another process is
 /// recording (repair only). Memory: the samples of one device in one replicate.
 Result<v1::VerifyReport> verify_recording(FileSystem& files, const std::filesystem::path& folder,
                                           bool repair);

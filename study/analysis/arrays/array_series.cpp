@@ -129,7 +129,7 @@ void add_budgets(const ArrayFit& fit, const Model& written, const Scales& scales
 std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& scale_weights) {
   int dependent = 0;
   for (const v1::SensorPair& pair : report.pairs()) dependent += pair.dependent() ? 1 : 0;
-  std::string out = dependent == 0 ? "No two sensors share noise that these recordings can show."
+  std::string out = dependent == 0 ? "These recordings show no shared noise."
                                    : fmt::format("{} of {} pairs of sensors share noise.",
                                                  dependent, report.pairs_size());
   double predicted = 0.0;
@@ -142,14 +142,15 @@ std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& sca
     held = held && gain.has_measured();
   }
   out += fmt::format(
-      " The virtual sensor should have {:.2g} times the wavelet variance of the sensors' mean, "
-      "averaged over the scales it was made for",
+      " The virtual sensor should have {:.2g} times the wavelet variance of the mean of the "
+      "sensors, "
+      "averaged over its scales",
       predicted);
   out += held ? fmt::format(
-                    "; on replicates that its weights were not made from it has {:.2g} "
+                    "; on held-out replicates it has {:.2g} "
                     "times.",
                     measured)
-              : "; with more than one replicate that could be checked.";
+              : "; check this with more than one replicate.";
   return out;
 }
 
@@ -203,15 +204,15 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {
-    out.add_notes(fmt::format(
-        "These weights have Σ|c| = 1, as published: a motion that all sensors see is multiplied by "
-        "{:.3g}. For a sensor that measures, take unit-gain.",
-        out.virtual_sensor().gain()));
+    out.add_notes(
+        fmt::format("These weights have Σ|c| = 1, as published: a common motion is multiplied by "
+                    "{:.3g}. To measure motion, use --rule unit-gain.",
+                    out.virtual_sensor().gain()));
   }
   if (!fit.joint_weights) {
     out.add_notes(
         "There are too many moments to weight them jointly: each pair of sensors was "
-        "weighted by itself, which loses some precision.");
+        "weighted separately, which loses some precision.");
   }
   return out;
 }

@@ -88,8 +88,8 @@ Result<ArraySetup> array_setup(const std::vector<Series>& sensors, std::string_v
   const std::size_t scales = measured->front().scales.size();
   if (free_parameters(*written) > scales) {
     return fail(fmt::format(
-        "model: {} has {} free parameters a sensor, but the recording has only {} scales; take a "
-        "smaller model, record longer, or ask for more scales an octave",
+        "model: {} has {} free parameters per sensor, but the recording has only {} scales; use a "
+        "smaller model, record longer, or use more scales per octave",
         print(*written), free_parameters(*written), scales));
   }
   return ArraySetup{*written, *layout, std::move(*measured)};

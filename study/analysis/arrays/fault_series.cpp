@@ -143,7 +143,7 @@ Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors,
   if (!parity_is_noisy(fit.model)) {
     return fail(fmt::format(
         "model: by {} some sensors differ by a constant only, so that any difference were a fault; "
-        "give each sensor noise of its own, such as WN",
+        "give each sensor independent noise, such as WN",
         print(setup->model)));
   }
 

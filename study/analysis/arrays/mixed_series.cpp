@@ -36,7 +36,7 @@ Result<void> check(const Regression& regression, const std::vector<Series>& chan
                             regression.responses[static_cast<std::size_t>(i)].channel));
   }
   if (!has_likelihood(expand(written, layout)))
-    return fail("model: a ramp is no noise here: leave DR out and add --regress time");
+    return fail("model: DR is not noise here; remove it and add --regress time");
   const std::size_t scales = Scales::for_samples(static_cast<std::size_t>(response.rows())).size();
   if (free_parameters(written) > scales) {
     return fail(

@@ -36,8 +36,8 @@ Table weights(const v1::VirtualSensor& sensor, Digits digits) {
 }
 
 Table gains(const v1::VirtualSensor& sensor, Digits digits) {
-  Table out{"Its wavelet variance over that of the sensors' mean",
-            {"averaging time", "by the model", "on unseen replicates"},
+  Table out{"Wavelet variance relative to the mean of the sensors",
+            {"averaging time", "by the model", "on held-out replicates"},
             {}};
   for (const v1::ScaleGain& one : sensor.scale_gains()) {
     out.rows.push_back({duration(one.tau_s()), number(one.predicted(), 3, digits),
@@ -53,12 +53,13 @@ std::optional<figure::Figure> gain_figure(const v1::VirtualSensor& sensor) {
     rows.push_back({duration(one.tau_s()), seen, std::min(seen, one.predicted()),
                     std::max(seen, one.predicted()), seen > 1.0});
   }
-  return interval_figure(
-      "What the virtual sensor gains", "wavelet variance over that of the sensors' mean",
-      "A dot a scale: measured on replicates that the weights were not made from where there are "
-      "any, else by the model; the whisker runs to what the model predicts. Left of 1 the virtual "
-      "sensor is quieter than the mean of all sensors; orange: noisier there.",
-      rows, 1.0);
+  return interval_figure("Gain of the virtual sensor",
+                         "wavelet variance relative to the mean of the sensors",
+                         "One dot per scale: measured on held-out replicates if there are "
+                         "any, else by the model; the whisker ends at the prediction of the model. "
+                         "Left of 1, the virtual "
+                         "sensor is quieter than the mean of all sensors; orange: noisier there.",
+                         rows, 1.0);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   section.title = joined(report.sensors());
   bool shared = false;
   for (const v1::SensorPair& pair : report.pairs()) shared = shared || pair.dependent();
-  section.badge = shared ? "shared noise" : "no shared noise seen";
+  section.badge = shared ? "shared noise" : "no shared noise detected";
   section.mood = shared ? Mood::kDoubtful : Mood::kGood;
   section.facts = fmt::format("{} · {:g} Hz · {} sensors · {} replicates · {}", report.model(),
                               report.rate_hz(), report.sensors_size(), report.replicates(),

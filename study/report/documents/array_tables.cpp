@@ -22,7 +22,7 @@ Table array_parameters(const std::string& title, const ArrayParameters& paramete
 }
 
 Table array_correlations(const ArrayParameters& parameters, Digits digits) {
-  Table out{"Correlation of what the sensors have of a process",
+  Table out{"Correlation of a process between sensors",
             {"term", "sensors", "correlation", "interval"},
             {}};
   for (const v1::ArrayParameter& one : parameters) {

@@ -41,12 +41,13 @@ Section simulation_section(const v1::SimulationSummary& simulation, Digits digit
   out.facts = fmt::format("{} sets of {} replicates, {} samples each at {:g} Hz · seed {}",
                           count(task.sets(), digits), task.replicates(),
                           count(task.samples(), digits), task.rate_hz(), task.seed());
-  out.summary = fmt::format("{} was fitted to each set; the test of fit rejected {} of {} at 5 %.",
-                            task.fit(), simulation.rejected(), simulation.tested());
+  out.summary =
+      fmt::format("{} was fitted to each set; the goodness-of-fit test rejected {} of {} at 5 %.",
+                  task.fit(), simulation.rejected(), simulation.tested());
   out.tables = {parameters_of(simulation, digits)};
   out.notes = {fmt::format(
-      "Seen: the data showed the parameter; mean and deviation are of these. Covered: the share of "
-      "all {:g} % intervals that hold the truth.",
+      "Seen: sets that identify the parameter, used for mean and deviation. Covered: share of "
+      "all {:g} % intervals that contain the true value.",
       100.0 * task.confidence())};
   return out;
 }
@@ -54,7 +55,7 @@ Section simulation_section(const v1::SimulationSummary& simulation, Digits digit
 Section calibrations_section(const v1::BatchReport& report) {
   Section out;
   out.title = "calibrations";
-  out.summary = fmt::format("{} recordings were calibrated; calibration.json lies beside each.",
+  out.summary = fmt::format("{} recordings were calibrated; each has its calibration.json.",
                             report.calibrations_size());
   Table table{"Recordings", {"recording", "calibration"}, {}};
   for (const v1::CalibratedRecording& one : report.calibrations())
@@ -68,9 +69,9 @@ Section calibrations_section(const v1::BatchReport& report) {
 Document document(const v1::BatchStatus& status, Digits) {
   Section out;
   out.title = status.folder();
-  out.summary = fmt::format("{} of {} shards are done.", status.done(), status.shards());
+  out.summary = fmt::format("{} of {} shards are complete.", status.done(), status.shards());
   out.mood = status.open().empty() ? Mood::kGood : Mood::kDoubtful;
-  Table table{"Shards that are not done", {"shard", "result", "its worker said last"}, {}};
+  Table table{"Incomplete shards", {"shard", "result", "last message of its worker"}, {}};
   for (const v1::ShardStatus& one : status.open()) {
     if (static_cast<int>(table.rows.size()) == kShownOpen) break;
     table.rows.push_back({std::to_string(one.number()),
@@ -78,7 +79,7 @@ Document document(const v1::BatchStatus& status, Digits) {
     if (!one.trouble().empty()) out.notes.push_back(one.trouble());
   }
   if (status.open_size() > kShownOpen)
-    out.notes.push_back(fmt::format("{} more are not done.", status.open_size() - kShownOpen));
+    out.notes.push_back(fmt::format("{} more are incomplete.", status.open_size() - kShownOpen));
   if (!table.rows.empty()) out.tables = {std::move(table)};
   return {"batch", {out}};
 }

@@ -59,7 +59,7 @@ Document document(const v1::RecordingList& list, Digits digits) {
   }
   section.title = list.root();
   section.summary = list.recordings().empty()
-                        ? "There is no recording in this folder. imunoise record makes one."
+                        ? "This folder has no recordings; imunoise record makes one."
                         : fmt::format("{} recordings, {} of them calibrated.",
                                       list.recordings_size(), calibrated);
   section.tables = {std::move(table)};
@@ -83,15 +83,15 @@ Document document(const v1::CalibrationList& list, Digits digits) {
     if (!one.trouble().empty()) section.notes.push_back(one.trouble());
     if (one.outdated()) {
       section.notes.push_back(
-          fmt::format("{}: the recording changed since it was calibrated; imunoise calibrate does "
-                      "it again.",
+          fmt::format("{}: the recording changed since its calibration; run imunoise calibrate "
+                      "again.",
                       one.folder()));
     }
   }
   section.title = list.root();
   section.summary = list.calibrations().empty()
-                        ? "No recording in this folder is calibrated yet: imunoise calibrate "
-                          "RECORDING does it."
+                        ? "No recording in this folder is calibrated; run imunoise calibrate "
+                          "RECORDING."
                         : fmt::format("{} calibrations.", list.calibrations_size());
   section.tables = {std::move(table)};
   return {"calibrations", {section}};

@@ -35,7 +35,7 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
                           report.split_count(), report.splits(), report.weights()) +
               estimator_fact(report.estimator());
   out.summary = report.summary();
-  Table table{"Models by the error of their predictions (noise floor = 1)",
+  Table table{"Models by held-out error (noise floor = 1)",
               {"model", "error", "above the best", "free", ""},
               {}};
   std::vector<IntervalRow> rows;
@@ -53,11 +53,11 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
     out.badge = report.candidates(0).model();
     out.mood = report.far_from_floor() ? Mood::kDoubtful : Mood::kGood;
   }
-  auto figure = interval_figure(
-      "Error of prediction", "held-out error, 1 = noise floor",
-      "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
-      "noise alone makes; orange models are significantly worse than the best.",
-      rows, 1.0);
+  auto figure =
+      interval_figure("Held-out error", "held-out error, 1 = noise floor",
+                      "Each model was fitted without the held-out replicates. The line at 1 is "
+                      "the noise floor; orange models are significantly worse than the best.",
+                      rows, 1.0);
   if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {std::move(table)};
   out.notes.assign(report.notes().begin(), report.notes().end());

@@ -24,7 +24,7 @@ std::string name_of(const v1::Rung& rung) {
 }
 
 Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"The ladder: error on replicates not used (noise floor = 1)",
+  Table out{"The ladder: held-out error (noise floor = 1)",
             {"added", "held-out error", "training error", "gained", "misfit p"},
             {}};
   for (const v1::Rung& rung : report.ladder()) {
@@ -47,8 +47,8 @@ std::string confusions(const v1::EffectCandidate& one) {
 }
 
 Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{report.verdict() == v1::none ? "What was tried, best first"
-                                         : "What may be missing, best first",
+  Table out{report.verdict() == v1::none ? "Candidates tried, best first"
+                                         : "Effects that may be missing, best first",
             {"effect", "term", "gain", "p", "held-out error", "looks like"},
             {}};
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
@@ -105,8 +105,9 @@ Table misfit_table(const v1::DiagnosisReport& report) {
 }
 
 Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{
-      "Drift after the bias was averaged as long before: predicted / measured", {"model"}, {}};
+  Table out{"Integrated error after averaging the bias for the same time: predicted / measured",
+            {"model"},
+            {}};
   for (const v1::Drift& one : report.ladder(0).drift())
     out.head.push_back(fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
@@ -121,14 +122,14 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
 }
 
 Table integrity_table(const v1::DiagnosisReport& report) {
-  Table out{"The samples themselves", {"defect", ""}, {}};
+  Table out{"Quality of the samples", {"defect", ""}, {}};
   for (const v1::IntegrityFinding& one : report.integrity())
     out.rows.push_back({one.effect(), one.sentence()});
   return out;
 }
 
 Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"What would have been seen nine times in ten", {"effect", "from", "of"}, {}};
+  Table out{"Detection limits (90 % power)", {"effect", "from", "of"}, {}};
   for (const v1::DetectionLimit& one : report.limits()) {
     const std::string effect =
         one.witness().empty() ? one.effect() : fmt::format("{} ({})", one.effect(), one.witness());
@@ -159,26 +160,25 @@ std::optional<figure::Figure> ladder_figure(const v1::DiagnosisReport& report) {
     rows.push_back({name_of(rung), rung.heldout_error(), rung.heldout_lower(), rung.heldout_upper(),
                     rung.misfit_p() < 0.01});
   }
-  return interval_figure(
-      "The error falling", "held-out error, 1 = noise floor",
-      "Each model was fitted without the replicates that it is judged on. The line at 1 is what "
-      "noise alone makes; orange models do not fit.",
-      rows, 1.0);
+  return interval_figure("How the error falls", "held-out error, 1 = noise floor",
+                         "Each model was fitted without the held-out replicates. The line at 1 is "
+                         "the noise floor; orange models do not fit.",
+                         rows, 1.0);
 }
 
 void add_figures(const v1::DiagnosisReport& report, Section& to) {
   if (report.ladder_size() == 0) return;
   const bool grown = report.has_compared_after();
-  to.figures.push_back(titled(before_figure(report), grown ? "Before" : "The model beside the data",
-                              report.model()));
+  to.figures.push_back(
+      titled(before_figure(report), grown ? "Before" : "Model and data", report.model()));
   add_spectrum(report, report.compared_before(), grown ? "Spectrum before" : "Spectrum", to);
   for (figure::Figure& one : comparison_figures(report, report.compared_before()))
     to.figures.push_back(std::move(one));
   if (report.ladder_size() < 2) return;
   if (grown) {
     const v1::Rung& last = report.ladder(report.ladder_size() - 1);
-    to.figures.push_back(titled(after_figure(report),
-                                "After: the effects taken out of the measurements", last.model()));
+    to.figures.push_back(
+        titled(after_figure(report), "After: measurements without the effects", last.model()));
     add_spectrum(report, report.compared_after(), "Spectrum after", to);
   }
   if (auto ladder = ladder_figure(report)) to.figures.push_back(std::move(*ladder));
@@ -245,7 +245,7 @@ Document document(const v1::Study& study, Digits digits) {
   v1::DiagnosisReport report = study.diagnosis();
   report.set_channel(study.channel());
   report.clear_ladder();
-  report.clear_compared_after();  // of a candidate that nobody added
+  report.clear_compared_after();  // of a candidate that was not added
   std::vector<const v1::StudyAttempt*> path;
   for (const v1::StudyAttempt* at = &study.attempts(static_cast<int>(study.current()));;
        at = &study.attempts(static_cast<int>(at->parent()))) {
@@ -260,14 +260,14 @@ Document document(const v1::Study& study, Digits digits) {
     out.mood = Mood::kNeutral;
     const v1::Rung& now = path.back()->rung();
     out.facts = "model " + now.model() + estimator_fact(now.estimator());
-    out.summary = "Ask for candidates to learn what this model lacks.";
+    out.summary = "Run imunoise study candidates to find what this model lacks.";
     out.figures.clear();
     const v1::Rung& last = path.back()->rung();
     out.tables = {ladder_table(report, digits)};
     if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
     out.tables.push_back(drift_table(report, digits));
   }
-  Table attempts{"Every model that was tried", {"", "model", "held-out error", ""}, {}};
+  Table attempts{"All attempts", {"", "model", "held-out error", ""}, {}};
   for (int i = 0; i < study.attempts_size(); ++i) {
     const v1::StudyAttempt& one = study.attempts(i);
     const bool current = i == static_cast<int>(study.current());

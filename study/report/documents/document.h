@@ -1,7 +1,7 @@
 #pragma once
 
 // A report as words, tables and figures, apart from where it is shown: the page and the terminal
-// both draw it. What is said is decided once, by whoever makes the document.
+// both draw it. The code that makes the document decides what it says.
 
 #include <string>
 #include <vector>

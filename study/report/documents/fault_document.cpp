@@ -19,7 +19,7 @@ std::string with_unit(std::string value, const std::string& unit) {
 }
 
 std::string size_of(const v1::SensorFault& fault, const std::string& unit, Digits digits) {
-  if (fault.kind() == "stuck") return fmt::format("{:.0f} readings alike", fault.size());
+  if (fault.kind() == "stuck") return fmt::format("{:.0f} equal readings", fault.size());
   if (fault.kind() == "noisy") return with_unit("+" + number(fault.size(), 2, digits), unit);
   const double low = fault.size() - fault.size_error();
   const double high = fault.size() + fault.size_error();
@@ -29,7 +29,7 @@ std::string size_of(const v1::SensorFault& fault, const std::string& unit, Digit
 }
 
 Table faults(const v1::FaultReport& report, Digits digits) {
-  Table out{"Faults", {"sensor", "fault", "size", "from", "seen after", "evidence", "in"}, {}};
+  Table out{"Faults", {"sensor", "fault", "size", "from", "detected after", "evidence", "in"}, {}};
   for (const v1::SensorFault& one : report.faults()) {
     out.rows.push_back({accused(one), one.kind(), size_of(one, report.unit(), digits),
                         duration(one.onset_s()), duration(one.delay_s()),
@@ -39,11 +39,11 @@ Table faults(const v1::FaultReport& report, Digits digits) {
 }
 
 Table rules(const v1::FaultReport& report, Digits digits) {
-  Table out{"When a sensor counts as stuck", {"sensor", "resolution", "readings alike"}, {}};
+  Table out{"When a sensor counts as stuck", {"sensor", "resolution", "equal readings"}, {}};
   for (const v1::StuckRule& one : report.stuck_rules()) {
     out.rows.push_back(
         {one.sensor(), with_unit(number(one.resolution(), 2, digits), report.unit()),
-         one.has_repetitions() ? fmt::format("{}", one.repetitions() + 1) : "cannot be told"});
+         one.has_repetitions() ? fmt::format("{}", one.repetitions() + 1) : "not detectable"});
   }
   return out;
 }
@@ -59,7 +59,7 @@ Document document(const v1::FaultReport& report, Digits digits) {
   section.badge = sound ? "no fault" : "faulty";
   section.mood = sound ? Mood::kGood : Mood::kBad;
   section.facts = fmt::format(
-      "{} · {:g} Hz · {} sensors · {} replicates · fitted to {} {} · {} false alarms an hour "
+      "{} · {:g} Hz · {} sensors · {} replicates · fitted to {} {} · {} false alarms per hour "
       "allowed",
       report.model(), report.rate_hz(), report.sensors_size(), report.replicates_size(),
       report.trained_on(), report.trained_elsewhere() ? "others" : "of them",

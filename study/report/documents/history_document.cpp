@@ -35,7 +35,7 @@ std::string name_of(const v1::ParameterHistory& one) {
 }
 
 Table overview(const v1::History& history, Digits digits) {
-  Table out{"The newest calibration against those before it",
+  Table out{"The newest calibration against the earlier ones",
             {"", "newest", "expected", "change", "p", "verdict"},
             {}};
   for (const v1::ParameterHistory& one : history.parameters()) {
@@ -58,7 +58,7 @@ Table overview(const v1::History& history, Digits digits) {
 }
 
 Table trends(const v1::History& history, Digits digits) {
-  Table out{"A straight line through all of them", {"", "from first to newest", "p"}, {}};
+  Table out{"Long-term trend: a straight line through all", {"", "from first to newest", "p"}, {}};
   for (const v1::ParameterHistory& one : history.parameters()) {
     if (!one.drift().has_trend()) continue;
     out.rows.push_back({name_of(one), change_words(one.drift().trend()),
@@ -101,7 +101,7 @@ Document document(const v1::History& history, Digits digits) {
       calibrations.emplace(point.bench(), point.folder());
   }
   section.facts =
-      fmt::format("{} · {} · {} calibrations · chance of a false alarm {}", history.device().name(),
+      fmt::format("{} · {} · {} calibrations · false-alarm probability {}", history.device().name(),
                   history.device().driver(), calibrations.size(), percent(history.level()));
   section.summary = history.summary();
   section.tables = {overview(history, digits), trends(history, digits)};

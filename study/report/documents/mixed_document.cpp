@@ -31,8 +31,7 @@ Table coefficients(const v1::MixedReport& report, Digits digits) {
 }
 
 Table constants(const v1::MixedReport& report, Digits digits) {
-  Table out{
-      "Constants, where all regressors are at their first sample", {"series", "value", "unit"}, {}};
+  Table out{"Constants, at the first sample of all regressors", {"series", "value", "unit"}, {}};
   for (const v1::SeriesConstant& one : report.constants())
     out.rows.push_back(
         {one.series(), number(one.value(), 6, digits), report.unit() == "1" ? "" : report.unit()});

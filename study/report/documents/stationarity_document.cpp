@@ -57,9 +57,9 @@ Section section(const v1::StationarityReport& report, Digits digits) {
   const bool misfit = report.misfit().rejected();
   const bool differ = report.heterogeneity().rejected();
   const bool both_tested = tested(report.misfit()) && tested(report.heterogeneity());
-  out.badge = misfit && differ ? "misfit, and parameters move"
+  out.badge = misfit && differ ? "misfit, and parameters differ"
               : misfit         ? "misfit"
-              : differ         ? "parameters move"
+              : differ         ? "parameters differ"
               : both_tested    ? "near-stationary"
                                : "not tested";
   out.mood = misfit        ? Mood::kBad
@@ -81,9 +81,9 @@ Section section(const v1::StationarityReport& report, Digits digits) {
   }
   auto figure = interval_figure(
       "Spread between replicates", "standard deviation between replicates, %",
-      "What remains after the error of estimation is taken off, with 95 % intervals; a line that "
-      "runs to the left edge includes zero. Orange: moves by more than chance. Parameters without "
-      "any excess spread are left out.",
+      "Spread without the estimation error, with 95 % intervals; a line that "
+      "reaches the left edge includes zero. Orange: significant. Parameters without "
+      "excess spread are not shown.",
       rows, std::nullopt);
   if (figure) out.figures.push_back(std::move(*figure));
   out.tables = {tests(report, digits), spread(report, digits)};

@@ -66,8 +66,8 @@ std::optional<Figure> kurtosis_figure(const v1::Comparison& compared) {
   }
   return figure::unless_empty(
       {.title = "Is the noise normal at every averaging time?",
-       .caption = "Excess kurtosis of the whitened noise. Band: where nineteen of "
-                  "twenty lie if it is normal. Outliers stand out at short times "
+       .caption = "Excess kurtosis of the whitened noise. Band: where 19 of 20 values "
+                  "lie if it is normal. Outliers show at short averaging times "
                   "and fade; bursts and jumps reach longer ones.",
        .panels = {{.x = {.kind = AxisKind::kLogarithmic, .title = "averaging time, s"},
                    .y = {.title = "excess kurtosis"},
@@ -76,7 +76,7 @@ std::optional<Figure> kurtosis_figure(const v1::Comparison& compared) {
 }
 
 std::optional<Figure> times_figure(const v1::Comparison& compared) {
-  Panel panel{.x = {.kind = AxisKind::kDuration, .title = "time since the replicate began"},
+  Panel panel{.x = {.kind = AxisKind::kDuration, .title = "time since the start of the replicate"},
               .y = {.kind = AxisKind::kCategories}};
   Layer cells{.shape = Shape::kCells, .role = Role::kMeasured};
   for (const v1::TimeStretch& one : compared.times()) {
@@ -153,11 +153,12 @@ std::optional<Figure> pairs_figure(const v1::Comparison& compared) {
   panel.layers = {std::move(cells)};
   return figure::unless_empty(
       {.title = "What do the sensors share?",
-       .caption = "Correlation of every two channels in the half octave of frequency where it is "
-                  "most certain, written in the cell (with the frequency where there is room). The "
-                  "first row is the channel under study, less what its model explains. Colour: how "
-                  "certain, "
-                  "full at six standard deviations; none where chance would do as much somewhere.",
+       .caption =
+           "Correlation of each pair of channels in the half octave of frequency where it is most "
+           "most significant, written in the cell (with the frequency if there is room). The "
+           "first row is the analysed channel without what its model explains. Colour: "
+           "certain, "
+           "full at six standard deviations; none if not significant among all pairs.",
        .panels = {std::move(panel)}});
 }
 
@@ -171,13 +172,14 @@ std::optional<Figure> lag_figure(const v1::LagCurve& curve) {
   std::reverse(early.data.begin(), early.data.end());
   return figure::unless_empty(
       {.title = fmt::format("Behind {}", curve.witness()),
-       .caption =
-           fmt::format("What {} would explain behind a lag (thick) and ahead of it (thin), where "
-                       "it cannot be the cause. The line: what the best lag gains by chance once "
-                       "in twenty.",
-                       curve.witness()),
+       .caption = fmt::format(
+           "Likelihood that {} explains with a positive lag (thick) and a negative one (thin), "
+           "where "
+           "it cannot be the cause. Line: exceeded by the best lag of an unrelated channel in 5 % "
+           "of the cases.",
+           curve.witness()),
        .panels = {{.x = {.kind = AxisKind::kLogarithmic, .title = "lag, s"},
-                   .y = {.title = "log-likelihood gained, nats"},
+                   .y = {.title = "gain in log-likelihood, nats"},
                    .y_reference = curve.chance_nats(),
                    .layers = {std::move(early), std::move(late)}}}});
 }
@@ -211,7 +213,7 @@ std::optional<Figure> spectrum_figure(const v1::DiagnosisReport& report,
       {.title = title,
        .caption = "One-sided power spectral density, mean of all replicates. Dots and band: "
                   "measured, with 95 % intervals; orange: the model (thick line) lies outside. "
-                  "Thin line: the strongest single frequency in each stretch. Marks: waves that "
+                  "Thin line: the strongest single frequency in each stretch. Marks: lines that "
                   "were tested.",
        .panels = {{.x = {.kind = AxisKind::kLogarithmic, .title = "frequency, Hz"},
                    .y = {.kind = AxisKind::kLogarithmic, .title = density_unit(report.unit())},

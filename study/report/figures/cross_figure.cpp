@@ -41,7 +41,7 @@ figure::Panel pair_panel(const v1::SensorPair& pair) {
 
 std::optional<figure::Figure> cross_figure(const v1::ArrayReport& report) {
   figure::Figure out{
-      .title = "What each pair of sensors shares",
+      .title = "Shared noise of each pair of sensors",
       .caption =
           "Wavelet cross-covariance over averaging time, divided by the root of the two "
           "sensors' wavelet variances: 1 and −1 are noise that both share entirely. Dots "

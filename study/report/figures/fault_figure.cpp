@@ -34,7 +34,7 @@ figure::Panel sensor_panel(const v1::FaultReport& report, const v1::ParityTrace&
   return {.title = trace.sensor(),
           .note = report.unit() == "1" ? "" : report.unit(),
           .x = {.kind = AxisKind::kDuration,
-                .title = "time since the replicate began",
+                .title = "time since the start of the replicate",
                 .low = 0.0,
                 .high = seconds},
           .height = 72.0,
@@ -48,9 +48,9 @@ std::optional<figure::Figure> fault_figure(const v1::FaultReport& report,
   figure::Figure out{
       .title = clean_text(replicate) + ": each sensor against the mean of the others",
       .caption =
-          "The smallest and largest difference in each part of the time, from its value at the "
-          "beginning; every row has its own scale. Orange: when a fault of this sensor began. A "
-          "fault of one sensor moves the others' rows a little the other way."};
+          "Smallest and largest difference in each interval of time, relative to its value at the "
+          "start; each row has its own scale. Orange: start of a fault of this sensor. A "
+          "fault of one sensor moves the rows of the others slightly the other way."};
   for (const v1::ParityTrace& trace : report.traces()) {
     if (trace.replicate() != replicate || trace.high_size() == 0 || !(trace.step_s() > 0.0))
       continue;

@@ -49,14 +49,15 @@ std::optional<figure::Figure> history_figure(const v1::ParameterHistory& history
   figure::Figure out{
       .title = history_title(history),
       .caption =
-          "A dot a calibration, at the start of its recording, with its 95 % interval; grey: not "
-          "compared, because its model is another one or only an upper bound is known.",
+          "Each dot is a calibration, at the start of its recording, with its 95 % interval; grey: "
+          "not "
+          "compared, because its model differs or it has only an upper bound.",
       .panels = {{.x = {.kind = figure::AxisKind::kTime},
                   .y = {.title = fmt::format("{}, {}", history.parameter(), unit.name)},
                   .height = 220.0,
                   .layers = {calibrations(history, unit.factor)}}}};
   if (history.has_drift()) {
-    out.caption += " The band: where the newest calibration raises no alarm. Orange: it does.";
+    out.caption += " Band: where the newest calibration raises no alarm. Orange: an alarm.";
     out.panels[0].layers.push_back(
         {.shape = Shape::kRows,
          .role = Role::kInterval,

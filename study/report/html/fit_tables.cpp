@@ -59,7 +59,7 @@ std::string parameter_table(const v1::FitReport& report) {
   if (rows.empty()) return {};
   return "<h3>Parameters, per sample</h3>\n<div class=\"scroll\"><table>" +
          table_head({"term", "parameter", "value", interval_title(report), "unit",
-                     "do the data show it?"}) +
+                     "identified by the data?"}) +
          "<tbody>" + rows + "</tbody></table></div>\n";
 }
 

@@ -51,11 +51,11 @@ std::string_view verdict_words(Verdict verdict) {
 std::string verdict_sentence(const v1::FitReport& report) {
   const Verdict v = verdict(report);
   if (v == Verdict::kUntested) {
-    return "There are not more tested scales than parameters: nothing is left to test the model "
+    return "There are as many parameters as tested scales: none is left to test the model "
            "with.";
   }
   return fmt::format(
-      "If the model were true, chance alone would make differences this large {} recordings.",
+      "If the model is true, random errors cause differences this large {} recordings.",
       how_often(report.p_value()));
 }
 

@@ -8,7 +8,7 @@
 
 namespace imunoise::testing {
 
-/// One virtual sensor: its wavelet variance over that of the sensors' mean, one value a scale.
+/// One virtual sensor: its wavelet variance relative to the mean of the sensors, one value a scale.
 struct GainCurve {
   std::string name;  ///< what it was made for: "short"
   Eigen::ArrayXd predicted;

@@ -69,7 +69,7 @@ TEST_F(HistoryOf, AJumpIsAnAlarm) {
   EXPECT_LT(n.drift().expected_upper(), 2.2e-4);
   EXPECT_EQ(
       got->summary(),
-      "Drift: gyro_x N of WN changed by more than chance and what this device does by itself.");
+      "Changed: gyro_x N of WN, by more than the errors and the usual scatter of this device.");
   HistoryOptions strict;
   strict.level = 1e-12;
   EXPECT_FALSE(history(strict)->alarm());

@@ -132,7 +132,7 @@ TEST_F(ApiStudies, ANameIsTakenOnce) {
   EXPECT_EQ(
       post_json("/v1/studies", {{"study", "gyro"}, {"campaign", "array"}, {"folder", "monday"}},
                 409)["error"],
-      "there is a study 'gyro' already; take another name");
+      "study 'gyro' exists; choose another name");
   post_json("/v1/studies/gyro/branch", {{"name", "gyro"}}, 409);
   EXPECT_EQ(
       post_json("/v1/studies/gyro/branch", {{"name", "b"}, {"from", 7}, {"wait_s", 8}})["error"],

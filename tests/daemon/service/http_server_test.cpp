@@ -96,7 +96,7 @@ TEST_F(Server, TakesNoFileFromOthers) {
   start();
   auto second = HttpServer::start({where_.socket, std::nullopt}, limits_, echo_);
   ASSERT_FALSE(second.has_value());
-  EXPECT_NE(second.error().message.find("another process serves it"), std::string::npos);
+  EXPECT_NE(second.error().message.find("another process uses it"), std::string::npos);
   EXPECT_EQ(get_text(), "GET / ") << "the first one goes on";
   server_.reset();
   std::filesystem::create_symlink(folder_.path() / "elsewhere", where_.socket);

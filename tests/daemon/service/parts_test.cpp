@@ -135,12 +135,12 @@ TEST(Tokens, WrongFilesAreRefusedWithoutTellingTokens) {
     EXPECT_NE(tokens.error().message.find(words), std::string::npos) << tokens.error().message;
     EXPECT_EQ(tokens.error().message.find("vvv"), std::string::npos) << tokens.error().message;
   };
-  refuses("", "holds no token");
+  refuses("", "contains no token");
   refuses("viewer " + kViewer.substr(1), "1: a token has 32");
   refuses("viewer\n", "1: a token has 32");
   refuses("viewer " + kViewer + "\xc3\xa4\n", "1: a token has 32");
   refuses("\nadmin " + kViewer, "2: begin the line");
-  refuses("viewer " + kViewer + "\noperator " + kViewer, "2: this token came before");
+  refuses("viewer " + kViewer + "\noperator " + kViewer, "2: duplicate token; remove one");
 }
 
 TEST(Tokens, FilesThatOthersReadAreRefused) {
@@ -249,8 +249,8 @@ TEST_F(Requests, RefuseWhatTheyDoNotKnow) {
   refuses("GET", "/v1/campaigns?x=1", "", "there are none");
   refuses("GET", "/v1/history?level=nan", "", "level");
   refuses("GET", "/v1/history?level=1x", "", "level");
-  refuses("GET", "/v1/history", "{}", "no body");
-  refuses("POST", "/v1/studies/s/undo?wait_s=1", "", "no query");
+  refuses("GET", "/v1/history", "{}", "not a body");
+  refuses("POST", "/v1/studies/s/undo?wait_s=1", "", "not a query");
   refuses("POST", "/v1/studies/s/undo", "{", "body");
   refuses("POST", "/v1/studies/s/undo", "[]", "body");
   refuses("POST", "/v1/studies/s/undo", R"({"wait": 1})", "wait");
@@ -277,11 +277,12 @@ TEST(StudyStore, ADeletedStudyDoesNotComeBack) {
   recording::DiskCalls calls;
   StudyStore studies(folder.path() / "studies", calls);
   ASSERT_TRUE(studies.create("s", {}).has_value());
-  EXPECT_EQ(studies.create("s", {}).error().message, "there is one of this name");
+  EXPECT_EQ(studies.create("s", {}).error().message, "a study of this name exists");
   EXPECT_TRUE(studies.replace("s", {}).has_value());
   ASSERT_TRUE(studies.remove("s").has_value());
   EXPECT_EQ(studies.remove("s").error().status, 404U);
-  EXPECT_EQ(studies.replace("s", {}).error().message, "the study was deleted meanwhile");
+  EXPECT_EQ(studies.replace("s", {}).error().message,
+            "the study was deleted while the command ran");
   EXPECT_FALSE(studies.contains("s"));
 }
 

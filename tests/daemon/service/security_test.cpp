@@ -157,7 +157,7 @@ TEST_F(Security, LinksInTheDataFolderAreNotFollowed) {
   EXPECT_FALSE(get_json("/v1/recordings")["recordings"][0]["calibrated"]);
   fs::create_directories(options_.studies);
   fs::create_symlink("/etc/passwd", options_.studies / "x.study");
-  EXPECT_NE(refusal("/v1/studies/x", 500).find("links in a data folder"), std::string::npos);
+  EXPECT_NE(refusal("/v1/studies/x", 500).find("no links in data folders"), std::string::npos);
 }
 
 TEST_F(Security, AStudyOfALinkedChunkIsRefused) {

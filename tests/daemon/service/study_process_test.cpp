@@ -112,7 +112,7 @@ TEST_F(StudyProcess, MayCrash) {
 
 TEST_F(StudyProcess, MayEndWithoutAWord) {
   record("monday");
-  EXPECT_EQ(opened({"/bin/sh", "-c", "echo nonsense"})["error"], "it ended without a word");
+  EXPECT_EQ(opened({"/bin/sh", "-c", "echo nonsense"})["error"], "it ended without a message");
 }
 
 TEST(StudyProcessItself, RefusesWhatIsNoOrder) {

@@ -155,7 +155,7 @@ TEST(Dbc, ErrorsPointAtLineAndColumn) {
       {"BO_ 1 M: 8 I\n SG_ S : 0|8@2+ (1,0) [0|0] \"\" H", "f.dbc:2:14:", "byte order"},
       {"BO_ 1 M: 8 I\n SG_ S : 0|8@1 (1,0) [0|0] \"\" H", "f.dbc:2:16:", "'+' or '-'"},
       {"BO_ 1 M: 8 I\n SG_ S : 0|8@1+ (0,0) [0|0] \"\" H", "f.dbc:2:18:", "factor of 0"},
-      {"BO_ 1 M: 8 I\n SG_ S : 0|8@1+ (1e999,0) [0|0] \"\" H", "f.dbc:2:18:", "no number"},
+      {"BO_ 1 M: 8 I\n SG_ S : 0|8@1+ (1e999,0) [0|0] \"\" H", "f.dbc:2:18:", "not a number"},
       {"BO_ 1 M: 8 I\n SG_ S : 0|8@1+ (1,0) [0|0] \"deg", "f.dbc:2:29:", "closing quote"},
       {"BO_ 1 M: 8 I\n SG_ S x1 : 0|8@1+ (1,0) [0|0] \"\" H", "f.dbc:2:8:", "multiplexing mark"},
       {"BO_ 1 M: 8 I\n SG_ S m1 : 0|8@1+ (1,0) [0|0] \"\" H",

@@ -63,7 +63,7 @@ TEST_F(CanStart, TheDescriptionIsWrong) {
   expect_refused({{"preset", "mti600"}, {"channel", "gyro_x=RateOfTurn.W"}},
                  "message RateOfTurn has no signal W");
   expect_refused({{"preset", "mti600"}, {"channel", "counter=RateOfTurn.X"}},
-                 "no unsigned whole number");
+                 "not an unsigned whole number");
 }
 
 constexpr const char* kSlow = R"dbc(

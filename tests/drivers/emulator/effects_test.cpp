@@ -162,8 +162,8 @@ TEST(Effects, SayWhatTheyCannotBe) {
   };
   refused("wind(speed=3)", "no effect 'wind'; there are temperature");
   refused("step(at=1)", "height is missing; write step(at s, height)");
-  refused("step(at=1, height=x)", "height=x is no number");
-  refused("step(at=-1, height=1)", "at=-1 is no number from 0");
+  refused("step(at=1, height=x)", "height=x is not a number");
+  refused("step(at=-1, height=1)", "at=-1 is not a number from 0");
   refused("step(at=1, height=nan)", "height=nan");
   refused("step(at=1, at=2, height=1)", "at is given twice");
   refused("step(at=1, height=1, colour=2)", "has no 'colour'");

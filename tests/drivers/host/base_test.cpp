@@ -208,7 +208,7 @@ TEST(DriverBase, AnErrorOfOpenReachesTheUser) {
   EXPECT_EQ(testing::open(pretend).error().message,
             "driver pretend: no device with serial 7; plug it in");
   pretend.opening = [](const plugin::Host&) { throw 7; };
-  EXPECT_NE(testing::open(pretend).error().message.find("no std::exception"), std::string::npos);
+  EXPECT_NE(testing::open(pretend).error().message.find("not a std::exception"), std::string::npos);
 }
 
 TEST(DriverBase, HostTellsTimeAndTakesNotes) {

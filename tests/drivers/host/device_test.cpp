@@ -36,8 +36,7 @@ TEST_P(FaultyOpen, IsAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FaultyOpen,
-                         ::testing::Values(Fault{"throw_in_open",
-                                                 "the driver let an exception out"},
+                         ::testing::Values(Fault{"throw_in_open", "the driver threw an exception"},
                                            Fault{"endless_error", "eeee"},
                                            Fault{"latin1_error", "no sensor at 20 \xEF\xBF\xBD C"},
                                            Fault{"no_handle", "open succeeded without a device"},
@@ -67,10 +66,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"unknown_stream", "read delivered stream 1 of 1"},
                       Fault{"nan_number", "stream only: channel x: a number is not finite"},
                       Fault{"counter_beyond", "counter 256 is beyond its maximum 255"},
-                      Fault{"nothing_at_all", "neither samples nor refusals"},
+                      Fault{"nothing_at_all", "without samples, rejections"},
                       Fault{"samples_with_timeout", "read delivered samples and returned 1"},
-                      Fault{"throw_in_read", "read let an exception out"},
-                      Fault{"unknown_status", "read returned 99, which means nothing"}));
+                      Fault{"throw_in_read", "read threw an exception"},
+                      Fault{"unknown_status", "read returned 99, which is not a valid status"}));
 
 TEST(FaultyDevice, ReadsAsLongAsItKeepsTheRules) {
   const auto device = open_faulty("none");
@@ -87,7 +86,7 @@ TEST(FaultyDevice, ReadsAsLongAsItKeepsTheRules) {
 TEST(FaultyDevice, MayFailWithoutAWordOrBeGoneForAWhile) {
   const auto failing = open_faulty("unknown_error");
   Block block = (*failing)->make_block(1);
-  EXPECT_EQ((*failing)->read(0ms, block).error().message, "driver faulty: an error without a name");
+  EXPECT_EQ((*failing)->read(0ms, block).error().message, "driver faulty: unknown error");
   const auto gone = open_faulty("gone");
   Block other = (*gone)->make_block(1);
   for (int i = 0; i < 2; ++i) {

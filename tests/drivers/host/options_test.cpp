@@ -84,7 +84,7 @@ TEST(OptionValues, AreTextsThatADriverCanRead) {
   EXPECT_EQ(complaint({{"file", "caf\xe9"}}),
             "option file: 'caf\xEF\xBF\xBD' is not UTF-8; write it in UTF-8, or rename the file");
   EXPECT_EQ(complaint({{"file", std::string("a\0b", 3)}}),
-            "option file: holds a character 0, where a driver sees its end; leave it out");
+            "option file: contains a NUL character; remove it");
   EXPECT_EQ(complaint({{"file", "café"}}), "");
 }
 

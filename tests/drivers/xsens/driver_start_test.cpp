@@ -88,7 +88,7 @@ TEST_F(MtiStart, TwoCannotHaveOnePort) {
 
 TEST_F(MtiStart, SaysThatAPortIsSilent) {
   const emulator::Pty nobody(link());
-  expect_refused({}, "silent at every baud rate; is the device powered");
+  expect_refused({}, "silent at every baud rate; check power");
 }
 
 // Knocking at every baud rate takes longer than anybody who wants an end should wait.

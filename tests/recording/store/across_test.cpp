@@ -148,7 +148,7 @@ TEST_F(AcrossDevices, ThatNeverRanTogetherAreNotJoined) {
   later.after_s = 40.5;
   const Across got = joined({teller("a", 4000), later});
   EXPECT_TRUE(got.replicates.empty());
-  EXPECT_EQ(reason_of(got, "b"), "not joined: it has no time in common with a");
+  EXPECT_EQ(reason_of(got, "b"), "not joined: it never ran at the same time as a");
 }
 
 // Of two, what they share counts. Where others would lose more than half, they go without it.
@@ -198,7 +198,7 @@ TEST_F(AcrossDevices, WithAWildClockOrADamagedChunkAreLeftOut) {
   ASSERT_EQ(got.replicates.size(), 1U);
   EXPECT_EQ(got.replicates[0].channels.size(), 2U);
   EXPECT_EQ(reason_of(got, "wild"),
-            "not joined: it samples 5.0 % faster than it says, by the host's clock");
+            "not joined: it samples 5.0 % faster than its nominal rate, by the host's clock");
   EXPECT_NE(reason_of(got, "torn").find("000001.h5"), std::string::npos);
   EXPECT_EQ(reason_of(got, "short"), "not joined: no stretch without a gap has ten seconds");
 }

@@ -179,7 +179,7 @@ TEST(ReadErrors, AChunkThatIsAsItWasWrittenStays) {
   ASSERT_TRUE(write_manifest(disk, kRun, manifest));
   const auto second = start_second(disk, kRun);
   ASSERT_TRUE(second) << second.error().message;
-  expect_parts((*second)->repaired().front(), {"000002.h5", "left as it is"});
+  expect_parts((*second)->repaired().front(), {"000002.h5", "leaves it unchanged"});
   EXPECT_EQ(disk.read(kDevice / "000002.h5").value(), "of another program");
   EXPECT_EQ((*second)->close([](const auto&) { return complete(); }).has_value(), true);
   EXPECT_FALSE(verified(disk, kRun).sound());

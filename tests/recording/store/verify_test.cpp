@@ -121,7 +121,7 @@ TEST_F(Verify, ALostManifestIsMadeAgain) {
 TEST_F(Verify, ABrokenManifestIsSetAside) {
   overwrite(root_ / kManifestName,
             "{\"version\": 1, \"chunks\": [{\"file\": \"../../etc/passwd\"}]}");
-  expect_parts(defects(verify()), {"'../../etc/passwd' is no chunk of this folder"});
+  expect_parts(defects(verify()), {"'../../etc/passwd' is not a chunk of this folder"});
   EXPECT_TRUE(verify(true).sound());
   EXPECT_TRUE(std::filesystem::exists(root_ / "manifest.json.broken"));
 }

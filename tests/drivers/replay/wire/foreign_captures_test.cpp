@@ -130,7 +130,7 @@ TEST_F(Capture, BurstsEndWithTheLastWholeOne) {
 }
 
 TEST_F(Capture, SaysWhatItCannotReplay) {
-  expect_refused({}, "xbus", "cannot be read; is it there?");
+  expect_refused({}, "xbus", "cannot be read; check the path");
   write("nothing of the kind");
   expect_refused({}, "xbus", "no Xbus frame of MTData2");
   expect_refused({}, "candump", "choose one of preset=NAME and dbc=FILE");

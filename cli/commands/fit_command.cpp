@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/output.h"
 #include "core/support/json_text.h"
 #include "drivers/adis16405/codec/decoder.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <map>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "daemon/app/status_text.h"

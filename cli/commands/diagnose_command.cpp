@@ -1,4 +1,4 @@
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"

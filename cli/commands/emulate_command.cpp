@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 
@@ -17,7 +17,7 @@ int run(const EmulateArguments& arguments) {
       "emulating, seed {}; record it with\n  imunoise record FOLDER --device \"{}\" --duration 10\n"
       "Ctrl-C ends it.\n",
       arguments.plan.source.seed, (*device)->device_text()));
-  std::fflush(stdout);  // whoever started it waits for these lines
+  std::fflush(stdout);  // the program that started it waits for these lines
   const Clock::time_point begin = Clock::now();
   const auto over = [&] {
     return interrupt.token().stop_requested() ||

@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"

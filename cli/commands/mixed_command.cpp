@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"

@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/parse/input_options.h"
 #include "cli/progress_line.h"
@@ -16,7 +16,7 @@ Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input,
                                                const std::vector<std::string>& witnesses) {
   for (const std::string& file : input.files()) {
     if (!std::filesystem::exists(file))
-      return fail(file + ": is gone, and the study is of it; put it back, or start another study");
+      return fail(file + ": not found; this study needs it. Restore it, or start a new study");
   }
   RawInput raw;
   raw.files.assign(input.files().begin(), input.files().end());
@@ -67,8 +67,9 @@ int run(const StudyArguments& arguments) {
                              study::SeenPlaces{.other = cache_folder()});
     if (!done) return print_error(done.error());
     if (!opens && changed_since(study, arguments.file))
-      return print_error({arguments.file.string() +
-                          ": somebody else changed it meanwhile; nothing was saved, do it again"});
+      return print_error(
+          {arguments.file.string() +
+           ": the study file changed while the command ran; nothing was saved. Run it again"});
     study = std::move(*done);
     if (auto saved = write_file(arguments.file, study::study_text(study)); !saved)
       return print_error(saved.error());
