@@ -9,8 +9,10 @@
   EFFECT(ramp)                   \
   EFFECT(warm_up)                \
   EFFECT(line)                   \
+  EFFECT(wander)                 \
   EFFECT(step)                   \
   EFFECT(witness)                \
+  EFFECT(two_lags)               \
   EFFECT(modulated)              \
   EFFECT(telegraph)              \
   EFFECT(outliers)               \

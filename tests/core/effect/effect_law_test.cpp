@@ -141,8 +141,10 @@ const std::vector<std::string>& simulated_terms() {
       "ramp(slope=0.01)",
       "warm_up(tau=20, amplitude=3)",
       "line(f=7.3, amplitude=0.3)",
+      "wander(from=7.1, to=7.4, amplitude=0.4)",
       "step(replicate=2, t=90, height=0.8)",
       "witness(temperature, coefficient=0.4)",
+      "two_lags(temperature, fast=3, slow=6, coefficient=1.5)",
       "modulated(temperature, log_variance_slope=0.3)",
       "telegraph(height=1.5, dwell=25)",
       "outliers(above=6, share=5e-4, size=12)",
@@ -168,20 +170,6 @@ TEST(Effects, NamesAreUnique) {
   for (const Cause& one : known_causes()) EXPECT_TRUE(causes.insert(one.id).second) << one.id;
 }
 
-// Noise with effects in it, four replicates.
-std::shared_ptr<const Subject> with_effects(const std::vector<EffectTerm>& terms,
-                                            std::uint64_t seed) {
-  auto out = std::make_shared<Subject>(*warm_subject(seed));
-  for (std::size_t k = 0; k < out->replicates(); ++k) {
-    Eigen::VectorXd samples = out->samples[k];
-    simulate_effects(terms, *out, k, seed, samples);
-    samples.array() -= samples.mean();
-    out->cosines[k] = cosine_transform(samples);
-    out->samples[k] = std::move(samples);
-  }
-  return out;
-}
-
 class SimulatedEffect : public testing::TestWithParam<std::string> {};
 
 // Simulated, then sought: the same effect comes first, and what a fit finds of it holds the truth.
@@ -192,7 +180,7 @@ TEST_P(SimulatedEffect, IsFoundAgain) {
   const EffectTerm truth = model->effects[0];
   const Result<void> possible = check_simulation(model->effects, *warm_subject(kSeed));
   ASSERT_TRUE(possible) << possible.error().message;
-  const FittedModel plain = fitted(with_effects(model->effects, kSeed));
+  const FittedModel plain = fitted(with_effects(*warm_subject(kSeed), model->effects, kSeed));
   const Current current = current_of(plain.regression, plain.fit);
   std::vector<TriedTerm> tried = try_all(current, truth.effect->search(SearchView(current)));
   ASSERT_FALSE(tried.empty());
