@@ -10,8 +10,7 @@
 #include "core/effect/columns.h"
 #include "core/search/peak.h"
 #include "core/search/search_view.h"
-#include "core/spectrum/cosine_transform.h"
-#include "core/spectrum/fourier.h"
+#include "core/search/wave_scores.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::effects {
@@ -92,47 +91,13 @@ std::vector<ReportedNumber> line_numbers(const FittedEffect& effect) {
   return out;
 }
 
-// A wave of fewer periods than this in a replicate is a trend like any other.
-constexpr double kFewestPeriods = 8.0;
+Stretch whole(const Subject& subject, std::size_t k) { return {k, 0, subject.length(k)}; }
 
-// The shortest quick length ≥ n.
-Index padded_length(Index n) {
-  auto out = static_cast<std::size_t>(n);
-  while (quick_length(out) != out) ++out;
-  return static_cast<Index>(out);
-}
-
-double level_at(const Current& current, std::size_t k, double f) {
-  const Eigen::ArrayXd& s = current.spectrum[k];
-  const auto place = static_cast<Index>(std::lround(2.0 * f * static_cast<double>(s.size() + 1)));
-  return s(std::clamp<Index>(place - 1, 0, s.size() - 1));
-}
-
-// Log-likelihood gained by a wave of any phase and size in a replicate, at frequencies i/2N.
-Eigen::ArrayXd line_gains(const Current& current, std::size_t k, Index padded) {
-  const Eigen::VectorXd& u = current.weighted[k];
-  std::vector<double> series(static_cast<std::size_t>(padded), 0.0);
-  std::copy(u.data(), u.data() + u.size(), series.begin());
-  const std::vector<std::complex<double>> spectrum = half_spectrum(std::move(series));
-  Eigen::ArrayXd out(static_cast<Index>(spectrum.size()));
-  for (Index i = 0; i < out.size(); ++i) {
-    const double f = static_cast<double>(i) / static_cast<double>(padded);
-    out(i) = std::norm(spectrum[static_cast<std::size_t>(i)]) * level_at(current, k, f) /
-             static_cast<double>(u.size());
-  }
-  return out;
-}
-
-// The same at one frequency, cycles per sample, over all replicates.
+// Log-likelihood gained at one frequency, cycles per sample, over all replicates.
 double line_gain(const Current& current, double f) {
   double out = 0.0;
-  for (std::size_t k = 0; k < current.weighted.size(); ++k) {
-    const Eigen::VectorXd& u = current.weighted[k];
-    const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * f);
-    std::complex<double> sum = 0.0;
-    for (Index t = u.size() - 1; t >= 0; --t) sum = sum * turn + u(t);
-    out += std::norm(sum) * level_at(current, k, f) / static_cast<double>(u.size());
-  }
+  for (std::size_t k = 0; k < current.weighted.size(); ++k)
+    out += wave_gain(current, whole(current.subject(), k), f);
   return out;
 }
 
@@ -166,7 +131,8 @@ Suggestion best_wave(const Current& current) {
   const auto [shortest, longest] = lengths(subject);
   const Index padded = padded_length(2 * longest);
   std::vector<Eigen::ArrayXd> each(subject.replicates());
-  for_each_index(each.size(), [&](std::size_t k) { each[k] = line_gains(current, k, padded); });
+  for_each_index(each.size(),
+                 [&](std::size_t k) { each[k] = wave_gains(current, whole(subject, k), padded); });
   Eigen::ArrayXd sum = each[0];
   for (std::size_t k = 1; k < each.size(); ++k) sum += each[k];
   Suggestion out{.cause = "line", .added = EffectTerm(line())};
@@ -187,7 +153,8 @@ Suggestion best_wave(const Current& current) {
   out.dof = 2.0 * static_cast<double>(each.size());
   out.shape_error = peak.error * rate;
   for (std::size_t k = 0; k < each.size(); ++k)
-    out.information += 0.5 * static_cast<double>(subject.length(k)) / level_at(current, k, peak.at);
+    out.information +=
+        0.5 * static_cast<double>(subject.length(k)) / noise_level(current, k, peak.at);
   // A wave's score turns by π T/√3 rad per Hz: the spread of time within a replicate.
   out.search.path = 0.5 * std::numbers::pi / std::sqrt(3.0) * static_cast<double>(longest);
   if (is_folded_mains(hertz, rate, rate / static_cast<double>(longest))) out.cause = "mains_alias";
