@@ -11,6 +11,8 @@
 
 #include "core/diagnosis/diagnose.h"
 #include "core/effects/parse_full_model.h"
+#include "core/effects/simulate_effects.h"
+#include "core/spectrum/cosine_transform.h"
 
 namespace imunoise {
 
@@ -60,6 +62,21 @@ inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
   std::vector<NamedChannel> witnesses;
   if (made.temperature) witnesses.push_back(temperature);
   return std::make_shared<const Subject>(make_subject(replicates, witnesses));
+}
+
+/// A subject with effects of given size in it.
+inline std::shared_ptr<const Subject> with_effects(const Subject& plain,
+                                                   const std::vector<EffectTerm>& terms,
+                                                   std::uint64_t seed) {
+  auto out = std::make_shared<Subject>(plain);
+  for (std::size_t k = 0; k < out->replicates(); ++k) {
+    Eigen::VectorXd samples = out->samples[k];
+    simulate_effects(terms, *out, k, seed, samples);
+    samples.array() -= samples.mean();
+    out->cosines[k] = cosine_transform(samples);
+    out->samples[k] = std::move(samples);
+  }
+  return out;
 }
 
 /// The fit of a model, from the values that noise of the tests has.

@@ -168,20 +168,6 @@ TEST(Effects, NamesAreUnique) {
   for (const Cause& one : known_causes()) EXPECT_TRUE(causes.insert(one.id).second) << one.id;
 }
 
-// Noise with effects in it, four replicates.
-std::shared_ptr<const Subject> with_effects(const std::vector<EffectTerm>& terms,
-                                            std::uint64_t seed) {
-  auto out = std::make_shared<Subject>(*warm_subject(seed));
-  for (std::size_t k = 0; k < out->replicates(); ++k) {
-    Eigen::VectorXd samples = out->samples[k];
-    simulate_effects(terms, *out, k, seed, samples);
-    samples.array() -= samples.mean();
-    out->cosines[k] = cosine_transform(samples);
-    out->samples[k] = std::move(samples);
-  }
-  return out;
-}
-
 class SimulatedEffect : public testing::TestWithParam<std::string> {};
 
 // Simulated, then sought: the same effect comes first, and what a fit finds of it holds the truth.
@@ -192,7 +178,7 @@ TEST_P(SimulatedEffect, IsFoundAgain) {
   const EffectTerm truth = model->effects[0];
   const Result<void> possible = check_simulation(model->effects, *warm_subject(kSeed));
   ASSERT_TRUE(possible) << possible.error().message;
-  const FittedModel plain = fitted(with_effects(model->effects, kSeed));
+  const FittedModel plain = fitted(with_effects(*warm_subject(kSeed), model->effects, kSeed));
   const Current current = current_of(plain.regression, plain.fit);
   std::vector<TriedTerm> tried = try_all(current, truth.effect->search(SearchView(current)));
   ASSERT_FALSE(tried.empty());
