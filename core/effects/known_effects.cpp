@@ -9,6 +9,7 @@
   EFFECT(ramp)                   \
   EFFECT(warm_up)                \
   EFFECT(line)                   \
+  EFFECT(wander)                 \
   EFFECT(step)                   \
   EFFECT(witness)                \
   EFFECT(modulated)              \
