@@ -12,6 +12,7 @@
   EFFECT(wander)                 \
   EFFECT(step)                   \
   EFFECT(witness)                \
+  EFFECT(two_lags)               \
   EFFECT(modulated)              \
   EFFECT(telegraph)              \
   EFFECT(outliers)               \

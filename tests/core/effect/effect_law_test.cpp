@@ -144,6 +144,7 @@ const std::vector<std::string>& simulated_terms() {
       "wander(from=7.1, to=7.4, amplitude=0.4)",
       "step(replicate=2, t=90, height=0.8)",
       "witness(temperature, coefficient=0.4)",
+      "two_lags(temperature, fast=3, slow=6, coefficient=1.5)",
       "modulated(temperature, log_variance_slope=0.3)",
       "telegraph(height=1.5, dwell=25)",
       "outliers(above=6, share=5e-4, size=12)",
