@@ -15,8 +15,8 @@ Examples:
   imunoise fit run?.csv --model "WN + RES + RW" --weights diag --json > fit.json
 
 A model is a sum of processes: WN white noise, QN quantisation noise, RW random walk, DR rate ramp,
-AR1 and GM Markov noise, AR2 second-order autoregression, RES resonance, MA(q), MAVG(n) and
-BARTLETT(n) filters, FN flicker noise. A value in brackets stays fixed: WN(sigma2=1e-6). Values are per
+AR1 and GM Markov noise, AR2 second-order noise, RES resonance, FN flicker noise, and the filters
+MA(q), MAVG(n) and BARTLETT(n). A value in brackets stays fixed: WN(sigma2=1e-6). Values are per
 sample, in SI units; tc of GM is in s.)help";
 
 constexpr const char* kWvExamples = R"help(

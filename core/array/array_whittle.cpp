@@ -147,7 +147,7 @@ ParameterCovariance bound(const ArrayFit& fit, const ArrayModel& scatter,
 
 bool has_likelihood(const ArrayModel& model) {
   return std::none_of(model.latents.begin(), model.latents.end(), [](const Latent& latent) {
-    return std::holds_alternative<Drift>(latent.term.process);
+    return std::holds_alternative<RateRamp>(latent.term.process);
   });
 }
 

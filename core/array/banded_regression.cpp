@@ -62,9 +62,9 @@ Coefficients BandedRegression::naive() const {
   double squares = 0.0;
   for (std::size_t b = 0; b < left.power.size(); ++b)
     squares += left.count(static_cast<Eigen::Index>(b)) * left.power[b].trace();
-  const double freedom =
+  const double degrees =
       left.count.sum() * static_cast<double>(series_) - static_cast<double>(coefficients_);
-  out.covariance *= squares / freedom;
+  out.covariance *= squares / degrees;
   return out;
 }
 

@@ -50,7 +50,7 @@ ArrayModel expand(const Model& written, const ArrayLayout& layout) {
   }
   for (std::size_t t = 0; t < written.terms.size(); ++t) {
     Term term = written.terms[t];
-    const bool ramp = std::holds_alternative<Drift>(term.process);
+    const bool ramp = std::holds_alternative<RateRamp>(term.process);
     if (ramp && term.sharing == Sharing::kOwn) term.sharing = Sharing::kCorrelated;
     const auto add = [&](const std::vector<Eigen::Index>& sensors) {
       out.latents.push_back(latent_of(term, t, sensors, out.sensors));

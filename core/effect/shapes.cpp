@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "core/spectrum/turns.h"
+#include "core/spectrum/roots_of_unity.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -24,13 +24,13 @@ double scale_of(Index n) { return std::sqrt(2.0 / static_cast<double>(n)); }
 template <class One>
 void for_each_coefficient(Index n, const One& one) {
   constexpr Index kPiece = 1 << 16;
-  const Turns turns(4 * static_cast<std::size_t>(n));
+  const RootsOfUnity roots(4 * static_cast<std::size_t>(n));
   for_each_index(static_cast<std::size_t>((n + kPiece - 1) / kPiece), [&](std::size_t piece) {
     const Index begin = static_cast<Index>(piece) * kPiece;
     for (Index k = std::max<Index>(begin, 1); k < std::min(n, begin + kPiece); ++k) {
       const bool low = 2 * k <= n;
-      const std::complex<double> turn = turns(static_cast<std::size_t>(low ? k : n - k));
-      one(k, low ? turn.real() : turn.imag(), low ? turn.imag() : turn.real());
+      const std::complex<double> root = roots(static_cast<std::size_t>(low ? k : n - k));
+      one(k, low ? root.real() : root.imag(), low ? root.imag() : root.real());
     }
   });
 }
@@ -60,9 +60,9 @@ Eigen::VectorXd warm_up_cosines(Index n, double tau) {
 Eigen::VectorXd step_cosines(Index n, Index at) {
   Eigen::VectorXd out(n - 1);
   const double scale = scale_of(n);
-  const double turn = std::numbers::pi * static_cast<double>(at) / static_cast<double>(n);
+  const double angle = std::numbers::pi * static_cast<double>(at) / static_cast<double>(n);
   for_each_coefficient(n, [&](Index k, double, double sine) {
-    out(k - 1) = -0.5 * scale * std::sin(turn * static_cast<double>(k)) / sine;
+    out(k - 1) = -0.5 * scale * std::sin(angle * static_cast<double>(k)) / sine;
   });
   return out;
 }

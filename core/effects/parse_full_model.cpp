@@ -37,7 +37,9 @@ Result<EffectTerm> read_effect(const Effect& effect, std::string_view term) {
 
 // DR is ramp(own), in whose grammar its size is the slope per second.
 void move_ramps(FullModel& model, Hertz rate) {
-  const auto is_ramp = [](const Term& term) { return std::holds_alternative<Drift>(term.process); };
+  const auto is_ramp = [](const Term& term) {
+    return std::holds_alternative<RateRamp>(term.process);
+  };
   for (const Term& term : model.noise.terms) {
     if (!is_ramp(term)) continue;
     EffectTerm ramp(effect_named("ramp"), "", {{"own", 1.0}});

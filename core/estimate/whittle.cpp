@@ -14,7 +14,7 @@ namespace {
 double ramp_power(const Model& model) {
   double out = 0.0;
   for (const Term& term : model.terms) {
-    if (const auto* drift = std::get_if<Drift>(&term.process)) out += drift->omega2;
+    if (const auto* drift = std::get_if<RateRamp>(&term.process)) out += drift->omega2;
   }
   return out;
 }
@@ -28,36 +28,31 @@ Eigen::ArrayXd residual_power(const BandedPower& bands, const Eigen::ArrayXd& sp
   return bands.power - 2.0 * slope * bands.ramp_cross + ramp2 * bands.ramp_power;
 }
 
-// A free parameter.
-struct Coordinate {
-  std::size_t term;
-  std::size_t parameter;
-  bool power() const { return parameter == 0; }
-  const Process& of(const Model& model) const { return model.terms[term].process; }
-};
+const Process& process_of(const Model& model, const ParameterPlace& place) {
+  return model.terms[place.term].process;
+}
+
+bool is_ramp(const Process& process) { return std::holds_alternative<RateRamp>(process); }
 
 // The free parameters but those of ramps, which do not show in the spectrum.
-std::vector<Coordinate> coordinates_of(const Model& model) {
-  std::vector<Coordinate> out;
-  for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    const Term& term = model.terms[t];
-    if (std::holds_alternative<Drift>(term.process)) continue;
-    for (std::size_t p = 0; p < term.given.size(); ++p) {
-      if (!term.given[p]) out.push_back({t, p});
-    }
-  }
+std::vector<ParameterPlace> coordinates_of(const Model& model) {
+  std::vector<ParameterPlace> out = parameter_places(model);
+  std::erase_if(out, [&](const ParameterPlace& place) {
+    return model.terms[place.term].given[place.parameter] || is_ramp(process_of(model, place));
+  });
   return out;
 }
 
-SpectralDirection direction_of(const Model& model, const Coordinate& c,
+SpectralDirection direction_of(const Model& model, const ParameterPlace& c,
                                const Eigen::ArrayXd& frequency) {
-  return {searched_slope(c.of(model), c.parameter, frequency), Eigen::MatrixXd::Ones(1, 1)};
+  return {searched_slope(process_of(model, c), c.parameter, frequency),
+          Eigen::MatrixXd::Ones(1, 1)};
 }
 
 // The ramp's power at its best: the replicates' slopes, each with its sign taken off, averaged.
 void fit_ramp(Model& model, std::span<const BandedPower> replicates) {
   const auto ramp = std::find_if(model.terms.begin(), model.terms.end(), [](const Term& term) {
-    return std::holds_alternative<Drift>(term.process) && !term.given[0];
+    return std::holds_alternative<RateRamp>(term.process) && !term.given[0];
   });
   if (ramp == model.terms.end()) return;
   double cross = 0.0;
@@ -71,7 +66,7 @@ void fit_ramp(Model& model, std::span<const BandedPower> replicates) {
   set_values(ramp->process, std::vector<double>{(cross / power) * (cross / power)});
 }
 
-Curvature curvature_at(const Model& model, const std::vector<Coordinate>& coordinates,
+Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& coordinates,
                        std::span<const BandedPower> replicates) {
   const auto n = static_cast<Eigen::Index>(coordinates.size());
   Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
@@ -79,7 +74,7 @@ Curvature curvature_at(const Model& model, const std::vector<Coordinate>& coordi
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     const BandLikelihood likelihood(bands.count, s);
     std::vector<SpectralDirection> directions;
-    for (const Coordinate& c : coordinates)
+    for (const ParameterPlace& c : coordinates)
       directions.push_back(direction_of(model, c, bands.frequency));
     const Eigen::MatrixXd slopes = likelihood.slopes(directions);
     out.information += slopes.transpose() * slopes;
@@ -87,19 +82,6 @@ Curvature curvature_at(const Model& model, const std::vector<Coordinate>& coordi
         slopes.transpose() * likelihood.excess(residual_power(bands, s, ramp_power(model)));
   }
   return out;
-}
-
-// Calls visit(coordinate, place in `columns`) for each column of the model that is asked for.
-template <class Visit>
-void for_each_column(const Model& model, const std::vector<Eigen::Index>& columns,
-                     const Visit& visit) {
-  Eigen::Index column = 0;
-  for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    for (std::size_t p = 0; p < model.terms[t].given.size(); ++p, ++column) {
-      const auto place = std::find(columns.begin(), columns.end(), column);
-      if (place != columns.end()) visit(Coordinate{t, p}, place - columns.begin());
-    }
-  }
 }
 
 }  // namespace
@@ -118,46 +100,52 @@ Eigen::MatrixXd whittle_slopes(const Model& model, const BandedPower& bands,
                                const std::vector<Eigen::Index>& columns) {
   const auto n = static_cast<Eigen::Index>(columns.size());
   const BandLikelihood likelihood(bands.count, spectrum(model, bands.frequency));
+  const std::vector<ParameterPlace> places = parameter_places(model);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(bands.frequency.size(), n);
-  for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
-    const Process& process = c.of(model);
-    if (std::holds_alternative<Drift>(process)) return;
-    const double per_value = 1.0 / searched_scale(process, c.parameter);
-    out.col(place) = per_value * likelihood.slopes({direction_of(model, c, bands.frequency)});
-  });
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ParameterPlace& place =
+        places[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+    if (is_ramp(process_of(model, place))) continue;
+    const double per_value = 1.0 / searched_scale(process_of(model, place), place.parameter);
+    out.col(i) = per_value * likelihood.slopes({direction_of(model, place, bands.frequency)});
+  }
   return out;
 }
 
 Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPower> replicates,
                                     const std::vector<Eigen::Index>& columns) {
   const auto n = static_cast<Eigen::Index>(columns.size());
+  const std::vector<ParameterPlace> places = parameter_places(model);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
   for (const BandedPower& bands : replicates) {
     const Eigen::MatrixXd slopes = whittle_slopes(model, bands, columns);
     out += slopes.transpose() * slopes;
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
-    for_each_column(model, columns, [&](const Coordinate& c, Eigen::Index place) {
-      const auto* drift = std::get_if<Drift>(&c.of(model));
-      if (drift == nullptr) return;
-      out(place, place) += (bands.count * bands.ramp_power / s).sum() / (4.0 * drift->omega2);
-    });
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const ParameterPlace& place =
+          places[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+      const auto* ramp = std::get_if<RateRamp>(&process_of(model, place));
+      if (ramp == nullptr) continue;
+      out(i, i) += (bands.count * bands.ramp_power / s).sum() / (4.0 * ramp->omega2);
+    }
   }
   return out;
 }
 
 WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replicates,
                         const Progress& progress) {
-  const std::vector<Coordinate> coordinates = coordinates_of(start);
+  const std::vector<ParameterPlace> coordinates = coordinates_of(start);
   Eigen::VectorXd at(static_cast<Eigen::Index>(coordinates.size()));
   Likelihood likelihood;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    at(static_cast<Eigen::Index>(i)) = searched(coordinates[i].of(start), coordinates[i].parameter);
-    likelihood.cones.push_back(coordinates[i].power() ? 1 : Likelihood::kFree);
+    at(static_cast<Eigen::Index>(i)) =
+        searched(process_of(start, coordinates[i]), coordinates[i].parameter);
+    likelihood.cones.push_back(coordinates[i].parameter == 0 ? 1 : Likelihood::kFree);
   }
   const auto model_at = [&](const Eigen::VectorXd& x) {
     Model out = start;
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      const Coordinate& c = coordinates[i];
+      const ParameterPlace& c = coordinates[i];
       set_searched(out.terms[c.term].process, c.parameter, x(static_cast<Eigen::Index>(i)));
     }
     fit_ramp(out, replicates);

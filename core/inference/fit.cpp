@@ -108,9 +108,10 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
   if (estimate.observability == Observability::kObserved) return 1.0;
   if (estimate.value <= 0.0 || parameter != 0) return 0.0;
   const Model& model = fit.estimate.model;
-  Eigen::Index column = 0;
-  for (std::size_t t = 0; t < term; ++t)
-    column += static_cast<Eigen::Index>(model.terms[t].given.size());
+  const std::vector<ParameterPlace> places = parameter_places(model);
+  const auto column = std::find_if(places.begin(), places.end(),
+                                   [&](const ParameterPlace& one) { return one.term == term; }) -
+                      places.begin();
   const ParameterSets sets = parameter_sets(model);
   const auto found = std::find(sets.interior.begin(), sets.interior.end(), column);
   if (found == sets.interior.end()) return 0.0;

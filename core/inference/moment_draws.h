@@ -23,12 +23,12 @@ class MomentDraws {
   std::vector<WaveletVariance> draw(RandomStream& stream) const;
 
  private:
-  struct Law {
+  struct Distribution {
     Eigen::ArrayXd spread;  // n: 2 / (9 edof)
     Eigen::MatrixXd root;   // n × n, of the correlation
   };
   std::vector<WaveletVariance> expected_;
-  PerReplicate<Law> laws_;
+  PerReplicate<Distribution> distributions_;
 };
 
 }  // namespace imunoise

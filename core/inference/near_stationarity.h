@@ -10,7 +10,7 @@
 
 namespace imunoise {
 
-/// A test by its asymptotic law, and by a parametric bootstrap where one was asked for:
+/// A test by its asymptotic distribution, and by a parametric bootstrap where one was asked for:
 /// p = (1 + #{T* ≥ T}) / (1 + B).
 struct BootstrappedTest {
   TestOutcome asymptotic;
@@ -29,7 +29,7 @@ struct NearStationarity {
   BootstrappedTest misfit;
   BootstrappedTest heterogeneity;
   /// The single statistic of Radi et al. 2019 (the MuGMWM objective with diagonal weights), which a
-  /// misfit moves as much as heterogeneity does; its law is known by bootstrap only.
+  /// misfit moves as much as heterogeneity does; its distribution is known by bootstrap only.
   double published_statistic = 0.0;
   std::optional<double> published_p_value;
   std::vector<ParameterSpread> spread;  ///< G(θ0), a row a free parameter

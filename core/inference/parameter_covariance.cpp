@@ -8,20 +8,20 @@ namespace imunoise {
 
 ParameterSets parameter_sets(const Model& model) {
   ParameterSets out;
-  Eigen::Index column = 0;
-  for (const Term& term : model.terms) {
+  const std::vector<ParameterPlace> places = parameter_places(model);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [t, p] = places[i];
+    const Term& term = model.terms[t];
+    if (term.given[p]) continue;
+    const auto column = static_cast<Eigen::Index>(i);
     const std::vector<double> v = values(term.process);
-    const std::vector<ParameterInfo> about = parameters(term.process);
-    for (std::size_t p = 0; p < v.size(); ++p, ++column) {
-      if (term.given[p]) continue;
-      if (p == 0) {
-        (v[0] > 0.0 ? out.interior : out.at_zero).push_back(column);
-        continue;
-      }
-      const bool at_bound =
-          v[p] <= about[p].lower * (1.0 + 1e-9) || v[p] >= about[p].upper * (1.0 - 1e-13);
-      if (v[0] > 0.0 && !at_bound) out.interior.push_back(column);
+    if (p == 0) {
+      (v[0] > 0.0 ? out.interior : out.at_zero).push_back(column);
+      continue;
     }
+    const ParameterInfo about = parameters(term.process)[p];
+    const bool at_bound = v[p] <= about.lower * (1.0 + 1e-9) || v[p] >= about.upper * (1.0 - 1e-13);
+    if (v[0] > 0.0 && !at_bound) out.interior.push_back(column);
   }
   return out;
 }
@@ -75,14 +75,11 @@ ParameterCovariance parameter_covariance(const Model& model,
 }
 
 Model with_power(Model model, Eigen::Index column, double value) {
-  for (Term& term : model.terms) {
-    if (column == 0) {
-      std::vector<double> v = values(term.process);
-      v[0] = value;
-      set_values(term.process, v);
-    }
-    column -= static_cast<Eigen::Index>(term.given.size());
-  }
+  const ParameterPlace place = parameter_places(model)[static_cast<std::size_t>(column)];
+  Process& process = model.terms[place.term].process;
+  std::vector<double> v = values(process);
+  v[place.parameter] = value;
+  set_values(process, v);
   return model;
 }
 

@@ -13,7 +13,7 @@ struct ParameterSpread {
   std::size_t term = 0;
   std::size_t parameter = 0;
   int replicates = 0;   ///< in which it is seen
-  double mean = 0.0;    ///< of the law that replicates are drawn from
+  double mean = 0.0;    ///< of the distribution that replicates are drawn from
   double spread = 0.0;  ///< its standard deviation, beyond what estimation adds
   double lower = 0.0;   ///< 95 % interval of the spread
   double upper = 0.0;

@@ -4,11 +4,15 @@
 
 namespace imunoise {
 
-std::size_t parameter_count(const Model& model) {
-  std::size_t out = 0;
-  for (const Term& term : model.terms) out += term.given.size();
+std::vector<ParameterPlace> parameter_places(const Model& model) {
+  std::vector<ParameterPlace> out;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    for (std::size_t p = 0; p < model.terms[t].given.size(); ++p) out.push_back({t, p});
+  }
   return out;
 }
+
+std::size_t parameter_count(const Model& model) { return parameter_places(model).size(); }
 
 std::string_view word_of(Sharing sharing) {
   switch (sharing) {

@@ -73,6 +73,14 @@ std::string print(const Model& model);
 /// The same with every value and no trends, as after a fit: what `imunoise simulate` takes.
 std::string print_with_values(const Model& model);
 
+/// A parameter of a model, by its place.
+struct ParameterPlace {
+  std::size_t term;
+  std::size_t parameter;  ///< of its process; 0 is its power
+};
+/// Every parameter of all terms, in order: the one list that columns of jacobian(), covariances and
+/// reports follow.
+std::vector<ParameterPlace> parameter_places(const Model& model);
 /// Number of parameters of all terms.
 std::size_t parameter_count(const Model& model);
 /// True when every parameter was given: such a model can be simulated.

@@ -9,12 +9,12 @@
 #include "core/process/ar2.h"
 #include "core/process/averaging_filters.h"
 #include "core/process/contract.h"
-#include "core/process/drift.h"
 #include "core/process/flicker.h"
 #include "core/process/gauss_markov.h"
 #include "core/process/moving_average.h"
 #include "core/process/quantisation_noise.h"
 #include "core/process/random_walk.h"
+#include "core/process/rate_ramp.h"
 #include "core/process/resonance.h"
 #include "core/process/white_noise.h"
 
@@ -24,7 +24,7 @@ template <NoiseProcess... P>
 using ProcessVariant = std::variant<P...>;
 
 using Process =
-    ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, Drift, Ar1, Ar2, GaussMarkov,
+    ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, RateRamp, Ar1, Ar2, GaussMarkov,
                    Resonance, MovingAverage, MovingAverageFilter, BartlettFilter, Flicker>;
 
 // The contract, on the variant.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/spectrum/fourier.h"
-#include "core/spectrum/turns.h"
+#include "core/spectrum/roots_of_unity.h"
 
 namespace imunoise {
 namespace {
@@ -28,15 +28,15 @@ template <class Number>
 Eigen::VectorXd inverse(const VectorRef& c) {
   const auto n = static_cast<std::size_t>(c.size()) + 1;
   assert(n >= 2 && quick_length(n) == n);
-  const Turns turns(4 * n);
+  const RootsOfUnity roots(4 * n);
   const double scale = std::sqrt(0.5 * static_cast<double>(n));
   std::vector<std::complex<Number>> spectrum(n / 2 + 1);
   for (std::size_t k = 1; k < spectrum.size(); ++k) {
-    const std::complex<double> turn = turns(k);
+    const std::complex<double> root = roots(k);
     const double near = scale * c(static_cast<Eigen::Index>(k) - 1);
     const double far = scale * c(static_cast<Eigen::Index>(n - k) - 1);
-    spectrum[k] = {static_cast<Number>(near * turn.real() + far * turn.imag()),
-                   static_cast<Number>(near * turn.imag() - far * turn.real())};
+    spectrum[k] = {static_cast<Number>(near * root.real() + far * root.imag()),
+                   static_cast<Number>(near * root.imag() - far * root.real())};
   }
   const std::vector<Number> folded = from_half_spectrum(std::move(spectrum), n);
   Eigen::VectorXd out(c.size() + 1);
@@ -60,16 +60,16 @@ Eigen::VectorXd cosine_transform(const VectorRef& x) {
   for (std::size_t t = 0; t < n; ++t)
     folded[folded_place(t, n)] = x(static_cast<Eigen::Index>(t)) - mean;
   const std::vector<std::complex<double>> spectrum = half_spectrum(std::move(folded));
-  const Turns turns(4 * n);
+  const RootsOfUnity roots(4 * n);
   const double scale = std::sqrt(2.0 / static_cast<double>(n));
   Eigen::VectorXd out(x.size() - 1);
   // c_k = Re(e^{-iπk/2n} V_k), and V_{n-k} is the conjugate of V_k.
   for (std::size_t k = 1; k < spectrum.size(); ++k) {
-    const std::complex<double> turn = turns(k);
+    const std::complex<double> root = roots(k);
     const double real = scale * spectrum[k].real();
     const double imag = scale * spectrum[k].imag();
-    out(static_cast<Eigen::Index>(n - k) - 1) = real * turn.imag() - imag * turn.real();
-    out(static_cast<Eigen::Index>(k) - 1) = real * turn.real() + imag * turn.imag();
+    out(static_cast<Eigen::Index>(n - k) - 1) = real * root.imag() - imag * root.real();
+    out(static_cast<Eigen::Index>(k) - 1) = real * root.real() + imag * root.imag();
   }
   return out;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
-#include "core/spectrum/turns.h"
+#include "core/spectrum/roots_of_unity.h"
 
 namespace imunoise {
 namespace {
@@ -61,8 +61,8 @@ std::size_t middle_divisor(std::size_t n) {
 }
 
 // The same, x being overwritten. Of many numbers the transform does not fit the cache: laid out as
-// rows × columns it is a transform of each column, a turn of each number and a transform of each
-// row, read out by columns (Bailey 1990); a few columns, or rows, are gathered at a time.
+// rows × columns it is a transform of each column, a rotation of each number and a transform of
+// each row, read out by columns (Bailey 1990); a few columns, or rows, are gathered at a time.
 template <class Number>
 void transform(Complex<Number>* x, std::size_t n, bool inverse, Complex<Number>* out) {
   constexpr std::size_t kFits = 4096;
@@ -70,7 +70,7 @@ void transform(Complex<Number>* x, std::size_t n, bool inverse, Complex<Number>*
   if (n <= kFits || rows == 1) return transform_at_once(x, n, inverse, out);
   constexpr std::size_t kGathered = 16;
   const std::size_t columns = n / rows;
-  const Turns turns(n);
+  const RootsOfUnity roots(n);
   std::vector<Complex<Number>> gathered(kGathered * columns);
   std::vector<Complex<Number>> one(rows);
   for (std::size_t begin = 0; begin < columns; begin += kGathered) {
@@ -81,9 +81,9 @@ void transform(Complex<Number>* x, std::size_t n, bool inverse, Complex<Number>*
     for (std::size_t c = 0; c < count; ++c) {
       transform_at_once(&gathered[c * rows], rows, inverse, one.data());
       for (std::size_t r = 0; r < rows; ++r) {
-        const std::complex<double> turn = turns(r * (begin + c));
+        const std::complex<double> root = roots(r * (begin + c));
         gathered[c * rows + r] =
-            one[r] * static_cast<Complex<Number>>(inverse ? turn : std::conj(turn));
+            one[r] * static_cast<Complex<Number>>(inverse ? root : std::conj(root));
       }
     }
     for (std::size_t r = 0; r < rows; ++r) {
@@ -107,12 +107,12 @@ void transform(Complex<Number>* x, std::size_t n, bool inverse, Complex<Number>*
 // v = -iw X of Z, with v = iw* Z of X.
 template <class Number>
 void recombine(std::vector<Complex<Number>>& x, std::size_t n, Number f, bool inverse) {
-  const Turns turns(n);
+  const RootsOfUnity roots(n);
   const std::size_t half = n / 2;
   for (std::size_t k = 0; 2 * k <= half; ++k) {
-    const std::complex<double> turn = turns(k);  // w*
-    const auto vr = static_cast<Number>(-turn.imag());
-    const auto vi = static_cast<Number>(inverse ? turn.real() : -turn.real());
+    const std::complex<double> root = roots(k);  // w*
+    const auto vr = static_cast<Number>(-root.imag());
+    const auto vi = static_cast<Number>(inverse ? root.real() : -root.real());
     Complex<Number>& a = x[k];
     Complex<Number>& b = x[half - k];
     const Number er = f * (a.real() + b.real());

@@ -6,8 +6,9 @@ namespace imunoise {
 
 /// How hard outliers are pushed down, by the peers' names. Their equation for the tuning constant
 /// has a sign error (+8 for -8 before the 18th moment), so that the estimators they call 0.6, 0.8,
-/// 0.9 efficient are 0.727, 0.824, 0.902 efficient at the normal law. The constants are theirs, for
-/// comparability; the interval uses the nominal figure, as theirs does, and is thus a little wide.
+/// 0.9 efficient are 0.727, 0.824, 0.902 efficient at the normal distribution. The constants are
+/// theirs, for comparability; the interval uses the nominal figure, as theirs does, and is thus a
+/// little wide.
 enum class RobustEfficiency { k60, k80, k90 };
 
 /// The nominal efficiency: 0.6, 0.8 or 0.9.

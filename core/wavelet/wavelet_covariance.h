@@ -32,11 +32,12 @@ struct WaveletCovariance {
 WaveletCovariance wavelet_covariance(std::span<const Signal> signals, const Scales& scales,
                                      const Progress& progress = {});
 
-/// Interval of one entry without a model: Student's, with variance (ν_aa ν_bb + ν_ab²) / n, the law
-/// of Gaussian signals whose coefficients count as n = κM/2m ≥ 1 independent pairs. κ follows from
-/// the slope of the two wavelet variances about this scale: for a power law S ~ f^α, whose wavelet
-/// variance has slope s = -1 - α, κ = (4/π) (∫P)² / ∫P², P = sin⁴x · x^(α-2), which is 3.00 for
-/// white, 2.34 flicker noise, 1.85 a random walk (less at m < 8). `measured`: mean of `replicates`.
+/// Interval of one entry without a model: Student's, with variance (ν_aa ν_bb + ν_ab²) / n, the
+/// distribution of Gaussian signals whose coefficients count as n = κM/2m ≥ 1 independent pairs. κ
+/// follows from the slope of the two wavelet variances about this scale: for a power law S ~ f^α,
+/// whose wavelet variance has slope s = -1 - α, κ = (4/π) (∫P)² / ∫P², P = sin⁴x · x^(α-2), which
+/// is 3.00 for white, 2.34 flicker noise, 1.85 a random walk (less at m < 8). `measured`: mean of
+/// `replicates`.
 struct CovarianceInterval {
   Eigen::ArrayXd lower;
   Eigen::ArrayXd upper;

@@ -21,7 +21,8 @@ struct WaveletVariance {
   Eigen::ArrayXd
       edof;  ///< Equivalent degrees of freedom max(M / 2m, 1) (Percival & Walden 2000, η3)
   double confidence = 0.95;
-  double efficiency = 1.0;  ///< Of the estimator at the normal law; 1 for the classical one
+  double efficiency =
+      1.0;  ///< Of the estimator at the normal distribution; 1 for the classical one
   std::size_t samples = 0;  ///< T
   Hertz rate;
   Quantity quantity = Quantity::kUnknown;

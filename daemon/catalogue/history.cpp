@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/inference/drift.h"
+#include "core/inference/parameter_history.h"
 #include "core/support/distributions.h"
 
 namespace imunoise::catalogue {

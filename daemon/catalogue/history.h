@@ -14,9 +14,9 @@ struct HistoryOptions {
 };
 
 /// A device's parameters over time, and whether the newest calibration is compatible with those
-/// before it (core/inference/drift.h, on the logarithm). Calibrations are compared when an interval
-/// is known on both sides and the model is that of the newest one. Error: no parameter of such a
-/// name or channel (those known are listed).
+/// before it (core/inference/parameter_history.h, on the logarithm). Calibrations are compared when
+/// an interval is known on both sides and the model is that of the newest one. Error: no parameter
+/// of such a name or channel (those known are listed).
 Result<v1::History> history_of(const v1::CataloguedDevice& device, Parameters parameters,
                                const HistoryOptions& options = {});
 

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/estimate/whittle.h"
+#include "core/inference/intervals.h"
 #include "core/inference/parameter_covariance.h"
-#include "core/support/linear_algebra.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
+
+constexpr double kConfidence = 0.95;
 
 std::vector<v1::EffectParameter> messages_of(const std::vector<ReportedNumber>& numbers) {
   std::vector<v1::EffectParameter> out;
@@ -37,35 +38,43 @@ void add_shape(const EffectTerm& term, double shape_error, std::vector<ReportedN
   }
 }
 
+// A parameter of noise, with the interval that a fit gives it; without one where it is at a bound.
+ReportedNumber noise_number(const Term& term, std::size_t parameter, double error,
+                            Quantity quantity) {
+  const ParameterInfo about = parameters(term.process)[parameter];
+  ReportedNumber out{about.name, values(term.process)[parameter],
+                     unit_of(about.dimension, quantity)};
+  if (!(error > 0.0) || !std::isfinite(error)) return out;
+  const ParameterEstimate estimate = interval(about, parameter, out.value, error, kConfidence);
+  out.lower = estimate.lower;
+  out.upper = estimate.upper;
+  return out;
+}
+
+// The parameters of the noise that was added, and the times and frequencies that they stand for.
 void add_noise(const TriedTerm& tried, const Subject& subject, std::vector<ReportedNumber>& out) {
   const Model& fitted = tried.fitted.fit.model.noise;
   const std::size_t kind = std::get<NoiseChange>(tried.suggestion.added).added.index();
   const std::vector<BandedPower> left =
       pooled(tried.fitted.regression.residual(tried.fitted.fit.effects, fitted));
-  const ParameterSets sets = parameter_sets(fitted);
-  const PseudoInverse covariance = pseudo_inverse(whittle_information(fitted, left, sets.interior));
-  Eigen::Index column = 0;
-  for (const Term& term : fitted.terms) {
-    const std::vector<ParameterInfo> about = parameters(term.process);
-    const std::vector<double> v = values(term.process);
-    for (std::size_t p = 0; p < v.size(); ++p, ++column) {
-      if (term.process.index() != kind) continue;
-      const auto place = std::find(sets.interior.begin(), sets.interior.end(), column);
-      const double error = place == sets.interior.end()
-                               ? 0.0
-                               : std::sqrt(covariance.matrix(place - sets.interior.begin(),
-                                                             place - sets.interior.begin()));
-      const std::string unit = unit_of(about[p].dimension, subject.quantity);
-      const double relative = error / v[p];
-      out.push_back(p == 0 ? with_log_error({about[p].name, v[p], unit}, relative)
-                           : with_error({about[p].name, v[p], unit}, error));
-    }
+  const std::vector<Eigen::Index> interior = parameter_sets(fitted).interior;
+  const ParameterCovariance covariance =
+      inverse_information(whittle_information(fitted, left, interior));
+  const std::vector<ParameterPlace> places = parameter_places(fitted);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Term& term = fitted.terms[places[i].term];
     if (term.process.index() != kind) continue;
-    if (const auto* markov = std::get_if<Ar1>(&term.process); markov != nullptr && markov->phi > 0)
-      out.push_back({"tau_s", -1.0 / (subject.rate.value * std::log(markov->phi)), "s"});
-    if (const auto* ringing = std::get_if<Resonance>(&term.process))
-      out.push_back(
-          {"frequency_hz", 0.5 * ringing->omega / std::numbers::pi * subject.rate.value, "Hz"});
+    const auto inside = std::find(interior.begin(), interior.end(), static_cast<Eigen::Index>(i));
+    const double error =
+        inside == interior.end() ? 0.0 : covariance.standard_error(inside - interior.begin());
+    out.push_back(noise_number(term, places[i].parameter, error, subject.quantity));
+    if (places[i].parameter + 1 < term.given.size()) continue;
+    for (const DerivedQuantity& quantity : derived(term.process, subject.rate)) {
+      if (quantity.coefficient == Coefficient::kCorrelationTime)
+        out.push_back({"tau_s", quantity.value, "s"});
+      if (quantity.coefficient == Coefficient::kFrequency)
+        out.push_back({"frequency_hz", quantity.value, "Hz"});
+    }
   }
 }
 

@@ -48,7 +48,7 @@ std::string name_of(Estimator estimator, std::size_t replicates) {
 bool seen_badly_by_moments(const Model& model) {
   return std::any_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
     return std::holds_alternative<Resonance>(term.process) ||
-           std::holds_alternative<Drift>(term.process);
+           std::holds_alternative<RateRamp>(term.process);
   });
 }
 
@@ -73,7 +73,8 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
   if (!options.model) out.add_notes(default_model_note("was fitted"));
   if (options.estimator != Estimator::kWhittle && seen_badly_by_moments(model)) {
     out.add_notes(
-        "A resonance or a drift is estimated much more precisely with --estimator whittle, once "
+        "A resonance or a rate ramp is estimated much more precisely with --estimator whittle, "
+        "once "
         "the "
         "model fits.");
   }

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 
+#include "study/figure/time_ticks.h"
 #include "study/words/number.h"
 
 namespace imunoise::figure {
 namespace {
 
-constexpr double kMinute = 60.0;
-constexpr double kHour = 3600.0;
-constexpr double kDay = 86400.0;
 constexpr double kFewDecades = 3.0;
 constexpr double kLatest = 8e9;     // s, of which the nanoseconds can be counted
 constexpr double kLargest = 1e290;  // margins still are finite
@@ -24,30 +21,6 @@ double unfolded(AxisKind kind, double value) {
   if (kind == AxisKind::kLogarithmic) return std::log10(value);
   if (kind == AxisKind::kSigma) return std::asinh(0.5 * value);
   return value;
-}
-
-// The least step of at least `least` that people count in.
-double round_step(double least) {
-  const double decade = power_of_ten(static_cast<int>(std::floor(std::log10(least))));
-  const double digit = least / decade;
-  if (digit <= 1.0) return decade;
-  if (digit <= 2.0) return 2.0 * decade;
-  return digit <= 5.0 ? 5.0 * decade : 10.0 * decade;
-}
-
-// The same of a clock and a calendar.
-double clock_step(double least) {
-  if (least <= 1.0) return round_step(least);
-  for (const double step : {2.0, 5.0, 10.0, 30.0, kMinute, 2 * kMinute, 5 * kMinute, 10 * kMinute,
-                            30 * kMinute, kHour, 2 * kHour, 6 * kHour, 12 * kHour, kDay}) {
-    if (least <= step) return step;
-  }
-  return kDay * round_step(least / kDay);
-}
-
-std::string moment(double seconds, double step) {
-  const auto ns = static_cast<std::int64_t>(std::llround(seconds)) * 1'000'000'000;
-  return step < kDay ? report::minute(ns) : report::day(ns);
 }
 
 // Labels of a few digits stay as they are; large and small ones get an exponent, and the digits
@@ -142,16 +115,14 @@ std::vector<Tick> Scale::decades(double length, double label, double gap) const 
 }
 
 std::vector<Tick> Scale::steps(double least) const {
-  const bool clock = kind_ == AxisKind::kTime || kind_ == AxisKind::kDuration;
-  const double step = clock ? clock_step(least) : round_step(least);
+  if (kind_ == AxisKind::kTime) return time_ticks(low_, high_, least);
+  const double step = kind_ == AxisKind::kDuration ? clock_step(least) : round_step(least);
   const double slack = 1e-9 * step;
   std::vector<Tick> out;
   for (double k = std::ceil((low_ - slack) / step); k * step <= high_ + slack; k += 1.0) {
     const double value = k * step + 0.0;  // zero without a sign
-    out.push_back({value, true,
-                   kind_ == AxisKind::kTime                       ? moment(value, step)
-                   : kind_ == AxisKind::kDuration && value != 0.0 ? report::duration(value)
-                                                                  : number_label(value, step)});
+    const bool time = kind_ == AxisKind::kDuration && value != 0.0;
+    out.push_back({value, true, time ? report::duration(value) : number_label(value, step)});
   }
   return out;
 }

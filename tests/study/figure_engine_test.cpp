@@ -64,9 +64,7 @@ std::vector<Figure> every_shape() {
   for (const Shape shape :
        {Shape::kLine, Shape::kPoints, Shape::kBand, Shape::kIntervals, Shape::kBars, Shape::kMarks,
         Shape::kCells, Shape::kColumns, Shape::kRows}) {
-    for (const Role role :
-         {Role::kMeasured, Role::kModel, Role::kTerm, Role::kGhost, Role::kReplicate,
-          Role::kInterval, Role::kChance, Role::kMisfit, Role::kUntested}) {
+    for (const Role role : {Role::kMeasured, Role::kTerm, Role::kChance, Role::kUntested}) {
       for (const AxisKind x : {AxisKind::kLinear, AxisKind::kLogarithmic, AxisKind::kTime,
                                AxisKind::kDuration, AxisKind::kSigma, AxisKind::kCategories}) {
         Figure one = one_panel(layer_of(shape, role, places), x, AxisKind::kLogarithmic);
@@ -113,12 +111,12 @@ std::vector<Figure> hard_cases() {
   Panel rows{.y = {.kind = AxisKind::kCategories}, .layers = {{.shape = Shape::kCells}}};
   for (int r = 0; r < 200; ++r) {
     rows.y.categories.push_back("replicate " + std::to_string(r) + std::string(80, 'x'));
-    for (int c = 0; c < 60; ++c)
+    for (int c = 0; c < 16; ++c)
       rows.layers[0].data.push_back({.x = c + 0.5,
                                      .y = 1.0 * r,
                                      .lower = 1.0 * c,
                                      .upper = c + 1.0,
-                                     .sigma = 0.1 * c,
+                                     .sigma = 0.5 * c,
                                      .words = "+3.1"});
   }
   out.push_back({.title = "rows", .panels = {std::move(rows)}});

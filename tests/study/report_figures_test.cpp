@@ -138,6 +138,11 @@ TEST(Scale, TicksAreWhatPeopleCountIn) {
   EXPECT_EQ(
       labels(Scale(AxisKind::kTime, 20000.2 * kDay, 20003.1 * kDay).ticks(600.0, 130.0, 14.0)),
       (std::vector<std::string>{"2024-10-05", "2024-10-06", "2024-10-07"}));
+  EXPECT_EQ(
+      labels(Scale(AxisKind::kTime, 20000.0 * kDay, 20400.0 * kDay).ticks(800.0, 130.0, 14.0)),
+      (std::vector<std::string>{"2025-01", "2025-04", "2025-07", "2025-10"}));
+  EXPECT_EQ(labels(Scale(AxisKind::kTime, 0.0, 20000.0 * kDay).ticks(800.0, 130.0, 14.0)),
+            (std::vector<std::string>{"1970", "1980", "1990", "2000", "2010", "2020"}));
   EXPECT_EQ(labels(Scale(AxisKind::kLinear, 0.95e-14, 1.05e-14).ticks(300.0, 72.0, 14.0)),
             (std::vector<std::string>{"9.5×10⁻¹⁵", "1.00×10⁻¹⁴", "1.05×10⁻¹⁴"}));
   // Less than a decade is read in round steps.

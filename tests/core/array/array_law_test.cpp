@@ -27,7 +27,7 @@ ArrayModel mixed_model() {
   std::normal_distribution<double> normal;
   for (Latent& latent : model.latents) {
     if (latent.matrix()) {
-      const bool ramp = std::holds_alternative<Drift>(latent.term.process);
+      const bool ramp = std::holds_alternative<RateRamp>(latent.term.process);
       Eigen::MatrixXd root(3, ramp ? 1 : 3);
       for (double& x : root.reshaped()) x = normal(random);
       latent.power = (ramp ? 1e-4 : 0.02) * root * root.transpose();

@@ -71,7 +71,7 @@ TEST(EffectTerm, WhatIsWrongIsSaid) {
   EXPECT_NE(message("WN + outliers(above=1)").find("at least 3"), std::string::npos);
   for (const char* unknown : {"WN + QQ", "WN + lien(f=3)"}) {
     EXPECT_NE(message(unknown).find("unknown process"), std::string::npos);
-    EXPECT_NE(message(unknown).find("warm_up, line, step"), std::string::npos) << message(unknown);
+    EXPECT_NE(message(unknown).find("ramp, warm_up, line"), std::string::npos) << message(unknown);
   }
 }
 

@@ -149,7 +149,7 @@ TEST(Whittle, FindsRampsThatRunEitherWay) {
     bands.power += slopes[k] * slopes[k] * bands.ramp_power;
   }
   const Model found = whittle(freed(model_of("WN(sigma2=2) + DR(omega2=1e-12)")), replicates).model;
-  EXPECT_NEAR(std::get<Drift>(found.terms[1].process).omega2, 9e-8, 1e-12);
+  EXPECT_NEAR(std::get<RateRamp>(found.terms[1].process).omega2, 9e-8, 1e-12);
   EXPECT_NEAR(std::get<WhiteNoise>(found.terms[0].process).sigma2, 1.0, 1e-9);
 }
 

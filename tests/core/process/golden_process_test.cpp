@@ -63,7 +63,7 @@ TEST(GoldenProcess, PeersTheoryWhereItHolds) {
       {"wn_1", WhiteNoise{1.0}},
       {"qn_1", QuantisationNoise{1.0}},
       {"rw_1", RandomWalk{1.0}},
-      {"dr_1", Drift{1.0}},
+      {"dr_1", RateRamp{1.0}},
       {"ar1_0.5", Ar1{1.0, 0.5}},
       {"ar1_neg0.5", Ar1{1.0, -0.5}},
       {"ma1_0.5", MovingAverage{1.0, {0.5}}}};

@@ -11,7 +11,7 @@ inline std::vector<Process> process_examples() {
   return {WhiteNoise{2.0},
           QuantisationNoise{0.3},
           RandomWalk{0.01},
-          Drift{1e-4},
+          RateRamp{1e-4},
           Ar1{1.0, 0.2},
           Ar1{1.0, 0.9},
           Ar1{0.5, 0.999},

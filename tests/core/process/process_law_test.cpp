@@ -22,7 +22,7 @@ std::string print(const Process& process) {
 
 const Eigen::ArrayXd kWidths = (Eigen::ArrayXd(9) << 1, 2, 3, 4, 7, 16, 33, 100, 257).finished();
 
-bool deterministic(const Process& process) { return std::holds_alternative<Drift>(process); }
+bool deterministic(const Process& process) { return std::holds_alternative<RateRamp>(process); }
 
 TEST(ProcessLaws, TheListIsComplete) {
   for (const Process& known : known_processes()) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/spectrum/banded_power.h"
-#include "core/spectrum/turns.h"
+#include "core/spectrum/roots_of_unity.h"
 
 namespace imunoise {
 namespace {
@@ -74,9 +74,9 @@ TEST(CosineTransform, RoughOrNotTheInverseGivesTheSeriesBack) {
   }
 }
 
-TEST(Turns, AreExactFarOut) {
+TEST(RootsOfUnity, AreExactFarOut) {
   constexpr std::size_t kN = 4'000'000;
-  const Turns turns(kN);
+  const RootsOfUnity turns(kN);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1023}, std::size_t{1024}, kN / 3, kN}) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kN;
     EXPECT_LT(std::abs(turns(k) - std::polar(1.0, angle)), 1e-15) << k;

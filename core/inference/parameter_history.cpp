@@ -1,4 +1,4 @@
-#include "core/inference/drift.h"
+#include "core/inference/parameter_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +84,7 @@ double tau2_at(std::span<const DatedEstimate> estimates, double u, const Fit& fi
   return root_between([&](double tau2) { return fit(estimates, tau2).misfit - u; }, 0.0, high);
 }
 
-// The fiducial law of τ²: where Q(τ²) is each quantile of χ².
+// The fiducial distribution of τ²: where Q(τ²) is each quantile of χ².
 template <class Fit>
 std::vector<Node> nodes_of(std::span<const DatedEstimate> estimates, const Fit& fit) {
   const auto dof = static_cast<double>(estimates.size() - Fit::kParameters);
@@ -122,22 +122,22 @@ double mean_of(const std::vector<Node>& history) {
 
 }  // namespace
 
-std::optional<DriftTest> test_newest(std::span<const DatedEstimate> estimates) {
+std::optional<ChangeTest> test_newest(std::span<const DatedEstimate> estimates) {
   if (estimates.size() < kLeastHistory + 1) return std::nullopt;
   const std::vector<Node> history = nodes_of(estimates.first(estimates.size() - 1), Mean{});
   const DatedEstimate& newest = estimates.back();
-  return DriftTest{newest.value - mean_of(history),
-                   p_value(history, newest.value, newest.variance)};
+  return ChangeTest{newest.value - mean_of(history),
+                    p_value(history, newest.value, newest.variance)};
 }
 
-std::optional<DriftTest> test_trend(std::span<const DatedEstimate> estimates) {
+std::optional<ChangeTest> test_trend(std::span<const DatedEstimate> estimates) {
   if (estimates.size() < kLeastHistory + 1) return std::nullopt;
   const auto [first, last] = std::minmax_element(
       estimates.begin(), estimates.end(),
       [](const DatedEstimate& a, const DatedEstimate& b) { return a.time < b.time; });
   const double span = last->time - first->time;
   if (!(span > 0.0)) return std::nullopt;
-  DriftTest out{0.0, 0.0};
+  ChangeTest out{0.0, 0.0};
   for (const Node& node : nodes_of(estimates, Slope{})) {
     out.change += node.weight * node.line.value * span;
     out.p_value += node.weight * two_sided(node.line.value / std::sqrt(node.line.variance));

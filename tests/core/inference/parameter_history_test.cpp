@@ -1,6 +1,6 @@
 // Laws of the tests for drift: what they become where the answer is known in closed form.
 
-#include "core/inference/drift.h"
+#include "core/inference/parameter_history.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ Estimates dated(const std::vector<double>& values, double variance) {
 // Two-sided p-value of Student's law: P(F(1, dof) > t²).
 double student_p(double t, double dof) { return std::exp(log_f_tail(t * t, 1.0, dof)); }
 
-TEST(Drift, IsStudentsTestWhereIntervalsAreNarrow) {
+TEST(ParameterHistory, IsStudentsTestWhereIntervalsAreNarrow) {
   for (const double last : {0.5, 2.0, 9.0}) {
     const Estimates estimates = dated({1.0, -0.5, 0.3, -0.8, last}, 1e-12);
     const double s2 = (1.0 + 0.25 + 0.09 + 0.64) / 3.0;
@@ -36,7 +36,7 @@ TEST(Drift, IsStudentsTestWhereIntervalsAreNarrow) {
   }
 }
 
-TEST(Drift, ATrendIsStudentsTestOfASlopeWhereIntervalsAreNarrow) {
+TEST(ParameterHistory, ATrendIsStudentsTestOfASlopeWhereIntervalsAreNarrow) {
   // Times -2 … 2 about their mean: Σt² = 10, Σtx = 9.8 and residuals 0.1·(1, -2, 0, 2, -1).
   const Estimates estimates = dated({-1.86, -1.18, 0.0, 1.18, 1.86}, 1e-12);
   const double slope = (2.0 * 3.72 + 2.36) / 10.0;
@@ -52,7 +52,7 @@ TEST(Drift, ATrendIsStudentsTestOfASlopeWhereIntervalsAreNarrow) {
   EXPECT_NEAR(got->change, 4.0 * slope, 1e-6);
 }
 
-TEST(Drift, TendsToTheNormalTestWhereManyCalibrationsAgree) {
+TEST(ParameterHistory, TendsToTheNormalTestWhereManyCalibrationsAgree) {
   std::vector<double> values;
   for (int i = 0; i < 400; ++i) values.push_back(i % 2 == 0 ? 0.01 : -0.01);  // less than chance
   values.push_back(2.5);
@@ -61,14 +61,14 @@ TEST(Drift, TendsToTheNormalTestWhereManyCalibrationsAgree) {
   EXPECT_NEAR(got->p_value / std::erfc(2.5 / std::sqrt(2.0 * (1.0 + 1.0 / 400))), 1.0, 0.01);
 }
 
-TEST(Drift, AWideIntervalIsNoAlarm) {
+TEST(ParameterHistory, AWideIntervalIsNoAlarm) {
   Estimates estimates = dated({0.0, 0.1, -0.1, 0.05, 4.0}, 0.01);
   EXPECT_LT(test_newest(estimates)->p_value, 1e-3);
   estimates.back().variance = 16.0;
   EXPECT_GT(test_newest(estimates)->p_value, 0.3);
 }
 
-TEST(Drift, AnOutlierOfTheHistoryWeighsByItsInterval) {
+TEST(ParameterHistory, AnOutlierOfTheHistoryWeighsByItsInterval) {
   Estimates estimates = dated({0.0, 0.1, -0.1, 3.0, 0.05, 1.0}, 0.01);
   const double as_sure = test_newest(estimates)->p_value;
   EXPECT_GT(as_sure, 0.5) << "this device does such things";
@@ -76,7 +76,7 @@ TEST(Drift, AnOutlierOfTheHistoryWeighsByItsInterval) {
   EXPECT_LT(test_newest(estimates)->p_value, as_sure / 10.0) << "that calibration knew nothing";
 }
 
-TEST(Drift, TheExpectedRangeEndsWhereTheAlarmBegins) {
+TEST(ParameterHistory, TheExpectedRangeEndsWhereTheAlarmBegins) {
   const Estimates history = dated({0.3, -0.2, 0.1, 0.4, -0.1}, 0.04);
   for (const double level : {0.05, 1e-3, 1e-5}) {
     const auto range = expected_next(history, 0.09, level);
@@ -91,7 +91,7 @@ TEST(Drift, TheExpectedRangeEndsWhereTheAlarmBegins) {
   }
 }
 
-TEST(Drift, UnitsDoNotMatter) {
+TEST(ParameterHistory, UnitsDoNotMatter) {
   const Estimates estimates = dated({0.3, -0.2, 0.1, 0.4, 1.5}, 0.04);
   Estimates scaled = estimates;
   for (DatedEstimate& one : scaled)
@@ -102,7 +102,7 @@ TEST(Drift, UnitsDoNotMatter) {
   EXPECT_NEAR(test_trend(scaled)->change, 10.0 * test_trend(estimates)->change, 1e-6);
 }
 
-TEST(Drift, AShortHistoryIsNotTested) {
+TEST(ParameterHistory, AShortHistoryIsNotTested) {
   const Estimates three = dated({0.0, 0.1, 5.0}, 0.01);
   EXPECT_FALSE(test_newest(three));
   EXPECT_FALSE(test_trend(three));

@@ -9,9 +9,9 @@ namespace imunoise {
 /// Points of the unit circle, e^{2πik/n} at k = 0 … n, to 1e-15: products of two short tables, for
 /// a sine for each would take as long as a Fourier transform, and a table of all more memory than
 /// its series.
-class Turns {
+class RootsOfUnity {
  public:
-  explicit Turns(std::size_t n);
+  explicit RootsOfUnity(std::size_t n);
   std::complex<double> operator()(std::size_t k) const {
     const std::complex<double> a = coarse_[k / kStretch];
     const std::complex<double> b = fine_[k % kStretch];

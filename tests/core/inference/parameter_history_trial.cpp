@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <random>
 
-#include "core/inference/drift.h"
+#include "core/inference/parameter_history.h"
 #include "core/support/distributions.h"
 #include "core/support/parallel.h"
 #include "tests/core/inference/simulated_sets.h"
@@ -59,7 +59,7 @@ double share_below(double level, const Scatter& scatter, std::size_t count, doub
 const auto kNewest = [](const Estimates& all) { return test_newest(all); };
 const auto kTrend = [](const Estimates& all) { return test_trend(all); };
 
-TEST(DriftTrial, SizeAndPowerOnNormalEstimates) {
+TEST(ParameterHistoryTrial, SizeAndPowerOnNormalEstimates) {
   for (const Scatter scatter :
        {Scatter{"intervals say all", 0.0, 1.0},
         Scatter{"as much again between recordings", 1.0, 1.0},
@@ -107,7 +107,7 @@ std::vector<DatedEstimate> calibrated(double factor, double time, std::uint64_t 
   return out;
 }
 
-TEST(DriftTrial, SizeAndPowerOnFits) {
+TEST(ParameterHistoryTrial, SizeAndPowerOnFits) {
   constexpr std::size_t kHistory = 8;
   constexpr std::size_t kDevices = 400;
   const std::vector<double> factors = {1.0, 1.01, 1.02, 1.03, 1.05};  // of the last calibration

@@ -6,14 +6,14 @@
 
 namespace imunoise {
 
-/// Drift: a deterministic ramp of slope ω per sample; ν(m) = ω²m²/4. Its sign cannot be seen.
-struct Drift {
+/// Rate ramp: a deterministic ramp of slope ω per sample; ν(m) = ω²m²/4. Its sign cannot be seen.
+struct RateRamp {
   double omega2 = 1.0;
 
   static constexpr ProcessInfo kInfo{
-      "DR", "drift",
+      "DR", "rate ramp",
       "A bias that moves steadily: slow temperature or ageing seen as a straight line."};
-  friend bool operator==(const Drift&, const Drift&) = default;
+  friend bool operator==(const RateRamp&, const RateRamp&) = default;
 
   std::vector<ParameterInfo> parameters() const {
     return {{"omega2", "square of the slope per sample"}};
