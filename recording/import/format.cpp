@@ -1,4 +1,4 @@
-#include "recording/import/format.h"
+#include "recording/import/table/format.h"
 
 #include <fmt/core.h>
 

@@ -12,8 +12,8 @@
 #include "core/support/parallel.h"
 #include "recording/import/binary/npy.h"
 #include "recording/import/binary/raw.h"
-#include "recording/import/format.h"
 #include "recording/import/hdf5/hdf5_table.h"
+#include "recording/import/table/format.h"
 #include "recording/import/table/table.h"
 #include "recording/import/text/text_table.h"
 

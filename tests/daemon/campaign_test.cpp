@@ -243,7 +243,7 @@ TEST_F(CampaignRun, ARecordingThatIsGoneIsTold) {
   };
   run(kBegin);
   const auto told = std::count_if(told_.begin(), told_.end(), [](const auto& status) {
-    return status.reason().find("/2026-03-01T001000Z is gone") != std::string::npos;
+    return status.reason().find("/2026-03-01T001000Z not found") != std::string::npos;
   });
   EXPECT_EQ(told, 1);
   EXPECT_EQ(tasks_.size(), 4U) << "another recording is made, whole";

@@ -15,8 +15,8 @@
 #include <thread>
 
 #include "daemon/acquire/campaign/recordings.h"
-#include "recording/store/manifest.h"
-#include "recording/store/verify.h"
+#include "recording/store/manifest/manifest.h"
+#include "recording/store/verify/verify.h"
 #include "tests/daemon/whims.h"
 
 namespace imunoise::app {

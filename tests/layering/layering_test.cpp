@@ -24,8 +24,9 @@ std::vector<std::string> judge(const std::string& path, const std::string& text)
        {"core/support/result.h", "core/signal/signal.h", "core/wavelet/scales.h",
         "core/process/ar1.h", "core/model/model.h", "core/estimate/problem.h",
         "core/diagnosis/diagnose.h", "core/effects/known_effects.h", "core/simulate/steps.h",
-        "recording/chunk.h", "study/study.h", "drivers/driver.h", "daemon/app/options.h",
-        "tests/support/golden.h", "cli/options.h"}) {
+        "recording/import/text/fields.h", "recording/store/chunk/chunk.h",
+        "recording/store/recovery/recover.h", "recording/store/stream/stream.h", "study/study.h",
+        "drivers/driver.h", "daemon/app/options.h", "tests/support/golden.h", "cli/options.h"}) {
     tree[header] = "#pragma once\n";
   }
   tree["core/model/model.h"] = "#pragma once\n#include \"core/process/ar1.h\"\n";
@@ -88,7 +89,7 @@ TEST(LayeringRules, RefuseAForbiddenInclude) {
            {"core/estimate/problem.cpp", "core/diagnosis/diagnose.h"},
            {"core/regression/joint_fit.cpp", "core/effects/known_effects.h"},
            {"core/estimate/problem.cpp", "core/simulate/steps.h"},
-           {"core/estimate/problem.cpp", "recording/chunk.h"},
+           {"core/estimate/problem.cpp", "recording/store/chunk/chunk.h"},
            {"core/model/model.cpp", "imunoise/v1/noise.pb.h"},
            {"core/support/units.cpp", "<iostream>"},
            {"core/support/units.cpp", "<fstream>"},
@@ -106,14 +107,17 @@ TEST(LayeringRules, RefuseAForbiddenInclude) {
            {"study/study.cpp", "<CLI/CLI.hpp>"},
            {"study/study.cpp", "drivers/driver.h"},
            {"study/study.cpp", "cli/options.h"},
-           {"recording/chunk.cpp", "study/study.h"},
-           {"recording/chunk.cpp", "<spdlog/spdlog.h>"},
+           {"recording/store/chunk/chunk.cpp", "study/study.h"},
+           {"recording/store/chunk/chunk.cpp", "<spdlog/spdlog.h>"},
+           {"recording/store/manifest/manifest.cpp", "recording/store/recovery/recover.h"},
+           {"recording/import/table/file.cpp", "recording/import/text/fields.h"},
            {"drivers/adis/device.cpp", "core/wavelet/scales.h"},
-           {"drivers/adis/device.cpp", "recording/chunk.h"},
+           {"drivers/adis/device.cpp", "recording/store/chunk/chunk.h"},
            {"drivers/adis/device.cpp", "<libusb.h>"},
            {"drivers/xsens/codec/frame.cpp", "drivers/driver.h"},
            {"drivers/emulator/usb/hub.cpp", "core/model/model.h"},
-           {"daemon/service/api.cpp", "cli/options.h"},
+           {"daemon/service/api/routes.cpp", "cli/options.h"},
+           {"daemon/service/http/http_server.cpp", "recording/chunk.h"},
            {"daemon/acquire/recorder.cpp", "daemon/app/options.h"},
            {"tests/hidden_effects/trial.cpp", "core/process/ar1.h"},
            {"tests/hidden_effects/trial.cpp", "core/effect/effect.h"},
@@ -137,16 +141,16 @@ TEST(LayeringRules, AcceptWhatTheTableAllows) {
            {"core/process/ar1.cpp", "core/wavelet/scales.h"},
            {"core/estimate/minimise.cpp", "<nlopt.h>"},
            {"core/simulate/steps.cpp", "core/model/model.h"},
-           {"recording/chunk.cpp", "core/wavelet/scales.h"},
-           {"recording/chunk.cpp", "<hdf5.h>"},
-           {"recording/manifest.cpp", "imunoise/v1/noise.pb.h"},
+           {"recording/store/timeline/gaps.cpp", "recording/store/stream/stream.h"},
+           {"recording/store/chunk/chunk.cpp", "<hdf5.h>"},
+           {"recording/store/manifest/manifest.cpp", "imunoise/v1/noise.pb.h"},
            {"study/report/html/fit_page.cpp", "imunoise/v1/noise.pb.h"},
-           {"study/study.cpp", "recording/chunk.h"},
+           {"study/study.cpp", "recording/store/chunk/chunk.h"},
            {"drivers/adis/device.cpp", "core/signal/signal.h"},
            {"drivers/transport/libusb_device.cpp", "<libusb.h>"},
-           {"drivers/replay/samples.cpp", "recording/chunk.h"},
+           {"drivers/replay/samples.cpp", "recording/store/chunk/chunk.h"},
            {"drivers/emulator/effects/noise.cpp", "core/model/model.h"},
-           {"daemon/service/api.cpp", "study/study.h"},
+           {"daemon/service/studies/study_methods.cpp", "study/study.h"},
            {"daemon/app/main.cpp", "<spdlog/spdlog.h>"},
            {"cli/main.cpp", "<CLI/CLI.hpp>"},
            {"cli/main.cpp", "daemon/app/options.h"},
@@ -188,7 +192,7 @@ TEST(LayeringRules, ReadCodeNotCommentsOrLiterals) {
   EXPECT_FALSE(judge(kCore, "void f() { std::printf(\"x\"); }\n").empty());
   EXPECT_FALSE(judge(kCore, "void f() { std::cout << 1; }\n").empty());
   EXPECT_FALSE(judge(kCore, "auto t = std::chrono::steady_clock::now();\n").empty());
-  EXPECT_FALSE(judge("recording/a.cpp", "std::random_device seed;\n").empty());
+  EXPECT_FALSE(judge("recording/hdf5/a.cpp", "std::random_device seed;\n").empty());
   EXPECT_FALSE(
       judge(kCore, "const int n = 1'000'000; int c = '\"'; void g() { puts(a); }\n").empty());
   EXPECT_FALSE(judge(kCore, "#include /* now */ <iostream>  // why\n").empty());

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "daemon/acquire/campaign/recordings.h"
-#include "recording/store/layout.h"
+#include "recording/store/format/layout.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/recovery/recover.h"
 
@@ -70,8 +70,8 @@ class Run {
     const auto there = with_.files.exists(recorded_ / recording::kManifestName);
     if (!there || *there) return;
     add_news(
-        fmt::format("recording {} is gone; if it was not deleted, check that its disk is "
-                    "mounted: what follows is recorded where that folder was",
+        fmt::format("recording {} not found; if you did not delete it, check that its disk is "
+                    "mounted: the campaign goes on recording where that folder was",
                     recorded_.string()));
     recorded_.clear();
   }

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "recording/import/binary/binary_table.h"
-#include "recording/import/format.h"
 #include "recording/import/table/file.h"
+#include "recording/import/table/format.h"
 #include "recording/import/table/sidecar.h"
 
 namespace imunoise::recording {

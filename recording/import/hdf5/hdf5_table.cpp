@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "recording/import/format.h"
 #include "recording/import/hdf5/hdf5_process.h"
 #include "recording/import/table/file.h"
+#include "recording/import/table/format.h"
 #include "recording/import/table/select.h"
 #include "recording/import/table/time_column.h"
 

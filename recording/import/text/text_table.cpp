@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "recording/import/format.h"
+#include "recording/import/table/format.h"
 #include "recording/import/table/select.h"
 #include "recording/import/table/time_column.h"
 #include "recording/import/text/number.h"

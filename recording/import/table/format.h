@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "core/support/result.h"
-#include "recording/import/file.h"
-#include "recording/import/import.h"
-#include "recording/import/table.h"
+#include "recording/import/table/file.h"
+#include "recording/import/table/options.h"
+#include "recording/import/table/table.h"
 
 namespace imunoise::recording {
 
