@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
+#include "core/support/json_text.h"
 #include "daemon/service/api/descriptors.h"
-#include "daemon/service/api/json_text.h"
 #include "imunoise/v1/service.pb.h"
 
 namespace imunoise::service {
@@ -124,8 +124,7 @@ class Schemas {
   }
   static std::string words(const EnumDescriptor& type) {
     std::vector<std::string> out;
-    for (int i = 0; i < type.value_count(); ++i)
-      out.push_back(service::quoted(type.value(i)->name()));
+    for (int i = 0; i < type.value_count(); ++i) out.push_back(json_string(type.value(i)->name()));
     return JsonObject().add_text("type", "string").add("enum", json_array(out)).text();
   }
   std::string value(const FieldDescriptor& of) {
@@ -225,7 +224,7 @@ std::string responses(const Route& route, Schemas& schemas) {
 std::string operation(const Route& route, Schemas& schemas) {
   JsonObject out;
   out.add_text("operationId", route.method->name());
-  out.add("tags", json_array({service::quoted(route.method->service()->name())}));
+  out.add("tags", json_array({json_string(route.method->service()->name())}));
   out.add_text("summary", route.http.summary());
   out.add_text("x-role", v1::Role_Name(route.http.role()));
   if (route.http.role() == v1::anyone) out.add("security", "[]");

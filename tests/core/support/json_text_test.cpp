@@ -16,6 +16,14 @@ TEST(JsonText, IsReadBackByAnotherLibrary) {
   EXPECT_EQ(json_string("\x1f\n"), "\"\\u001f\\u000a\"");
 }
 
+TEST(JsonText, ObjectsAndArraysAreJson) {
+  JsonObject object;
+  object.add_text("a \"b\"", "c\\d\n\x01").add("list", json_array({"1", json_string("x")}));
+  const auto read = nlohmann::json::parse(object.text());
+  EXPECT_EQ(read["a \"b\""], "c\\d\n\x01");
+  EXPECT_EQ(read["list"], nlohmann::json::parse(R"([1, "x"])"));
+}
+
 TEST(JsonText, KeepsTheOrderOfMembers) {
   JsonObject object;
   EXPECT_EQ(object.text(), "{}");

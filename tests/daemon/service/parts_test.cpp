@@ -4,14 +4,12 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "daemon/service/access/http_target.h"
 #include "daemon/service/access/origin.h"
 #include "daemon/service/access/request_rate.h"
 #include "daemon/service/access/tokens.h"
 #include "daemon/service/api/json.h"
-#include "daemon/service/api/json_text.h"
 #include "daemon/service/campaigns/campaign_state.h"
 #include "daemon/service/http/event_queue.h"
 #include "daemon/service/http/listen_address.h"
@@ -284,14 +282,6 @@ TEST(StudyStore, ADeletedStudyDoesNotComeBack) {
   EXPECT_EQ(studies.replace("s", {}).error().message,
             "the study was deleted while the command ran");
   EXPECT_FALSE(studies.contains("s"));
-}
-
-TEST(JsonText, IsJson) {
-  JsonObject object;
-  object.add_text("a \"b\"", "c\\d\n\x01").add("list", json_array({"1", quoted("x")}));
-  const auto read = nlohmann::json::parse(object.text());
-  EXPECT_EQ(read["a \"b\""], "c\\d\n\x01");
-  EXPECT_EQ(read["list"], nlohmann::json::parse(R"([1, "x"])"));
 }
 
 class TimeLeft : public ::testing::Test {
