@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "daemon/config/campaign_keys.h"
 
@@ -163,8 +164,28 @@ TEST(CampaignConfig, HasDefaultsForTheRest) {
   EXPECT_EQ(read.campaign.reserve_bytes(), 1'000'000'000U);
 }
 
-TEST(CampaignConfig, TellsAllProblemsWithTheirPlaces) {
-  const auto found = problems_of(R"toml(name = "a bench"
+TEST(CampaignConfig, ModelsHaveEffectsThatACalibrationCanUse) {
+  const auto problems = [](const std::string& calibration) {
+    return problems_of(std::string(kSound) + "[calibration]\n" + calibration);
+  };
+  EXPECT_TRUE(problems(R"(models = ["WN + RW + line(f=23.4)", "WN + line(f=23.4)"])").empty());
+  const auto first = [&](const std::string& calibration) {
+    const std::vector<std::string> found = problems(calibration);
+    return found.empty() ? "none" : found.front();
+  };
+  for (const auto& [written, says] : std::map<std::string, std::string>{
+    {R"(models = ["WN + own_powers"])", "own_powers changes the noise itself"}, {R"(models = ["WN + line(g=2)"])", "'g=2' is not known here"},
+           {R"(models = ["WN + line(f=2)", "WN + RW"])", "have different effects"},
+           {"array = true\narray_model = \"WN + ramp\"", "ramp is an effect"}}) {
+        const std::string problem = first(written);
+        EXPECT_EQ(problem.substr(0, 7), "a.toml:") << problem;
+        EXPECT_NE(problem.find("calibration."), std::string::npos) << problem;
+        EXPECT_NE(problem.find(says), std::string::npos) << problem;
+      }
+    }
+
+    TEST(CampaignConfig, TellsAllProblemsWithTheirPlaces) {
+      const auto found = problems_of(R"toml(name = "a bench"
 folder = 3
 replicate = 6
 length = "2"
@@ -181,112 +202,115 @@ options.sed = 7
 [[device]]
 driver = "emulatd"
 )toml");
-  const std::vector<std::string> expected = {
-      "a.toml:1:1: name: 'a bench' cannot name a folder",
-      "a.toml:2:10: folder: is a whole number; give a text",
-      "a.toml:3:1: replicate: unknown; did you mean 'replicates'?",
-      "a.toml:4:1: length: '2': a unit is missing",
-      "a.toml:5:27: calibration.models: ",
-      "a.toml:7:2: schedule: says nothing",
-      "a.toml:8:1: schedule.evry: unknown; did you mean 'every'?",
-      "a.toml:12:18: device 1.options.device: 'adis16504' is none of: adis16405, xsens, can",
-      "a.toml:13:9: device 1.options.sed: driver emulated: unknown; did you mean 'seed'?",
-      "a.toml:16:1: device 2.driver: 'emulatd' is unknown; did you mean 'emulated'?",
-  };
-  ASSERT_EQ(found.size(), expected.size()) << ::testing::PrintToString(found);
-  for (std::size_t k = 0; k < expected.size(); ++k) {
-    EXPECT_EQ(found[k].substr(0, expected[k].size()), expected[k]);
-  }
-}
+      const std::vector<std::string> expected = {
+          "a.toml:1:1: name: 'a bench' cannot name a folder",
+          "a.toml:2:10: folder: is a whole number; give a text",
+          "a.toml:3:1: replicate: unknown; did you mean 'replicates'?",
+          "a.toml:4:1: length: '2': a unit is missing",
+          "a.toml:5:27: calibration.models: ",
+          "a.toml:7:2: schedule: says nothing",
+          "a.toml:8:1: schedule.evry: unknown; did you mean 'every'?",
+          "a.toml:12:18: device 1.options.device: 'adis16504' is none of: adis16405, xsens, can",
+          "a.toml:13:9: device 1.options.sed: driver emulated: unknown; did you mean 'seed'?",
+          "a.toml:16:1: device 2.driver: 'emulatd' is unknown; did you mean 'emulated'?",
+      };
+      ASSERT_EQ(found.size(), expected.size()) << ::testing::PrintToString(found);
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        EXPECT_EQ(found[k].substr(0, expected[k].size()), expected[k]);
+      }
+    }
 
-TEST(CampaignConfig, SaysWhatWouldBeRight) {
-  expect_problem("replicates = 0", "give 1 to");
-  expect_problem("replicates = 2.5", "is a number; give a whole number");
-  expect_problem("reserve = \"20\"", "unit is missing");
-  expect_problem("pause = 30", "a time with its unit");
-  expect_problem("wire = \"yes\"", "give true or false");
-  expect_problem("calibration = { models = \"WN\" }", "a list of texts");
-  expect_problem("calibration = { array_model = \"WN\" }", "array = true");
-  expect_problem("settling = 2026-01-01", "is a date");
-  expect_problem("schedule = { every = \"1 h\" }", "takes 2 h");
-  expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give one of them");
-  expect_problem("schedule = { calendar = \"Mon; rm\" }", "systemd-analyze calendar");
-  expect_problem("schedule = \"now\"", "a table, headed [schedule]");
-  expect_problem("stillness = { repeats = 2 }", "repeat_disturbed = true");
-  expect_problem("retention = { age = \"0 d\" }", "age");
-}
+    TEST(CampaignConfig, SaysWhatWouldBeRight) {
+      expect_problem("replicates = 0", "give 1 to");
+      expect_problem("replicates = 2.5", "is a number; give a whole number");
+      expect_problem("reserve = \"20\"", "unit is missing");
+      expect_problem("pause = 30", "a time with its unit");
+      expect_problem("wire = \"yes\"", "give true or false");
+      expect_problem("calibration = { models = \"WN\" }", "a list of texts");
+      expect_problem("calibration = { array_model = \"WN\" }", "array = true");
+      expect_problem("settling = 2026-01-01", "is a date");
+      expect_problem("schedule = { every = \"1 h\" }", "takes 2 h");
+      expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give one of them");
+      expect_problem("schedule = { calendar = \"Mon; rm\" }", "systemd-analyze calendar");
+      expect_problem("schedule = \"now\"", "a table, headed [schedule]");
+      expect_problem("stillness = { repeats = 2 }", "repeat_disturbed = true");
+      expect_problem("retention = { age = \"0 d\" }", "age");
+    }
 
-TEST(CampaignConfig, ChecksDevicesAgainstTheirDrivers) {
-  const std::string head = "name = \"a\"\nfolder = \"f\"\nlength = \"2 h\"\n";
-  const auto first = [&](const std::string& devices) {
-    const auto found = problems_of(head + devices);
-    return found.empty() ? "" : found.front();
-  };
-  const auto expect = [&](const std::string& devices, const std::string& words) {
-    EXPECT_NE(first(devices).find(words), std::string::npos) << devices << ": " << first(devices);
-  };
-  expect("", "device: is missing; give a table headed [[device]]");
-  expect("device = 3", "is a whole number; give tables");
-  expect("device = []", "device: is empty");
-  expect("[[device]]\n", "a.toml:4:1: device 1.driver: is missing");
-  expect("[[device]]\ndriver = \"emulated\"\n", "options: device is missing");
-  expect("[[device]]\ndriver = \"replay\"\noptions = { file = [1979-05-27] }", "is a date");
-  expect("[[device]]\ndriver = \"emulated\"\noptions = { device = [\"can\", \"xsens\"] }",
-         "takes one value");
-  expect("[[device]]\ndriver = \"emulated\"\noptions = { device = \"can\", seed = -1 }",
-         "out of bounds");
-  expect(
-      "[[device]]\ndriver = \"can\"\nname = \"x\"\noptions.interface = \"can0\"\n"
-      "[[device]]\nname = \"x\"\ndriver = \"can\"\noptions.interface = \"can1\"\n",
-      "a.toml:9:1: device 2.name: another device is 'x' already");
-}
+    TEST(CampaignConfig, ChecksDevicesAgainstTheirDrivers) {
+      const std::string head = "name = \"a\"\nfolder = \"f\"\nlength = \"2 h\"\n";
+      const auto first = [&](const std::string& devices) {
+        const auto found = problems_of(head + devices);
+        return found.empty() ? "" : found.front();
+      };
+      const auto expect = [&](const std::string& devices, const std::string& words) {
+        EXPECT_NE(first(devices).find(words), std::string::npos)
+            << devices << ": " << first(devices);
+      };
+      expect("", "device: is missing; give a table headed [[device]]");
+      expect("device = 3", "is a whole number; give tables");
+      expect("device = []", "device: is empty");
+      expect("[[device]]\n", "a.toml:4:1: device 1.driver: is missing");
+      expect("[[device]]\ndriver = \"emulated\"\n", "options: device is missing");
+      expect("[[device]]\ndriver = \"replay\"\noptions = { file = [1979-05-27] }", "is a date");
+      expect("[[device]]\ndriver = \"emulated\"\noptions = { device = [\"can\", \"xsens\"] }",
+             "takes one value");
+      expect("[[device]]\ndriver = \"emulated\"\noptions = { device = \"can\", seed = -1 }",
+             "out of bounds");
+      expect(
+          "[[device]]\ndriver = \"can\"\nname = \"x\"\noptions.interface = \"can0\"\n"
+          "[[device]]\nname = \"x\"\ndriver = \"can\"\noptions.interface = \"can1\"\n",
+          "a.toml:9:1: device 2.name: another device is 'x' already");
+    }
 
-TEST(CampaignConfig, WhatIsNoTomlHasAPlaceToo) {
-  const auto found = problems_of("name = \"a\"\nlength = \n");
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found.front().substr(0, 9), "a.toml:2:") << found.front();
-}
+    TEST(CampaignConfig, WhatIsNoTomlHasAPlaceToo) {
+      const auto found = problems_of("name = \"a\"\nlength = \n");
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found.front().substr(0, 9), "a.toml:2:") << found.front();
+    }
 
-// A parser calls itself for each level: 20,000 of them were a stack overflow.
-TEST(CampaignConfig, DepthHasALimit) {
-  const auto many = [](const std::string& part, int count) {
-    std::string out;
-    for (int i = 0; i < count; ++i) out += part;
-    return out;
-  };
-  // What ends these texts for us ends them for the parser, too.
-  const std::string texts =
-      R"toml(t = ['''it''', "a\"", """a \""" """"", '''b''''', '', ""] # ")toml"
-      "\n";
-  EXPECT_NE(problem_with(texts).find("t: unknown"), std::string::npos);
-  for (const std::string& deep :
-       {"a" + many(".a", 20000) + " = 1", "[a" + many(" . a", 20000) + "]",
-        "[[" + many("\"a\".", 20000) + "b]]", "a" + many(".'b'", 20000) + " = 1",
-        texts + "a" + many(".a", 20000) + " = 1", "x = {y = {a" + many(".a", 20000) + " = 1}}"}) {
-    const auto found = problems_of(deep);
-    ASSERT_EQ(found.size(), 1U) << deep.substr(0, 100);
-    EXPECT_NE(found.front().find("a key has more than 16 parts"), std::string::npos)
-        << deep.substr(0, 100) << found.front();
-  }
-  EXPECT_EQ(problems_of("\n  b.a" + many(".a", 20000)).front().substr(0, 13), "a.toml:2:34: ");
-  for (const std::string& deep : {"x = " + many("[", 20000), "x = " + many("{a = ", 20000)}) {
-    const auto found = problems_of(deep);
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_NE(found.front().find("nested more than 16 deep"), std::string::npos) << found.front();
-  }
-  const std::string dots = many(".", 100);
-  EXPECT_TRUE(problems_of("# " + dots + "\n" + kSound).empty());
-  const std::string flat = "t = ['" + dots + "', \"" + dots + "\", '''\n" + dots + "'''" +
-                           many(", 1.5", 40) + many(", [{a.b = 1}]", 40) + "]";
-  EXPECT_NE(problem_with(flat).find("t: unknown"), std::string::npos);
-}
+    // A parser calls itself for each level: 20,000 of them were a stack overflow.
+    TEST(CampaignConfig, DepthHasALimit) {
+      const auto many = [](const std::string& part, int count) {
+        std::string out;
+        for (int i = 0; i < count; ++i) out += part;
+        return out;
+      };
+      // What ends these texts for us ends them for the parser, too.
+      const std::string texts =
+          R"toml(t = ['''it''', "a\"", """a \""" """"", '''b''''', '', ""] # ")toml"
+          "\n";
+      EXPECT_NE(problem_with(texts).find("t: unknown"), std::string::npos);
+      for (const std::string& deep :
+           {"a" + many(".a", 20000) + " = 1", "[a" + many(" . a", 20000) + "]",
+            "[[" + many("\"a\".", 20000) + "b]]", "a" + many(".'b'", 20000) + " = 1",
+            texts + "a" + many(".a", 20000) + " = 1",
+            "x = {y = {a" + many(".a", 20000) + " = 1}}"}) {
+        const auto found = problems_of(deep);
+        ASSERT_EQ(found.size(), 1U) << deep.substr(0, 100);
+        EXPECT_NE(found.front().find("a key has more than 16 parts"), std::string::npos)
+            << deep.substr(0, 100) << found.front();
+      }
+      EXPECT_EQ(problems_of("\n  b.a" + many(".a", 20000)).front().substr(0, 13), "a.toml:2:34: ");
+      for (const std::string& deep : {"x = " + many("[", 20000), "x = " + many("{a = ", 20000)}) {
+        const auto found = problems_of(deep);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_NE(found.front().find("nested more than 16 deep"), std::string::npos)
+            << found.front();
+      }
+      const std::string dots = many(".", 100);
+      EXPECT_TRUE(problems_of("# " + dots + "\n" + kSound).empty());
+      const std::string flat = "t = ['" + dots + "', \"" + dots + "\", '''\n" + dots + "'''" +
+                               many(", 1.5", 40) + many(", [{a.b = 1}]", 40) + "]";
+      EXPECT_NE(problem_with(flat).find("t: unknown"), std::string::npos);
+    }
 
-TEST(CampaignConfig, FilesThatCannotBeRead) {
-  const auto absent = read_campaign("absent.toml", known());
-  ASSERT_FALSE(absent.has_value());
-  EXPECT_NE(absent.error().message.find("absent.toml: cannot be read"), std::string::npos);
-  EXPECT_FALSE(read_campaign(std::filesystem::temp_directory_path(), known()).has_value());
-}
+    TEST(CampaignConfig, FilesThatCannotBeRead) {
+      const auto absent = read_campaign("absent.toml", known());
+      ASSERT_FALSE(absent.has_value());
+      EXPECT_NE(absent.error().message.find("absent.toml: cannot be read"), std::string::npos);
+      EXPECT_FALSE(read_campaign(std::filesystem::temp_directory_path(), known()).has_value());
+    }
 
 }  // namespace
 }  // namespace imunoise::config
