@@ -50,8 +50,17 @@ struct FitArguments {
   std::optional<std::filesystem::path> svg;     ///< picture for papers
 };
 
+/// A channel that a simulation has beside its own, for effects to follow.
+struct WitnessArguments {
+  std::string name;
+  Unit unit;
+  std::string model;                         ///< of its noise, in SI; or
+  std::vector<std::filesystem::path> files;  ///< where it is: one for all replicates, or one each
+};
+
 struct SimulateArguments {
   std::string model;
+  std::vector<WitnessArguments> witnesses;
   Hertz rate;
   std::size_t samples = 0;
   std::uint32_t replicates = 1;

@@ -9,6 +9,7 @@
 #include "recording/store/reading/across.h"
 #include "recording/store/reading/places.h"
 #include "recording/store/reading/replicates.h"
+#include "study/analysis/less_effects.h"
 
 namespace imunoise::cli {
 
@@ -77,6 +78,32 @@ Result<std::vector<recording::Replicate>> read_input(const InputArguments& argum
                                        arguments.import, line.progress());
   }
   return recording::import_files(arguments.files, arguments.import, line.progress());
+}
+
+Result<Subjects> read_subjects(const InputArguments& arguments,
+                               const std::vector<std::string>& models) {
+  const auto witnesses = study::witnesses_of(models);
+  if (!witnesses) return tl::unexpected(witnesses.error());
+  auto replicates =
+      witnesses->empty() ? read_input(arguments) : read_with_witnesses(arguments, *witnesses);
+  if (!replicates) return tl::unexpected(replicates.error());
+  Subjects out{std::move(*replicates), {}};
+  const std::vector<std::string>& named = arguments.import.channels;
+  const auto contains = [](const std::vector<std::string>& names, const std::string& one) {
+    return std::find(names.begin(), names.end(), one) != names.end();
+  };
+  const std::vector<recording::Channel>& read = out.replicates.front().channels;
+  for (std::size_t c = 0; c < read.size(); ++c) {
+    const bool subject = named.empty()
+                             ? !read[c].interpolated && !contains(*witnesses, read[c].name)
+                             : contains(named, read[c].name);
+    if (subject) out.series.push_back(study::series_of(out.replicates, c));
+  }
+  if (out.series.empty())
+    return fail(
+        "every channel of the files is a witness of the model; name the channel to analyse "
+        "with --channel");
+  return out;
 }
 
 std::vector<study::Series> all_series(const std::vector<recording::Replicate>& replicates) {

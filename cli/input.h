@@ -23,4 +23,20 @@ Result<std::vector<recording::Replicate>> read_together(const InputArguments& ar
 /// One series for each channel.
 std::vector<study::Series> all_series(const std::vector<recording::Replicate>& replicates);
 
+/// The channels that models are fitted to, a series each; they borrow from the replicates.
+struct Subjects {
+  std::vector<recording::Replicate> replicates;
+  std::vector<study::Series> series;
+};
+
+/// The model that the user names, if any.
+inline std::vector<std::string> named_model(const std::optional<std::string>& model) {
+  return model ? std::vector<std::string>{*model} : std::vector<std::string>();
+}
+
+/// read_input(), with the witnesses that the effects of the models follow: these are no subjects
+/// unless the user names them. Error: a model that cannot be read, too.
+Result<Subjects> read_subjects(const InputArguments& arguments,
+                               const std::vector<std::string>& models);
+
 }  // namespace imunoise::cli

@@ -26,10 +26,10 @@ Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem
 }  // namespace
 
 int run(const FitArguments& arguments) {
-  const auto replicates = read_input(arguments.input);
-  if (!replicates) return print_error(replicates.error());
+  const auto subjects = read_subjects(arguments.input, named_model(arguments.fit.model));
+  if (!subjects) return print_error(subjects.error());
   v1::FitReports reports;
-  for (const study::Series& series : all_series(*replicates)) {
+  for (const study::Series& series : subjects->series) {
     ProgressLine line(series.channel);
     const auto fitted = study::fit_series(series, arguments.fit, line.progress());
     if (!fitted) return print_error(fitted.error());

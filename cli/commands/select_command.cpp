@@ -6,10 +6,10 @@
 namespace imunoise::cli {
 
 int run(const SelectArguments& arguments) {
-  const auto replicates = read_input(arguments.input);
-  if (!replicates) return print_error(replicates.error());
+  const auto subjects = read_subjects(arguments.input, arguments.select.models);
+  if (!subjects) return print_error(subjects.error());
   v1::ChoiceReports reports;
-  for (const study::Series& series : all_series(*replicates)) {
+  for (const study::Series& series : subjects->series) {
     ProgressLine line(series.channel);
     const auto done = study::select_model(series, arguments.select, line.progress());
     if (!done) return print_error(done.error());

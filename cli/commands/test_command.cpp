@@ -6,10 +6,10 @@
 namespace imunoise::cli {
 
 int run(const TestArguments& arguments) {
-  const auto replicates = read_input(arguments.input);
-  if (!replicates) return print_error(replicates.error());
+  const auto subjects = read_subjects(arguments.input, named_model(arguments.test.model));
+  if (!subjects) return print_error(subjects.error());
   v1::StationarityReports reports;
-  for (const study::Series& series : all_series(*replicates)) {
+  for (const study::Series& series : subjects->series) {
     ProgressLine line(series.channel);
     const auto done = study::test_series(series, arguments.test, line.progress());
     if (!done) return print_error(done.error());

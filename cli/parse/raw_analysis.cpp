@@ -36,7 +36,10 @@ void add_report(CLI::App& command, RawAnalysis& raw) {
 }
 
 void add_model(CLI::App& command, RawAnalysis& raw, std::string_view unless_given) {
-  raw.model_option = command.add_option("--model", raw.model, "Sum of noise processes to fit")
+  raw.model_option = command
+                         .add_option("--model", raw.model,
+                                     "Noise processes and effects, as in \"WN + RW + line(f=5)\"; "
+                                     "docs/models.md lists them")
                          ->type_name("MODEL")
                          ->default_str(std::string(unless_given));
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "cli/parse/commands.h"
@@ -10,8 +11,54 @@ constexpr const char* kSimulateExamples = R"help(
 Examples:
   imunoise simulate --model "WN(sigma2=1e-6) + AR1(sigma2=1e-12, phi=0.999)" \
       --rate 100 --samples 1000000 --replicates 6 --seed 42 --unit rad/s --out run.h5
+  imunoise simulate --model "WN(sigma2=1e-6) + line(f=23.4, amplitude=1e-3)" \
+      --rate 100 --samples 100000 --out fan.h5
+  imunoise simulate --model "WN(sigma2=1e-6) + witness(temperature, lag=300, coefficient=1e-5)" \
+      --witness "temperature[K]: RW(gamma2=1e-6)" --rate 100 --samples 360000 --out warm.h5
+  imunoise simulate --model "WN(sigma2=1e-6) + witness(temperature, coefficient=1e-5)" \
+      --witness temperature=run1.h5 --rate 100 --samples 360000 --out follows.h5
 
-The example writes run_1.h5 to run_6.h5. The same seed gives the same numbers.)help";
+The first example writes run_1.h5 to run_6.h5. The same seed gives the same numbers.
+Give every value of the model, the sizes of effects included; docs/models.md lists them.)help";
+
+// "NAME[UNIT]: MODEL" or "NAME=FILE".
+WitnessArguments witness_from(const std::string& text) {
+  const std::size_t sign = text.find_first_of(":=");
+  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+    refuse("--witness", "expected \"temperature[K]: RW(gamma2=1e-6)\" or temperature=run1.h5");
+  WitnessArguments out;
+  out.name = CLI::detail::trim_copy(text.substr(0, sign));
+  if (text[sign] == '=') {
+    out.files.emplace_back(text.substr(sign + 1));
+    return out;
+  }
+  out.unit = unit_from("1");
+  if (const std::size_t unit = out.name.find('['); unit != std::string::npos) {
+    if (!out.name.ends_with(']')) refuse("--witness", "expected ']' behind the unit of " + text);
+    out.unit = unit_from(out.name.substr(unit + 1, out.name.size() - unit - 2));
+    out.name = CLI::detail::trim_copy(out.name.substr(0, unit));
+  }
+  out.model = text.substr(sign + 1);
+  return out;
+}
+
+// A channel each; a file more of one is for its next replicate.
+std::vector<WitnessArguments> witnesses_from(const std::vector<std::string>& texts) {
+  std::vector<WitnessArguments> out;
+  for (const std::string& text : texts) {
+    WitnessArguments one = witness_from(text);
+    const auto same = std::find_if(out.begin(), out.end(),
+                                   [&](const auto& other) { return other.name == one.name; });
+    if (same == out.end()) {
+      out.push_back(std::move(one));
+    } else if (same->files.empty() || one.files.empty()) {
+      refuse("--witness", one.name + " is given twice");
+    } else {
+      same->files.push_back(one.files.front());
+    }
+  }
+  return out;
+}
 
 constexpr const char* kRecordExamples = R"help(
 Examples:
@@ -40,15 +87,26 @@ ParsedCommand simulate_command(CLI::App& program) {
     double rate = 0.0;
     std::string unit = "1";
     std::string out;
+    std::vector<std::string> witnesses;
   };
   CLI::App* const simulate =
       program.add_subcommand("simulate", "Simulate recordings of a known model");
   simulate->footer(kSimulateExamples);
   const auto raw = std::make_shared<Raw>();
   SimulateArguments& simulation = raw->arguments;
-  simulate->add_option("--model", simulation.model, "Model to simulate, with all its values")
+  simulate
+      ->add_option("--model", simulation.model,
+                   "Noise and effects to simulate, with all their values")
       ->type_name("MODEL")
       ->required();
+  simulate
+      ->add_option(
+          "--witness", raw->witnesses,
+          "Channel that effects follow, written beside the simulated one: noise in SI units "
+          "(NAME[UNIT]: MODEL) or a recorded channel (NAME=FILE); repeat for more channels, "
+          "or for one file per replicate")
+      ->allow_extra_args(false)
+      ->type_name("WITNESS");
   simulate->add_option("--rate", raw->rate, "Sampling rate (Hz)")
       ->type_name("HZ")
       ->required()
@@ -81,6 +139,7 @@ ParsedCommand simulate_command(CLI::App& program) {
             out.rate = Hertz{raw->rate};
             out.unit = unit_from(raw->unit);
             out.out = raw->out;
+            out.witnesses = witnesses_from(raw->witnesses);
             return out;
           }};
 }

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
-
-#include "core/effect/text.h"
 
 namespace imunoise {
 namespace {
@@ -21,18 +18,6 @@ std::size_t place_of(const Effect& effect, std::string_view name) {
   return static_cast<std::size_t>(found - all.begin());
 }
 
-Result<double> number(std::string_view text, const EffectParameter& about) {
-  double out = 0.0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), out);
-  const bool read = code == std::errc() && end == text.data() + text.size();
-  const double least = about.lower < 0.0 ? -kLargest : 0.0;
-  if (!read || !(out >= least && out <= kLargest)) {
-    return tl::unexpected(Error{
-        fmt::format("'{}' is not a number from {} to 1e15", text, least < 0.0 ? "-1e15" : "0")});
-  }
-  return out;
-}
-
 std::string choices(const Effect& effect) {
   std::string out = effect.witness ? "the name of a channel" : "";
   for (const EffectParameter& one : effect.parameters) {
@@ -44,7 +29,7 @@ std::string choices(const Effect& effect) {
 
 // What is wrong with a value; empty where nothing is.
 std::string fault_of(const EffectParameter& about, double value) {
-  if (about.required && !(value > 0.0)) return fmt::format("needs {}=…, a number > 0", about.name);
+  if (about.required && !(value > 0.0)) return fmt::format("{} is a number > 0", about.name);
   if (value == about.absent) return {};
   const bool bounded = about.upper < kLargest;
   if (about.form == ParameterForm::kWholeNumber) {
@@ -58,10 +43,6 @@ std::string fault_of(const EffectParameter& about, double value) {
   return {};
 }
 
-tl::unexpected<Error> wrong(std::string_view term, std::string_view what) {
-  return tl::unexpected(Error{fmt::format("{}: {}", trimmed(term), what)});
-}
-
 double to_four_digits(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 // To the decimal place that is not coarser than `fine`.
@@ -69,6 +50,73 @@ double to_decimals(double value, double fine) {
   const double step = std::pow(10.0, std::floor(std::log10(fine)));
   return std::stod(fmt::format("{:.12g}", std::round(value / step) * step));
 }
+
+// Reads what stands in the brackets of a term; every failure names the place.
+class EffectReader {
+ public:
+  EffectReader(const Effect& effect, const WrittenTerm& written, std::string_view text)
+      : effect_(effect), written_(written), text_(text) {}
+
+  Result<EffectTerm> term() const {
+    EffectTerm out(effect_);
+    std::vector<std::string_view> named;
+    for (const Argument& one : written_.arguments) {
+      if (std::find(named.begin(), named.end(), one.name) != named.end())
+        return wrong(one.text, fmt::format("'{}' is given twice", one.name));
+      named.push_back(one.name);
+      if (auto done = argument(one, out); !done) return tl::unexpected(done.error());
+    }
+    if (effect_.witness && out.witness.empty())
+      return wrong(written_.name, fmt::format("{} needs the name of a channel", effect_.name));
+    for (const EffectParameter& one : effect_.parameters) {
+      if (one.required && !(out[one.name] > 0.0))
+        return wrong(written_.name,
+                     fmt::format("{} needs {}=…, a number > 0", effect_.name, one.name));
+    }
+    if (effect_.fault == nullptr) return out;
+    const std::string_view fault = effect_.fault(out);
+    if (fault.empty()) return out;
+    return wrong(written_.name, fmt::format("{}: {}", print(out), fault));
+  }
+
+ private:
+  Result<void> argument(const Argument& one, EffectTerm& to) const {
+    const std::size_t place = place_of(effect_, one.name);
+    const bool known = place < effect_.parameters.size();
+    const bool flag = known && effect_.parameters[place].form == ParameterForm::kFlag;
+    if (flag && one.sign.empty()) {
+      to.values[place] = 1.0;
+    } else if (known && !flag && one.sign == "=") {
+      return value(one, effect_.parameters[place], to.values[place]);
+    } else if (effect_.witness && to.witness.empty() && !known && !one.text.empty()) {
+      to.witness = one.text;
+    } else {
+      return wrong(one.text, fmt::format("'{}' is not known here; {} takes {}", one.text,
+                                         effect_.name, choices(effect_)));
+    }
+    return {};
+  }
+
+  Result<void> value(const Argument& one, const EffectParameter& about, double& to) const {
+    const std::optional<double> number = number_in(one.value);
+    const double least = about.lower < 0.0 ? -kLargest : 0.0;
+    if (!number || *number < least || *number > kLargest)
+      return wrong(one.value, fmt::format("'{}' is not a number from {} to 1e15", one.value,
+                                          least < 0.0 ? "-1e15" : "0"));
+    if (const std::string fault = fault_of(about, *number); !fault.empty())
+      return wrong(one.value, fault);
+    to = *number;
+    return {};
+  }
+
+  tl::unexpected<Error> wrong(std::string_view place, const std::string& what) const {
+    return tl::unexpected(model_error(text_, place, what));
+  }
+
+  const Effect& effect_;
+  const WrittenTerm& written_;
+  std::string_view text_;
+};
 
 }  // namespace
 
@@ -129,47 +177,21 @@ EffectTerm rounded(EffectTerm term, double shape_error, Hertz rate) {
   return term;
 }
 
-Result<EffectTerm> parse_effect(const Effect& effect, std::string_view whole,
-                                std::string_view inside) {
-  EffectTerm out(effect);
-  std::vector<std::string_view> named;
-  std::vector<std::string_view> items;
-  if (!trimmed(inside).empty()) items = split_outside_brackets(inside, ',');
-  for (std::string_view one : items) {
-    one = trimmed(one);
-    const std::size_t equals = one.find('=');
-    const std::string_view name = trimmed(one.substr(0, equals));
-    if (std::find(named.begin(), named.end(), name) != named.end())
-      return wrong(whole, fmt::format("'{}' is given twice", name));
-    named.push_back(name);
-    const std::size_t place = place_of(effect, name);
-    const bool valued = equals != std::string_view::npos;
-    const bool known = place < effect.parameters.size() &&
-                       valued == (effect.parameters[place].form != ParameterForm::kFlag);
-    if (known && valued) {
-      const Result<double> value =
-          number(trimmed(one.substr(equals + 1)), effect.parameters[place]);
-      if (!value) return wrong(whole, value.error().message);
-      out.values[place] = *value;
-    } else if (known) {
-      out.values[place] = 1.0;
-    } else if (effect.witness && out.witness.empty() && !one.empty()) {
-      out.witness = one;
-    } else {
-      return wrong(whole,
-                   fmt::format("unknown parameter '{}'; known are {}", one, choices(effect)));
-    }
+EffectTerm shape_of(EffectTerm term) {
+  for (std::size_t i = 0; i < term.values.size(); ++i) {
+    const EffectParameter& about = term.effect->parameters[i];
+    if (about.truth) term.values[i] = about.absent;
   }
-  if (effect.witness && out.witness.empty()) return wrong(whole, "needs the name of a channel");
-  for (std::size_t i = 0; i < out.values.size(); ++i) {
-    const std::string fault = fault_of(effect.parameters[i], out[i]);
-    if (!fault.empty()) return wrong(whole, fault);
-  }
-  if (effect.fault != nullptr) {
-    if (const std::string_view fault = effect.fault(out); !fault.empty())
-      return wrong(whole, fault);
-  }
-  return out;
+  return term;
+}
+
+bool changes_noise(const Effect& effect) {
+  return effect.own_noise != nullptr || effect.variance_course != nullptr;
+}
+
+Result<EffectTerm> read_effect(const Effect& effect, const WrittenTerm& written,
+                               std::string_view text) {
+  return EffectReader(effect, written, text).term();
 }
 
 }  // namespace imunoise

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/effect/effect.h"
+#include "core/model/syntax.h"
 #include "core/support/units.h"
 
 namespace imunoise {
@@ -35,9 +36,14 @@ std::string print(const EffectTerm& term);
 /// that a search gave.
 EffectTerm rounded(EffectTerm term, double shape_error, Hertz rate);
 
-/// Reads what stands in the brackets of a term, `inside`, of the text `whole`. Error: what is
-/// wrong, with `whole` before it.
-Result<EffectTerm> parse_effect(const Effect& effect, std::string_view whole,
-                                std::string_view inside);
+/// The term without its sizes (its truth): what a fit takes.
+EffectTerm shape_of(EffectTerm term);
+
+/// True of what changes the noise itself, rather than adds to the samples.
+bool changes_noise(const Effect& effect);
+
+/// Reads a term of `text` as an effect. Error: model_error() at what is wrong.
+Result<EffectTerm> read_effect(const Effect& effect, const WrittenTerm& written,
+                               std::string_view text);
 
 }  // namespace imunoise

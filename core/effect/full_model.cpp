@@ -1,5 +1,7 @@
 #include "core/effect/full_model.h"
 
+#include <algorithm>
+
 namespace imunoise {
 namespace {
 
@@ -14,6 +16,15 @@ std::string print(const FullModel& model) { return joined(print(model.noise), mo
 
 std::string print_with_values(const FullModel& model) {
   return joined(print_with_values(model.noise), model.effects);
+}
+
+std::vector<std::string> witnesses_of(const FullModel& model) {
+  std::vector<std::string> out;
+  for (const EffectTerm& term : model.effects) {
+    const bool known = std::find(out.begin(), out.end(), term.witness) != out.end();
+    if (!term.witness.empty() && !known) out.push_back(term.witness);
+  }
+  return out;
 }
 
 }  // namespace imunoise

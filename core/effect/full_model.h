@@ -19,4 +19,7 @@ std::string print(const FullModel& model);
 /// The same with every value of the noise.
 std::string print_with_values(const FullModel& model);
 
+/// The channels that the effects follow, each once.
+std::vector<std::string> witnesses_of(const FullModel& model);
+
 }  // namespace imunoise

@@ -21,7 +21,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-enum LineParameter : std::size_t { kLineFrequency, kLineHarmonics, kLineAmplitude };
+enum LineParameter : std::size_t { kLineFrequency, kLineHarmonics, kLineAmplitude, kLinePhase };
 
 int harmonics_of(const EffectTerm& term) { return static_cast<int>(term[kLineHarmonics]); }
 
@@ -54,14 +54,19 @@ void add_line(const EffectTerm& term, const Subject& subject, std::size_t,
   line_shape(term, subject).add(coefficients, to);
 }
 
-// The multiple h has a random phase and the amplitude of the fundamental over h.
+constexpr double kDrawnPhase = -1.0;
+
+// The multiple h has the amplitude of the fundamental over h. Phases are those of sines at the
+// first sample: drawn, or h times the given one.
 void simulate_line(const EffectTerm& term, const SimulatedReplicate& at, Eigen::VectorXd& samples) {
   Eigen::VectorXd coefficients(2 * harmonics_of(term));
   for (int h = 0; h < harmonics_of(term); ++h) {
-    const std::complex<double> phase(at.random.normal(), at.random.normal());
-    const double scale = term[kLineAmplitude] / (std::abs(phase) * (h + 1));
-    coefficients(2 * h) = scale * phase.real();
-    coefficients(2 * h + 1) = scale * phase.imag();
+    const std::complex<double> drawn(at.random.normal(), at.random.normal());
+    const double phase =
+        term[kLinePhase] == kDrawnPhase ? std::arg(drawn) : (h + 1) * term[kLinePhase];
+    const double amplitude = term[kLineAmplitude] / (h + 1);
+    coefficients(2 * h) = amplitude * std::sin(phase);
+    coefficients(2 * h + 1) = amplitude * std::cos(phase);
   }
   add_line(term, at.beside, at.replicate, coefficients, samples);
 }
@@ -231,6 +236,13 @@ const Effect& line() {
                      {.name = "amplitude",
                       .meaning = "amplitude of the fundamental; the multiple h has an h-th of it",
                       .reported = "amplitude",
+                      .truth = true},
+                     {.name = "phase",
+                      .meaning = "phase of the fundamental, a sine, at the first sample of each "
+                                 "replicate; drawn for each where it is not given",
+                      .unit = "rad",
+                      .absent = kDrawnPhase,
+                      .upper = 2.0 * std::numbers::pi,
                       .truth = true}},
       .coefficient = "amplitude",
       .anywhere = true,

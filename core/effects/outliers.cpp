@@ -26,7 +26,7 @@ std::string_view outliers_fault(const EffectTerm& term) {
 }
 
 // Samples that stand out from what the noise before and after them makes likely.
-struct Outliers {
+struct Outliers : Found {
   std::vector<std::vector<Index>> places;  // of each replicate
   std::vector<std::vector<double>> sizes;  // unit
   double above = 0.0;                      // the threshold
@@ -38,8 +38,10 @@ struct Outliers {
 // filter of an impulse under the noise); of neighbours, the largest.
 Outliers find_outliers(const Current& current, double above) {
   const std::size_t count = current.weighted.size();
-  Outliers out{std::vector<std::vector<Index>>(count), std::vector<std::vector<double>>(count),
-               above};
+  Outliers out;
+  out.places.resize(count);
+  out.sizes.resize(count);
+  out.above = above;
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::VectorXd& u = current.weighted[k];
     const double information = (1.0 / current.spectrum[k]).mean();
@@ -69,7 +71,7 @@ double outlier_threshold(const Subject& subject) {
 
 // The subject with them taken out. Sizes are estimates, so the noise beneath them stays, less one
 // degree of freedom each.
-std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& outliers) {
+std::shared_ptr<Subject> without(const Subject& subject, const Outliers& outliers) {
   auto out = std::make_shared<Subject>(subject);
   out->own_nats.resize(out->samples.size(), 0.0);
   for_each_index(out->samples.size(), [&](std::size_t k) {
@@ -87,7 +89,26 @@ std::shared_ptr<const Subject> without(const Subject& subject, const Outliers& o
 }
 
 std::shared_ptr<const Subject> without_outliers(const EffectTerm& term, const Current& current) {
-  return without(current.subject(), find_outliers(current, term[kOutliersAbove]));
+  auto found = std::make_shared<const Outliers>(find_outliers(current, term[kOutliersAbove]));
+  auto out = without(current.subject(), *found);
+  out->keep(term, std::move(found));
+  return out;
+}
+
+// Their share of the samples, with the error of a count, and the root mean square of their sizes.
+std::vector<ReportedNumber> fitted_outliers(const FittedEffect& effect) {
+  const auto* const found = effect.subject().found_by<Outliers>(effect.term());
+  if (found == nullptr) return {};
+  double samples = 0.0;
+  double squares = 0.0;
+  for (std::size_t k = 0; k < found->sizes.size(); ++k) {
+    samples += static_cast<double>(effect.subject().length(k));
+    for (const double size : found->sizes[k]) squares += size * size;
+  }
+  const auto count = static_cast<double>(found->count);
+  return {with_error({"share", count / samples, "1"}, std::sqrt(count) / samples),
+          {"size", found->count > 0 ? std::sqrt(squares / count) : 0.0,
+           unit_of(effect.term(), effect.subject())}};
 }
 
 void simulate_outliers(const EffectTerm& term, const SimulatedReplicate& at,
@@ -136,9 +157,11 @@ const Effect& outliers() {
                       .meaning = "share of the samples that are disturbed",
                       .unit = "1",
                       .upper = 1.0,
+                      .reported = "share",
                       .truth = true},
                      {.name = "size",
                       .meaning = "size of each disturbance; its sign is random",
+                      .reported = "size",
                       .truth = true}},
       .causes = {{.id = "outliers",
                   .title = "outliers",
@@ -151,6 +174,7 @@ const Effect& outliers() {
       .cleaned = without_outliers,
       .simulate = simulate_outliers,
       .search = search_outliers,
+      .numbers = fitted_outliers,
       .more_numbers = outlier_numbers,
   };
   return kOutliers;

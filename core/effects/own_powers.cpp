@@ -1,5 +1,7 @@
 // own_powers: every replicate has noise powers of its own.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/effect/columns.h"
@@ -33,6 +35,37 @@ void fit_own_powers(const Regression& regression, JointFit& fit) {
 void simulate_own_powers(const EffectTerm& term, const SimulatedReplicate& at,
                          Eigen::VectorXd& samples) {
   samples *= std::exp(0.5 * term[kOwnPowersSpread] * at.random.normal());
+}
+
+// Mean logarithm of a replicate's powers over those of all.
+double log_ratio(const Model& own, const Model& all) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t t = 0; t < all.terms.size(); ++t) {
+    const double one = values(own.terms[t].process)[0];
+    const double common = values(all.terms[t].process)[0];
+    if (!(one > 0.0 && common > 0.0)) continue;
+    sum += std::log(one / common);
+    ++count;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+std::vector<ReportedNumber> own_powers_numbers(const FittedEffect& effect) {
+  const JointFit& fit = effect.model.fit;
+  const auto replicates = static_cast<Eigen::Index>(fit.own_noise.size());
+  Eigen::ArrayXd ratios(replicates);
+  for (Eigen::Index k = 0; k < replicates; ++k)
+    ratios(k) = log_ratio(fit.own_noise[static_cast<std::size_t>(k)], fit.model.noise);
+  std::vector<ReportedNumber> out;
+  if (replicates > 1) {
+    const double dof = static_cast<double>(replicates - 1);
+    const double spread = std::sqrt((ratios - ratios.mean()).square().sum() / dof);
+    out.push_back(with_log_error({"spread", spread, "1"}, 1.0 / std::sqrt(2.0 * dof)));
+  }
+  for (Eigen::Index k = 0; k < replicates; ++k)
+    out.push_back({fmt::format("power ratio of replicate {}", k + 1), std::exp(ratios(k)), "1"});
+  return out;
 }
 
 // Powers that could differ between replicates.
@@ -85,6 +118,7 @@ const Effect& own_powers() {
                       .meaning = "standard deviation over the replicates of the logarithm of the "
                                  "noise power",
                       .unit = "1",
+                      .reported = "spread",
                       .truth = true}},
       .causes = {{.id = "replicate_change",
                   .title = "noise that differs between replicates",
@@ -97,6 +131,7 @@ const Effect& own_powers() {
       .simulate = simulate_own_powers,
       .search = search_own_powers,
       .review = review_own_powers,
+      .numbers = own_powers_numbers,
   };
   return kOwnPowers;
 }

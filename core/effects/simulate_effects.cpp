@@ -10,10 +10,6 @@ namespace {
 // Paths of random streams: noise takes (replicate, term).
 constexpr std::uint32_t kEffectStreams = 0xeffec7;
 
-bool changes_noise(const Effect& effect) {
-  return effect.own_noise != nullptr || effect.variance_course != nullptr;
-}
-
 }  // namespace
 
 Result<void> check_simulation(const std::vector<EffectTerm>& terms, const Subject& beside) {
@@ -21,11 +17,15 @@ Result<void> check_simulation(const std::vector<EffectTerm>& terms, const Subjec
     const Effect& effect = *term.effect;
     for (std::size_t i = 0; i < term.values.size(); ++i) {
       const EffectParameter& about = effect.parameters[i];
-      if (about.truth && !term.given(i))
+      // A size whose absence has a meaning, such as a phase that is drawn, may be left out.
+      if (about.truth && about.absent == 0.0 && !term.given(i))
         return unfit(term, fmt::format("a simulation needs {}=… ({})", about.name, about.meaning));
     }
     if (effect.witness && beside.find(term.witness) == nullptr)
-      return unfit(term, fmt::format("a simulation needs the samples of {}", term.witness));
+      return unfit(term,
+                   fmt::format("a simulation needs the samples of {0}; give imunoise simulate "
+                               "--witness \"{0}: RW(gamma2=1e-6)\" or --witness {0}=FILE",
+                               term.witness));
     if (effect.check == nullptr) continue;
     if (auto fits = effect.check(term, beside); !fits) return fits;
   }

@@ -98,14 +98,17 @@ bool levels_show(const TriedTerm& tried) {
   return kThird * explained > tried.suggestion.search.log_places;
 }
 
+bool leaves_once(const std::vector<TwoLevelCourse>& courses) {
+  return std::all_of(courses.begin(), courses.end(),
+                     [](const TwoLevelCourse& one) { return one.jumps.size() <= 1; });
+}
+
 void review_telegraph(const Current&, TriedTerm& tried) {
   const std::vector<TwoLevelCourse>& courses =
       *courses_in(*tried.term(), tried.fitted.regression.subject());
   tried.suggestion.search.log_places = log_places(courses);
   // A level that is left and never taken again was no level of two.
-  const bool once = std::all_of(courses.begin(), courses.end(),
-                                [](const TwoLevelCourse& one) { return one.jumps.size() <= 1; });
-  if (once) tried.cause = "step";
+  if (leaves_once(courses)) tried.cause = "step";
   if (!levels_show(tried)) tried.could_be.push_back("step");
   // Dwells too short to be seen move the levels between the others a little.
   constexpr double kLittle = 0.05;
@@ -127,20 +130,27 @@ void add_first_jump(const Subject& subject, const std::vector<TwoLevelCourse>& c
   }
 }
 
-void telegraph_numbers(const TriedTerm& tried, std::vector<ReportedNumber>& first,
-                       std::vector<ReportedNumber>& last) {
-  const Subject& subject = tried.fitted.regression.subject();
-  const std::vector<TwoLevelCourse>& courses = *courses_in(*tried.term(), subject);
-  const bool step = tried.cause == "step";
-  if (step) add_first_jump(subject, courses, first);
+// A level that is left once may be a step: only jumps that repeat have a dwell time.
+std::vector<ReportedNumber> telegraph_numbers(const FittedEffect& effect) {
+  std::vector<ReportedNumber> out = coefficient_numbers(effect);
+  const Subject& subject = effect.subject();
+  const std::vector<TwoLevelCourse>* const courses = courses_in(effect.term(), subject);
+  if (courses == nullptr) return out;
   double jumps = 0.0;
   double seconds = 0.0;
-  for (std::size_t k = 0; k < courses.size(); ++k) {
-    jumps += static_cast<double>(courses[k].jumps.size());
+  for (std::size_t k = 0; k < courses->size(); ++k) {
+    jumps += static_cast<double>((*courses)[k].jumps.size());
     seconds += subject.seconds(k);
   }
-  last.push_back({"jumps", jumps, "1"});
-  if (!step) last.push_back({"dwell_s", seconds / jumps, "s"});
+  out.push_back({"jumps", jumps, "1"});
+  if (!leaves_once(*courses)) out.push_back({"dwell_s", seconds / jumps, "s"});
+  return out;
+}
+
+void place_of_step(const TriedTerm& tried, std::vector<ReportedNumber>& first,
+                   std::vector<ReportedNumber>&) {
+  const Subject& subject = tried.fitted.regression.subject();
+  if (tried.cause == "step") add_first_jump(subject, *courses_in(*tried.term(), subject), first);
 }
 
 }  // namespace
@@ -173,7 +183,8 @@ const Effect& telegraph() {
       .simulate = simulate_telegraph,
       .search = search_telegraph,
       .review = review_telegraph,
-      .more_numbers = telegraph_numbers,
+      .numbers = telegraph_numbers,
+      .more_numbers = place_of_step,
   };
   return kTelegraph;
 }

@@ -88,7 +88,9 @@ EffectTerm with_truth(const EffectTerm& term, const std::vector<ReportedNumber>&
     double squares = 0.0;
     double count = 0.0;
     for (const ReportedNumber& one : found) {
-      const bool whole = one.name == about.reported;
+      // Of several alike, such as the multiples of a wave, the first is meant.
+      const bool whole =
+          one.name == about.reported || one.name == fmt::format("{}_1", about.reported);
       if (whole) out.values[i] = one.value;
       if (whole || !one.name.starts_with(fmt::format("{} in ", about.reported))) continue;
       squares += one.value * one.value;

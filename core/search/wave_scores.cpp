@@ -12,9 +12,7 @@ namespace imunoise {
 using Index = Eigen::Index;
 
 Index padded_length(Index n) {
-  auto out = static_cast<std::size_t>(n);
-  while (quick_length(out) != out) ++out;
-  return static_cast<Index>(out);
+  return static_cast<Index>(next_quick_length(static_cast<std::size_t>(n)));
 }
 
 double noise_level(const Current& current, std::size_t replicate, double frequency) {

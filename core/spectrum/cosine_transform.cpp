@@ -52,6 +52,11 @@ std::size_t quick_length(std::size_t n) {
   return n;
 }
 
+std::size_t next_quick_length(std::size_t n) {
+  while (!quick(n)) ++n;
+  return n;
+}
+
 Eigen::VectorXd cosine_transform(const VectorRef& x) {
   const auto n = static_cast<std::size_t>(x.size());
   assert(n >= 2 && quick_length(n) == n);

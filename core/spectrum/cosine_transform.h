@@ -10,6 +10,8 @@ namespace imunoise {
 /// The longest length ≤ n that the transform is quick for: one without a prime factor above 13. At
 /// least 96 % of any n ≥ 100, 98 % of any n ≥ 1,000.
 std::size_t quick_length(std::size_t n);
+/// The shortest such length ≥ n, n ≥ 1.
+std::size_t next_quick_length(std::size_t n);
 
 /// Orthonormal cosine transform (DCT-II) without its constant term: coefficient k = 1 … n-1 at
 /// place k - 1, at the frequency k/2n cycles per sample, of x minus its mean: c_k = √(2/n) Σ_t x_t

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/model/model.h"
+#include "core/effects/parse_full_model.h"
 #include "daemon/config/device_tables.h"
 #include "daemon/config/quantity_text.h"
 
@@ -26,23 +26,22 @@ constexpr double kPatience = 60.0;   // s
 constexpr std::uint64_t kReserve = 1'000'000'000;
 constexpr std::uint32_t kRepeats = 1;
 constexpr std::size_t kLargestFile = std::size_t{1} << 20U;
-// Which rate a device will have is not known here; a model that fits this one is well written.
-constexpr Hertz kAnyRate{1e6};
 
 void read_calibration(const TomlEntry& entry, std::vector<Problem>& problems,
                       v1::CampaignCalibration& out) {
   TableReader reader(std::get<TomlTable>(entry.value.content), entry.place, "calibration",
                      problems);
   out.set_enabled(reader.flag("enabled").value_or(true));
+  std::vector<FullModel> candidates;
   for (const PlacedText& one : reader.texts("models")) {
-    const auto model = parse_model(one.text, kAnyRate);
-    if (!model) reader.complain_at(one.place, "models", model.error().message);
+    const auto good = add_candidate(one.text, kAnyRate, "a calibration", candidates);
+    if (!good) reader.complain_at(one.place, "models", good.error().message);
     out.add_models(one.text);
   }
   out.set_diagnose(reader.flag("diagnose").value_or(true));
   out.set_array(reader.flag("array").value_or(false));
   if (const auto text = reader.text("array_model")) {
-    const auto model = parse_array_model(*text, kAnyRate);
+    const auto model = parse_noise_model(*text, kAnyRate, grammar_of_arrays());
     if (!model) reader.complain("array_model", model.error().message);
     if (!out.array()) reader.complain("array_model", "has no effect without array = true");
     out.set_array_model(*text);

@@ -11,6 +11,7 @@
 #include "study/analysis/diagnosis_report.h"
 #include "study/analysis/integrity_report.h"
 #include "study/analysis/judge.h"
+#include "study/analysis/less_effects.h"
 #include "study/analysis/misfit_sentences.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
@@ -116,7 +117,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
 
   FittedModel model = fit_full_model(subject, *start, progress.part(0.2, 0.25));
   out.set_model(print(model.fit.model));
-  out.set_fitted_model(print_with_values(model.fit.model));
+  out.set_fitted_model(print_with_values(FullModel{model.fit.model.noise, sized_effects(model)}));
   out.set_estimator(likelihood_estimator(moments_estimator(subject->replicates())));
   LeftOver left = left_over(model);
   *out.mutable_before() = budget_of(model, left);

@@ -11,6 +11,7 @@
 #include "core/inference/normal_scores.h"
 #include "core/support/distributions.h"
 #include "study/analysis/effect_parameters.h"
+#include "study/analysis/less_effects.h"
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
 
@@ -205,16 +206,10 @@ v1::Rung rung_of(const FittedModel& trial, const LeftOver& left, const Step& ste
     out.set_heldout_lower(std::max(0.0, heldout->mean_error() - reach));
     out.set_heldout_upper(heldout->mean_error() + reach);
   }
-  out.set_fitted_model(print_with_values(trial.fit.model));
+  out.set_fitted_model(print_with_values(FullModel{trial.fit.model.noise, sized_effects(trial)}));
   out.set_estimator(
       likelihood_estimator(moments_estimator(trial.regression.subject().replicates())));
-  const std::vector<EffectTerm>& effects = trial.regression.effects();
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    v1::FittedEffect& one = *out.add_effects();
-    one.set_term(print(effects[e]));
-    for (v1::EffectParameter& number : fitted_parameters(trial, e))
-      *one.add_parameters() = std::move(number);
-  }
+  for (v1::FittedEffect& one : fitted_effects(trial)) *out.add_effects() = std::move(one);
   out.set_log_likelihood(trial.fit.log_likelihood - first);
   out.set_misfit_p(misfit_p);
   out.set_why(step.why);

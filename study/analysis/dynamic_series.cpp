@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/effects/parse_full_model.h"
 #include "core/model/trend.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
@@ -15,8 +16,8 @@ namespace {
 constexpr int kCurvePoints = 41;
 
 Result<Model> read_dynamic_model(const std::optional<std::string>& text, Hertz rate) {
-  Result<Model> model =
-      parse_dynamic_model(text ? std::string_view(*text) : kDefaultDynamicModel, rate);
+  Result<Model> model = parse_noise_model(text ? std::string_view(*text) : kDefaultDynamicModel,
+                                          rate, grammar_over_covariate());
   if (!model) return model;
   if (!varies(*model)) model = with_varying_powers(std::move(*model));
   if (varies(*model)) return model;

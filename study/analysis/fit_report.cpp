@@ -145,8 +145,6 @@ v1::FitReport fit_report(const Fit& fit, const Series& series,
   out.set_unit(std::string(si_symbol(total.quantity)));
   out.set_quantity(std::string(quantity_name(total.quantity)));
   out.set_rate_hz(total.rate.value);
-  out.set_model(print(fit.estimate.model));
-  out.set_fitted_model(print_with_values(fit.estimate.model));
   out.set_weights(fit.estimate.weighting == Weighting::kFull ? "full" : "diag");
   out.set_objective(fit.estimate.objective);
   out.set_j_statistic(fit.goodness.statistic);

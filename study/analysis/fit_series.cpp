@@ -57,17 +57,19 @@ bool seen_badly_by_moments(const Model& model) {
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
                                  const Progress& progress) {
   const Result<Prepared> prepared = prepare(series, options.model ? *options.model : kDefaultModel,
-                                            options.measure, progress.part(0.0, 0.6));
+                                            {}, options.measure, progress.part(0.0, 0.6));
   if (!prepared) return tl::unexpected(prepared.error());
-  const auto& [model, measured] = *prepared;
+  const auto& [left, measured] = *prepared;
+  const Model& model = left.noise;
   if (options.estimator == Estimator::kWhittle) {
-    if (auto able = check_likelihood(series, options.measure); !able)
+    if (auto able = check_likelihood(left.series, options.measure); !able)
       return tl::unexpected(able.error());
   }
   const Progress fitting = progress.part(0.6, 0.9);
-  const Fit fit = estimate(series, model, measured, options, fitting);
+  const Fit fit = estimate(left.series, model, measured, options, fitting);
   if (progress.stopped()) return fail("stopped");
-  v1::FitReport out = fit_report(fit, series, measured);
+  v1::FitReport out = fit_report(fit, left.series, measured);
+  add_effects(left, fit.estimate.model, out);
   out.set_default_model(!options.model);
   out.set_estimator(name_of(options.estimator, series.replicates.size()));
   if (!options.model) out.add_notes(default_model_note("was fitted"));

@@ -28,7 +28,8 @@ struct FitOptions {
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
                                  const Progress& progress = {});
 
-/// A fit as a message. `measured` are the replicates it was made from.
+/// A fit as a message, all but its model (add_effects()). `measured` are the replicates it was made
+/// from.
 v1::FitReport fit_report(const Fit& fit, const Series& series,
                          const std::vector<WaveletVariance>& measured);
 

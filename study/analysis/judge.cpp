@@ -1,36 +1,19 @@
 #include "study/analysis/judge.h"
 
-#include <algorithm>
-
 #include "core/diagnosis/heldout.h"
 #include "core/diagnosis/views/misfit.h"
-#include "core/effect/columns.h"
 #include "core/effects/parse_full_model.h"
-#include "core/estimate/estimators.h"
-#include "study/analysis/prepare.h"
+#include "study/analysis/less_effects.h"
 
 namespace imunoise::study {
 
-std::vector<std::string> witnesses_of(const FullModel& model) {
-  std::vector<std::string> out;
-  for (const EffectTerm& term : model.effects) {
-    const bool known = std::find(out.begin(), out.end(), term.witness) != out.end();
-    if (!term.witness.empty() && !known) out.push_back(term.witness);
-  }
-  return out;
-}
-
 Result<FullModel> started(const std::string& model, const SeenChannel& seen,
                           const Progress& progress) {
-  Result<FullModel> out = parse_full_model(model, seen.subject->rate);
+  const auto written = parse_full_model(model, seen.subject->rate);
+  if (!written) return tl::unexpected(written.error());
+  auto out = as_fitted(*written);
   if (!out) return out;
-  if (auto enough = enough_scales(out->noise, seen.moments); !enough)
-    return tl::unexpected(enough.error());
-  for (const EffectTerm& term : out->effects) {
-    if (auto fits = check(term, *seen.subject); !fits) return tl::unexpected(fits.error());
-  }
-  out->noise = mugmwm(out->noise, seen.moments, Weighting::kFull, progress).model;
-  return out;
+  return start_of(std::move(*out), *seen.subject, seen.moments, progress);
 }
 
 std::optional<Errors> errors_held_out(const FittedModel& model) {

@@ -23,7 +23,4 @@ Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const 
 /// Error on replicates that the model was not fitted to; none where nothing can be held out.
 std::optional<Errors> errors_held_out(const FittedModel& model);
 
-/// The channels that a model's effects follow.
-std::vector<std::string> witnesses_of(const FullModel& model);
-
 }  // namespace imunoise::study

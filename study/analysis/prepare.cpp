@@ -30,15 +30,6 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
   return {};
 }
 
-Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured) {
-  Result<Model> model = parse_model(text, measured.front().rate);
-  if (!model) return model;
-  if (auto enough = enough_scales(*model, measured); !enough) {
-    return tl::unexpected(enough.error());
-  }
-  return model;
-}
-
 Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured) {
   std::size_t scales = 0;
   for (const WaveletVariance& wv : measured) scales = std::max(scales, wv.scales.size());
@@ -49,20 +40,26 @@ Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance
                   print(model), free_parameters(model), scales));
 }
 
-Result<Prepared> prepare(const Series& series, std::string_view text, const MeasureOptions& options,
-                         const Progress& progress) {
-  // A model that cannot be read is told before minutes are spent on measuring.
-  if (auto readable = parse_model(text, series.replicates.front().rate()); !readable) {
-    return tl::unexpected(readable.error());
-  }
-  Result<std::vector<WaveletVariance>> measured = measure(series, options, progress);
-  if (!measured) return tl::unexpected(measured.error());
-  if (auto sound = check_replicates(series, *measured); !sound) {
-    return tl::unexpected(sound.error());
-  }
-  Result<Model> model = read_model(text, *measured);
+Result<std::vector<WaveletVariance>> measured_replicates(const Series& series,
+                                                         const MeasureOptions& options,
+                                                         const Progress& progress) {
+  auto out = measure(series, options, progress);
+  if (!out) return out;
+  if (auto sound = check_replicates(series, *out); !sound) return tl::unexpected(sound.error());
+  return out;
+}
+
+Result<Prepared> prepare(const Series& series, std::string_view text, const Grammar& grammar,
+                         const MeasureOptions& options, const Progress& progress) {
+  const auto model = parse_full_model(text, series.replicates.front().rate(), grammar);
   if (!model) return tl::unexpected(model.error());
-  return Prepared{std::move(*model), std::move(*measured)};
+  auto left = take_out_effects(series, *model, progress.part(0.0, 0.4));
+  if (!left) return tl::unexpected(left.error());
+  auto measured = measured_replicates(left->series, options, progress.part(0.4, 1.0));
+  if (!measured) return tl::unexpected(measured.error());
+  if (auto enough = enough_scales(left->noise, *measured); !enough)
+    return tl::unexpected(enough.error());
+  return Prepared{std::move(*left), std::move(*measured)};
 }
 
 std::size_t free_parameters(const Model& model) {

@@ -4,7 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model/model.h"
+#include "core/effects/parse_full_model.h"
+#include "study/analysis/less_effects.h"
 #include "study/analysis/measure.h"
 
 namespace imunoise::study {
@@ -17,13 +18,9 @@ std::string default_model_note(std::string_view done, std::string_view model = k
 
 /// What every analysis of a series starts from.
 struct Prepared {
-  Model model;
-  std::vector<WaveletVariance> measured;  ///< one a replicate
+  LessEffects left;                       ///< the series and the model's noise
+  std::vector<WaveletVariance> measured;  ///< one a replicate of what is left
 };
-
-/// Reads a model for measured replicates. Error: where it cannot be read, or more free parameters
-/// than there are scales.
-Result<Model> read_model(std::string_view text, const std::vector<WaveletVariance>& measured);
 
 /// Error: what looks like a replicate but tells nothing new: one that never changes, or two with
 /// the same samples. `measured` are those of the series.
@@ -32,9 +29,14 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
 /// Error: more free parameters than the longest replicate has scales.
 Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured);
 
-/// Reads the model and measures the replicates. Error: as read_model(), a replicate that never
-/// changes, two with the same samples, or the caller stopped it.
-Result<Prepared> prepare(const Series& series, std::string_view model,
+/// The wavelet variance of each replicate. Error: as check_replicates(), or the caller stopped it.
+Result<std::vector<WaveletVariance>> measured_replicates(const Series& series,
+                                                         const MeasureOptions& options,
+                                                         const Progress& progress = {});
+
+/// Reads a model, takes its effects out of the replicates, and measures what they leave. Error: a
+/// model that cannot be read, or as take_out_effects().
+Result<Prepared> prepare(const Series& series, std::string_view model, const Grammar& grammar,
                          const MeasureOptions& options, const Progress& progress = {});
 
 /// Number of parameters that the user did not give.

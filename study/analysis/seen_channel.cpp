@@ -12,20 +12,12 @@
 namespace imunoise::study {
 namespace {
 
-std::vector<NamedChannel> beside(const std::vector<recording::Replicate>& recordings,
-                                 std::size_t channel, const WitnessNames& wanted) {
-  const std::vector<recording::Channel>& known = recordings.front().channels;
-  std::vector<NamedChannel> out;
-  for (std::size_t c = 0; c < known.size(); ++c) {
-    const bool asked =
-        !wanted || std::find(wanted->begin(), wanted->end(), known[c].name) != wanted->end();
-    if (c == channel || !asked) continue;
-    const Series series = series_of(recordings, c);
-    const Unit& unit = known[c].unit;
-    out.push_back({series.channel, series.replicates,
-                   unit.quantity == Quantity::kUnknown ? unit.symbol : ""});
-  }
-  return out;
+std::vector<NamedChannel> only(const WitnessNames& wanted, std::vector<NamedChannel> beside) {
+  if (!wanted) return beside;
+  std::erase_if(beside, [&](const NamedChannel& one) {
+    return std::find(wanted->begin(), wanted->end(), one.name) == wanted->end();
+  });
+  return beside;
 }
 
 }  // namespace
@@ -62,8 +54,8 @@ Result<RecordedChannel> look_at(std::vector<recording::Replicate> recorded, std:
               .changed = out.parts.changed,
               .moments = std::move(*moments),
               .subject = std::make_shared<const Subject>(
-                  make_subject(series.replicates, beside(out.parts.replicates, channel, witnesses),
-                               out.parts.places, progress.part(0.3, 1.0)))};
+                  make_subject(series.replicates, only(witnesses, series.beside), out.parts.places,
+                               progress.part(0.3, 1.0)))};
   if (progress.stopped()) return fail("stopped");  // the subject is then not whole
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/effects/parse_full_model.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 
@@ -20,7 +21,7 @@ constexpr std::size_t kFewReplicates = 5;     // below which intervals between r
 Series in_blocks(const Series& series) {
   const Signal& whole = series.replicates.front();
   const std::size_t size = whole.size() / kBlocks;
-  Series out{series.channel, {}, {}};
+  Series out{series.channel, {}, {}, {}};
   for (std::size_t b = 0; b < kBlocks; ++b) {
     out.names.push_back(fmt::format("{} [{}/{}]", series.names.front(), b + 1, kBlocks));
     out.replicates.push_back(whole.part(b * size, size));
@@ -28,26 +29,32 @@ Series in_blocks(const Series& series) {
   return out;
 }
 
-// Whether two models have the same terms, in any order.
-bool same(const Model& a, const Model& b) {
-  return std::is_permutation(a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end());
-}
-
-Result<std::vector<Model>> read_models(const std::vector<std::string>& texts,
-                                       const std::vector<WaveletVariance>& measured) {
-  std::vector<Model> out;
+Result<std::vector<FullModel>> read_models(const std::vector<std::string>& texts, Hertz rate) {
+  std::vector<FullModel> out;
   for (const std::string& text : texts) {
-    Result<Model> model = read_model(text, measured);
-    if (!model) return tl::unexpected(model.error());
-    for (const Model& before : out) {
-      if (same(before, *model)) {
-        return fail(fmt::format("model: {} and {} are the same; name each model once",
-                                print(before), print(*model)));
-      }
-    }
-    out.push_back(std::move(*model));
+    if (auto done = add_candidate(text, rate, "imunoise select", out); !done)
+      return tl::unexpected(done.error());
   }
   return out;
+}
+
+// The one whose noise leaves least to effects.
+const FullModel& largest(const std::vector<FullModel>& models) {
+  return *std::max_element(models.begin(), models.end(), [](const auto& a, const auto& b) {
+    return free_parameters(a.noise) < free_parameters(b.noise);
+  });
+}
+
+// The noise of the candidates: of a single model, it and all its sub-models.
+Result<std::vector<Model>> candidates_of(const std::vector<FullModel>& named,
+                                         const std::vector<WaveletVariance>& measured) {
+  std::vector<Model> out;
+  for (const FullModel& one : named) {
+    if (auto enough = enough_scales(one.noise, measured); !enough)
+      return tl::unexpected(enough.error());
+    out.push_back(one.noise);
+  }
+  return out.size() == 1 ? sub_models(out.front()) : out;
 }
 
 v1::ChoiceVerdict verdict_of(ChoiceVerdict from) {
@@ -62,10 +69,11 @@ v1::ChoiceVerdict verdict_of(ChoiceVerdict from) {
   return v1::not_appropriate;
 }
 
-void add_candidate(const Candidate& from, v1::ChoiceReport& out) {
+void add_candidate(const Candidate& from, const std::vector<EffectTerm>& effects,
+                   v1::ChoiceReport& out) {
   v1::CandidateModel& to = *out.add_candidates();
-  to.set_model(print(from.model));
-  to.set_fitted_model(print_with_values(from.model));
+  to.set_model(model_text(from.model, effects));
+  to.set_fitted_model(print_with_values(FullModel{from.model, effects}));
   to.set_parameters(static_cast<std::uint32_t>(free_parameters(from.model)));
   to.set_merit(from.merit.value);
   to.set_merit_lower(from.merit.lower);
@@ -121,22 +129,24 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
                     "time (--splits leave-one-out)",
                     given.channel, given.replicates.size()));
   }
-  const Series series = blocks ? in_blocks(given) : given;
   std::vector<std::string> texts = options.models;
   if (texts.empty()) texts.emplace_back(kDefaultModel);
-  const Result<Prepared> prepared =
-      prepare(series, texts.front(), options.measure, progress.part(0.0, 0.5));
-  if (!prepared) return tl::unexpected(prepared.error());
-  const std::vector<WaveletVariance>& measured = prepared->measured;
-  const Result<std::vector<Model>> named = read_models(texts, measured);
+  auto named = read_models(texts, given.replicates.front().rate());
   if (!named) return tl::unexpected(named.error());
-  const ModelChoice choice = choose_model(named->size() == 1 ? sub_models(named->front()) : *named,
-                                          measured, options.choice, progress.part(0.5, 1.0));
+  const auto left = take_out_effects(given, largest(*named), progress.part(0.0, 0.3));
+  if (!left) return tl::unexpected(left.error());
+  const Series series = blocks ? in_blocks(left->series) : left->series;
+  const auto measured = measured_replicates(series, options.measure, progress.part(0.3, 0.5));
+  if (!measured) return tl::unexpected(measured.error());
+  const auto candidates = candidates_of(*named, *measured);
+  if (!candidates) return tl::unexpected(candidates.error());
+  const ModelChoice choice =
+      choose_model(*candidates, *measured, options.choice, progress.part(0.5, 1.0));
   if (progress.stopped()) return fail("stopped");
 
   v1::ChoiceReport out;
   out.set_channel(series.channel);
-  out.set_unit(std::string(si_symbol(measured.front().quantity)));
+  out.set_unit(std::string(si_symbol(measured->front().quantity)));
   out.set_rate_hz(series.replicates.front().rate().value);
   out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
   out.set_contiguous_blocks(blocks);
@@ -144,7 +154,9 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   out.set_split_count(static_cast<std::uint32_t>(choice.splits));
   out.set_estimator(moments_estimator(series.replicates.size()));
   out.set_weights(options.choice.weighting == Weighting::kFull ? "full" : "diag");
-  for (const Candidate& candidate : choice.candidates) add_candidate(candidate, out);
+  for (const Candidate& candidate : choice.candidates) add_candidate(candidate, left->effects, out);
+  for (const v1::FittedEffect& one : left->numbers) *out.add_effects() = one;
+  if (!left->effects.empty()) out.add_notes(taken_out_note(*left));
   const v1::CandidateModel& best = out.candidates(0);
   out.set_far_from_floor(best.merit() > kFarFromFloor && best.merit_lower() > 1.0);
   out.set_summary(summary_of(out));

@@ -8,10 +8,21 @@ namespace imunoise::study {
 
 Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel) {
   Series out;
-  out.channel = replicates.front().channels[channel].name;
-  for (const recording::Replicate& replicate : replicates) {
-    out.names.push_back(replicate.name);
-    out.replicates.push_back(replicate.channels[channel].signal());
+  const std::vector<recording::Channel>& known = replicates.front().channels;
+  out.channel = known[channel].name;
+  for (const recording::Replicate& replicate : replicates) out.names.push_back(replicate.name);
+  const auto signals = [&](std::size_t c) {
+    std::vector<Signal> each;
+    for (const recording::Replicate& replicate : replicates)
+      each.push_back(replicate.channels[c].signal());
+    return each;
+  };
+  out.replicates = signals(channel);
+  for (std::size_t c = 0; c < known.size(); ++c) {
+    if (c == channel) continue;
+    const Unit& unit = known[c].unit;
+    out.beside.push_back(
+        {known[c].name, signals(c), unit.quantity == Quantity::kUnknown ? unit.symbol : ""});
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/effect/subject.h"
 #include "core/signal/signal.h"
 #include "core/support/result.h"
 #include "recording/import/table/channel.h"
@@ -17,9 +18,11 @@ struct Series {
   std::string channel;
   std::vector<std::string> names;  ///< of the replicates
   std::vector<Signal> replicates;
+  std::vector<NamedChannel> beside{};  ///< recorded with it: the witnesses that effects may follow
 };
 
-/// Channel number `channel` of every replicate. Precondition: each has that many channels.
+/// Channel number `channel` of every replicate, and the others beside it. Precondition: each has
+/// that many channels.
 Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel);
 
 /// The number of a channel; a nameless one is the only one. Error: there is none of that name; says

@@ -125,10 +125,11 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
         fmt::format("a bootstrap of {} sets cannot reject at 5 %: take at least {}, better 999",
                     options.bootstrap.sets, kFewestSets));
   }
-  const Result<Prepared> prepared = prepare(series, options.model ? *options.model : kDefaultModel,
-                                            options.measure, progress.part(0.0, 0.3));
+  const Result<Prepared> prepared =
+      prepare(series, options.model ? *options.model : kDefaultModel,
+              grammar_of_replicates("imunoise test"), options.measure, progress.part(0.0, 0.3));
   if (!prepared) return tl::unexpected(prepared.error());
-  const NearStationarity result = near_stationarity(prepared->model, prepared->measured,
+  const NearStationarity result = near_stationarity(prepared->left.noise, prepared->measured,
                                                     options.bootstrap, progress.part(0.3, 1.0));
   if (progress.stopped()) return fail("stopped");
 
@@ -136,8 +137,7 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
   out.set_channel(series.channel);
   out.set_unit(std::string(si_symbol(prepared->measured.front().quantity)));
   out.set_rate_hz(series.replicates.front().rate().value);
-  out.set_model(print(result.pooled.model));
-  out.set_fitted_model(print_with_values(result.pooled.model));
+  add_effects(prepared->left, result.pooled.model, out);
   out.set_estimator(moments_estimator(series.replicates.size()));
   out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
   fill(result.misfit, *out.mutable_misfit());

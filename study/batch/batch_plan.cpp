@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "core/model/model.h"
+#include "core/effects/parse_full_model.h"
+#include "study/batch/tasks.h"
 
 namespace imunoise::study {
 namespace {
@@ -19,13 +20,8 @@ std::uint32_t shards_for(std::uint32_t items, std::uint32_t size) {
 }
 
 Result<void> check_simulation(const v1::SimulationTask& task) {
-  const auto truth = parse_model(task.model(), Hertz{task.rate_hz()});
-  if (!truth) return tl::unexpected(truth.error());
-  if (!complete(*truth)) {
-    return fail(fmt::format("model: {} leaves values open; give each, as in WN(sigma2=1e-6)",
-                            print(*truth)));
-  }
-  const auto fitted = parse_model(task.fit(), Hertz{task.rate_hz()});
+  if (auto truth = simulation_of(task, 0); !truth) return tl::unexpected(truth.error());
+  const auto fitted = parse_full_model(task.fit(), Hertz{task.rate_hz()});
   if (!fitted) return tl::unexpected(fitted.error());
   // Each replicate of each set has a random stream of its own, named by 32 bits.
   if (std::uint64_t{task.sets()} * task.replicates() > UINT32_MAX)
@@ -55,9 +51,10 @@ v1::SimulationTask part_of(const v1::SimulationTask& task, std::uint32_t first,
 }  // namespace
 
 Result<std::string> form_of(const std::string& model, double rate_hz) {
-  auto form = parse_model(model, Hertz{rate_hz});
+  auto form = parse_full_model(model, Hertz{rate_hz});
   if (!form) return tl::unexpected(form.error());
-  for (Term& term : form->terms) term.given.assign(term.given.size(), false);
+  for (Term& term : form->noise.terms) term.given.assign(term.given.size(), false);
+  for (EffectTerm& term : form->effects) term = shape_of(std::move(term));
   return print(*form);
 }
 
@@ -75,11 +72,7 @@ Result<void> check_batch(const v1::Batch& batch) {
                             shards, kMostShards, shards_for(items, kMostShards)));
   }
   if (batch.has_simulate()) return check_simulation(batch.simulate());
-  for (const std::string& one : batch.calibrate().settings().models()) {
-    const auto model = parse_model(one, Hertz{1.0});  // no rate makes a model unreadable
-    if (!model) return tl::unexpected(model.error());
-  }
-  return {};
+  return check_models(calibrate_options(batch.calibrate().settings(), 0));
 }
 
 std::vector<v1::BatchShard> shards_of(const v1::Batch& batch) {

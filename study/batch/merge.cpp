@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/model/model.h"
+#include "core/effects/parse_full_model.h"
 #include "study/batch/batch_folder.h"
 #include "study/batch/batch_plan.h"
 #include "study/calibration/calibration_file.h"
@@ -19,11 +19,11 @@ constexpr double kRejection = 0.05;
 
 // The true parameters in the order of a fit's, when it has the same terms.
 std::optional<std::vector<double>> true_values(const v1::SimulationTask& task) {
-  const auto truth = parse_model(task.model(), Hertz{task.rate_hz()});
-  const auto fitted = parse_model(task.fit(), Hertz{task.rate_hz()});
+  const auto truth = parse_full_model(task.model(), Hertz{task.rate_hz()});
+  const auto fitted = parse_full_model(task.fit(), Hertz{task.rate_hz()});
   if (!truth || !fitted) return std::nullopt;
-  const Model one = sorted(*truth);
-  const Model other = sorted(*fitted);
+  const Model one = sorted(truth->noise);
+  const Model other = sorted(fitted->noise);
   if (one.terms.size() != other.terms.size()) return std::nullopt;
   std::vector<double> out;
   for (std::size_t i = 0; i < one.terms.size(); ++i) {

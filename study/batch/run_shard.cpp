@@ -2,30 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "core/model/model.h"
 #include "study/analysis/fit_series.h"
 #include "study/batch/batch_plan.h"
-#include "study/calibration/calibrate.h"
+#include "study/batch/tasks.h"
 
 namespace imunoise::study {
 namespace {
 
-CalibrateOptions options_of(const v1::CalibrationSettings& settings, std::int64_t now_ns) {
-  CalibrateOptions out;
-  out.models.assign(settings.models().begin(), settings.models().end());
-  if (!settings.array_model().empty()) out.array_model = settings.array_model();
-  out.channels.assign(settings.channels().begin(), settings.channels().end());
-  out.diagnose = settings.diagnose();
-  out.array = settings.array();
-  out.bootstrap.sets = static_cast<int>(settings.bootstrap_sets());
-  out.bootstrap.seed = settings.seed();
-  out.made_ns = now_ns;
-  return out;
-}
-
 Result<void> calibrate_all(const recording::FileSystem& files, const v1::CalibrationTask& task,
                            std::int64_t now_ns, const Progress& progress, v1::ShardResult& to) {
-  const CalibrateOptions options = options_of(task.settings(), now_ns);
+  const CalibrateOptions options = calibrate_options(task.settings(), now_ns);
   const double count = task.recordings_size();
   for (int i = 0; i < task.recordings_size(); ++i) {
     auto calibration =
@@ -39,13 +25,15 @@ Result<void> calibrate_all(const recording::FileSystem& files, const v1::Calibra
 }
 
 // Simulates set number `set` and fits it.
-Result<v1::FitReport> fit_set(const v1::SimulationTask& task, const Model& truth, std::uint32_t set,
+Result<v1::FitReport> fit_set(const v1::SimulationTask& task, std::uint32_t set,
                               const Progress& progress) {
+  const auto truth = simulation_of(task, set);
+  if (!truth) return tl::unexpected(truth.error());
   std::vector<std::vector<double>> values;
   Series series;
   series.channel = "x";
   for (std::uint32_t k = 0; k < task.replicates(); ++k) {
-    values.push_back(simulate(truth, task.samples(), task.seed(), set * task.replicates() + k));
+    values.push_back(truth->replicate(k).channel);
     series.names.push_back(fmt::format("{}", k + 1));
     series.replicates.emplace_back(std::span<const double>(values.back()), Hertz{task.rate_hz()});
   }
@@ -67,12 +55,10 @@ v1::SimulatedFit outcome_of(const v1::FitReport& fit, std::uint32_t set) {
 
 Result<void> simulate_all(const v1::SimulationTask& task, const Progress& progress,
                           v1::ShardResult& to) {
-  const auto truth = parse_model(task.model(), Hertz{task.rate_hz()});
-  if (!truth) return tl::unexpected(truth.error());
   const double count = task.sets();
   for (std::uint32_t i = 0; i < task.sets(); ++i) {
     const std::uint32_t set = task.first_set() + i;
-    const auto fit = fit_set(task, *truth, set, progress.part(i / count, (i + 1) / count));
+    const auto fit = fit_set(task, set, progress.part(i / count, (i + 1) / count));
     if (!fit) return fail(fmt::format("set {}: {}", set, fit.error().message));
     *to.add_fits() = outcome_of(*fit, set);
   }

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "core/model/model.h"
+#include "core/effects/parse_full_model.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/reading/places.h"
 #include "recording/store/reading/replicates.h"
@@ -139,6 +139,18 @@ std::string summary_of(const v1::Calibration& calibration) {
 
 }  // namespace
 
+Result<void> check_models(const CalibrateOptions& options) {
+  std::vector<FullModel> candidates;
+  for (const std::string& one : options.models) {
+    if (auto good = add_candidate(one, kAnyRate, "imunoise calibrate", candidates); !good)
+      return good;
+  }
+  if (!options.array_model) return {};
+  const auto array = parse_noise_model(*options.array_model, kAnyRate, grammar_of_arrays());
+  if (!array) return tl::unexpected(array.error());
+  return {};
+}
+
 Result<v1::Calibration> calibrate(const recording::FileSystem& files,
                                   const std::filesystem::path& folder,
                                   const CalibrateOptions& options, const Progress& progress) {
@@ -149,16 +161,8 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
                 ": is not a recording: it has no manifest.json (imunoise verify --repair makes one "
                 "from chunks)");
   }
-  // Before minutes are spent on reading; no rate makes a model unreadable.
-  for (const std::string& one : options.models) {
-    if (const auto model = parse_model(one, Hertz{1.0}); !model) {
-      return tl::unexpected(model.error());
-    }
-  }
-  if (options.array_model) {
-    const auto model = parse_array_model(*options.array_model, Hertz{1.0});
-    if (!model) return tl::unexpected(model.error());
-  }
+  // Before minutes are spent on reading.
+  if (auto readable = check_models(options); !readable) return tl::unexpected(readable.error());
   const auto tasks = tasks_of(folder.string(), **manifest, options.channels);
   if (!tasks) return tl::unexpected(tasks.error());
 

@@ -27,6 +27,9 @@ struct CalibrateOptions {
   std::int64_t made_ns = 0;    ///< now: ns since 1970-01-01 UTC
 };
 
+/// Error: a model that cannot be read, or that a calibration cannot use.
+Result<void> check_models(const CalibrateOptions& options);
+
 /// What the replicates of a recording say about the noise of its channels: wavelet variance, model,
 /// fit, near-stationarity, and where asked diagnosis and array. What cannot be done for a channel
 /// is told in its troubles and stops neither the other steps nor the other channels. Memory: the

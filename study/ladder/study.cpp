@@ -8,6 +8,7 @@
 #include "recording/store/format/crc32c.h"
 #include "study/analysis/diagnose_series.h"
 #include "study/analysis/judge.h"
+#include "study/analysis/less_effects.h"
 #include "study/analysis/series.h"
 
 namespace imunoise::study {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "daemon/config/campaign_keys.h"
 
@@ -161,6 +162,26 @@ TEST(CampaignConfig, HasDefaultsForTheRest) {
   EXPECT_TRUE(read.campaign.calibration().enabled());
   EXPECT_TRUE(read.campaign.calibration().models().empty());
   EXPECT_EQ(read.campaign.reserve_bytes(), 1'000'000'000U);
+}
+
+TEST(CampaignConfig, ModelsHaveEffectsThatACalibrationCanUse) {
+  const auto problems = [](const std::string& calibration) {
+    return problems_of(std::string(kSound) + "[calibration]\n" + calibration);
+  };
+  EXPECT_TRUE(problems("models = ['WN + RW + line(f=23.4)', 'WN + line(f=23.4)']").empty());
+  const std::map<std::string, std::string> refused = {
+      {"models = ['WN + own_powers']", "own_powers changes the noise itself"},
+      {"models = ['WN + line(g=2)']", "'g'"},
+      {"models = ['WN + line(f=2)', 'WN + RW']", "have different effects"},
+      {"array = true\narray_model = 'WN + ramp'", "ramp is an effect"},
+  };
+  for (const auto& [written, says] : refused) {
+    const std::vector<std::string> found = problems(written);
+    ASSERT_FALSE(found.empty()) << written;
+    EXPECT_EQ(found.front().substr(0, 7), "a.toml:") << found.front();
+    EXPECT_NE(found.front().find("calibration."), std::string::npos) << found.front();
+    EXPECT_NE(found.front().find(says), std::string::npos) << found.front();
+  }
 }
 
 TEST(CampaignConfig, TellsAllProblemsWithTheirPlaces) {

@@ -135,7 +135,7 @@ const std::vector<Room>& rooms() {
         "drivers/emulator/usb", "drivers/emulator/lines"}},
       {"drivers/emulator/serving", {"core/support", "drivers"}},
       {"daemon", {"core", "recording", "study", "drivers", "proto"}},
-      {"daemon/config", {"core/support", "core/model", "drivers", "proto"}},
+      {"daemon/config", {"core/support", "core/model", "core/effects", "drivers", "proto"}},
       {"daemon/acquire", {"core", "recording", "study", "drivers", "proto", "daemon/config"}},
       {"daemon/acquire/campaign",
        {"core/support", "recording", "drivers", "proto", "daemon/acquire"}},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/effects/parse_full_model.h"
 #include "study/analysis/prepare.h"
 
 namespace imunoise::study {
@@ -79,7 +80,8 @@ Result<ArraySetup> array_setup(const std::vector<Series>& sensors, std::string_v
                                const std::vector<std::vector<std::string>>& groups, int per_octave,
                                const Progress& progress) {
   if (auto good = check_sensors(sensors); !good) return tl::unexpected(good.error());
-  const Result<Model> written = parse_array_model(model, sensors.front().replicates.front().rate());
+  const Result<Model> written =
+      parse_noise_model(model, sensors.front().replicates.front().rate(), grammar_of_arrays());
   if (!written) return tl::unexpected(written.error());
   const Result<ArrayLayout> layout = layout_of(sensors, groups);
   if (!layout) return tl::unexpected(layout.error());

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/array/array_whittle.h"
+#include "core/effects/parse_full_model.h"
 #include "study/analysis/arrays/array_parameters.h"
 #include "study/analysis/arrays/array_setup.h"
 #include "study/analysis/arrays/regressors.h"
@@ -94,8 +95,8 @@ Result<v1::MixedReport> mixed_series(const std::vector<Series>& channels,
   const Result<Regression> regression = read_regressors(channels, options.regressors);
   if (!regression) return tl::unexpected(regression.error());
   const auto& [responses, names, units, data] = *regression;
-  const Result<Model> written =
-      parse_array_model(options.model ? *options.model : kDefaultMixedModel, data.rate);
+  const Result<Model> written = parse_noise_model(
+      options.model ? *options.model : kDefaultMixedModel, data.rate, grammar_of_arrays());
   if (!written) return tl::unexpected(written.error());
   const Result<ArrayLayout> layout = layout_of(responses, options.groups);
   if (!layout) return tl::unexpected(layout.error());

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "study/report/documents/diagnosis_words.h"
+#include "study/report/documents/effect_rows.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/figures/comparison_figures.h"
 #include "study/report/figures/diagnosis_pictures.h"
@@ -66,12 +67,6 @@ Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
   return out;
 }
 
-std::string value_of(const v1::EffectParameter& one, Digits digits) {
-  std::string out = one.has_lower() ? with_interval(one.value(), one.lower(), one.upper(), digits)
-                                    : number(one.value(), 5, digits);
-  return one.unit() == "1" ? out : out + " " + one.unit();
-}
-
 Table effect_table(const v1::EffectCandidate& best, Digits digits) {
   Table out{fmt::format("{}: its numbers", best.title()), {"", "value"}, {}};
   for (const v1::EffectParameter& one : best.parameters())
@@ -83,19 +78,8 @@ Table effect_table(const v1::EffectCandidate& best, Digits digits) {
 
 // The effects of the last model of the ladder, with what was fitted of them.
 Table effect_table(const v1::Rung& last, Digits digits) {
-  Table out{"The effects in the last model", {"term", "", "value"}, {}};
-  for (const v1::FittedEffect& effect : last.effects()) {
-    constexpr int kMostNumbers = 4;
-    if (effect.parameters_size() == 0) out.rows.push_back({effect.term(), "", ""});
-    for (int i = 0; i < std::min(kMostNumbers, effect.parameters_size()); ++i) {
-      const v1::EffectParameter& one = effect.parameters(i);
-      out.rows.push_back({i == 0 ? effect.term() : "", one.name(), value_of(one, digits)});
-    }
-    if (effect.parameters_size() > kMostNumbers)
-      out.rows.push_back(
-          {"", fmt::format("and {} more", effect.parameters_size() - kMostNumbers), "in the JSON"});
-  }
-  return out;
+  return {
+      "The effects in the last model", {"term", "", "value"}, effect_rows(last.effects(), digits)};
 }
 
 Table misfit_table(const v1::DiagnosisReport& report) {

@@ -119,8 +119,9 @@ std::string section(const v1::FitReport& report, int index) {
                      escape_markup(channel_name(report.channel()))) +
          heading(report) + misfit_list(report, view) + budget(report, view) +
          scale_table(report, view) + coefficient_table(report) + parameter_table(report) +
-         replicates(report, view) + notes(report) + "<h3>How it was fitted</h3>\n" +
-         fitted_model(report) + provenance(report) + "</section>\n";
+         fitted_effect_table(report) + replicates(report, view) + notes(report) +
+         "<h3>How it was fitted</h3>\n" + fitted_model(report) + provenance(report) +
+         "</section>\n";
 }
 
 std::string navigation(const v1::FitReports& reports) {

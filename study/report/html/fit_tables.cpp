@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "study/figure/figure.h"
+#include "study/report/documents/effect_rows.h"
 #include "study/report/html/page_frame.h"
 #include "study/report/view/verdict.h"
 #include "study/words/number.h"
@@ -82,6 +83,15 @@ std::string coefficient_table(const v1::FitReport& report) {
   return "<h3>Coefficients, as in data sheets</h3>\n<div class=\"scroll\"><table>" +
          table_head({"symbol", "name", "data-sheet unit", "SI"}) + "<tbody>" + rows +
          "</tbody></table></div>\n";
+}
+
+std::string fitted_effect_table(const v1::FitReport& report) {
+  std::string rows;
+  for (const std::vector<std::string>& row : effect_rows(report.effects(), kStyle))
+    rows += "<tr>" + cell("term", row[0]) + cell("", row[1]) + cell("number", row[2]) + "</tr>\n";
+  if (rows.empty()) return {};
+  return "<h3>Effects, taken out before the noise was fitted</h3>\n<div class=\"scroll\"><table>" +
+         table_head({"effect", "", "value"}) + "<tbody>" + rows + "</tbody></table></div>\n";
 }
 
 std::string scale_table(const v1::FitReport& report, const BudgetView& view) {

@@ -10,6 +10,8 @@ namespace imunoise::report {
 
 std::string parameter_table(const v1::FitReport& report);
 std::string coefficient_table(const v1::FitReport& report);
+/// What was fitted of the model's effects.
+std::string fitted_effect_table(const v1::FitReport& report);
 
 /// Every scale's numbers: what the pointer reads, and what a screen reader reads instead of the
 /// figure.

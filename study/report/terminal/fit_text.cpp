@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "study/figure/characters.h"
+#include "study/report/documents/effect_rows.h"
 #include "study/report/figures/budget_figure.h"
 #include "study/report/terminal/lines.h"
 #include "study/report/terminal/table.h"
@@ -69,6 +70,12 @@ std::string parameters(const v1::FitReport& report, const TerminalStyle& style) 
   return "\n" + terminal_table({"term", "parameter", "per sample", "unit", ""}, rows, style);
 }
 
+std::string effects(const v1::FitReport& report, const TerminalStyle& style) {
+  if (report.effects().empty()) return {};
+  return "\n" + terminal_table({"effect", "", "value"}, effect_rows(report.effects(), kPlainDigits),
+                               style);
+}
+
 // The figure of a budget in characters, or that there is none.
 std::string drawn(const figure::Figure& figure, const TerminalStyle& style) {
   const std::string out = characters(figure, style);
@@ -90,7 +97,7 @@ std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
   if (v == Verdict::kFails || v == Verdict::kDoubtful) {
     for (const Misfit& misfit : misfits(view)) out += wrapped(misfit_words(view, misfit), 2, style);
   }
-  out += coefficients(report, style) + parameters(report, style);
+  out += coefficients(report, style) + parameters(report, style) + effects(report, style);
   if (!report.notes().empty()) out += "\n";
   for (const std::string& note : report.notes()) out += wrapped("note: " + note, 0, style);
   return out;
