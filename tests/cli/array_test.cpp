@@ -115,7 +115,7 @@ TEST_F(Array, SaysWhatItCannotDo) {
   mixed_file.close();
   const Outcome stuck = run("array stuck.csv --rate 1");
   EXPECT_NE(stuck.errors.find("q never changes"), std::string::npos) << stuck.errors;
-  expect("--model '5*AR1 + 4*RES'", "free parameters a sensor");
+  expect("--model '5*AR1 + 4*RES'", "free parameters per sensor");
   expect("--model 'DR + WN' --estimator whittle", "takes no ramp");
   expect("--channel gyro_a", "at least two sensors");
   expect("--model 'RW[cor]'", "corr, group or all");

@@ -29,7 +29,7 @@ std::string size_of(const v1::SensorFault& fault, const std::string& unit, Digit
 }
 
 Table faults(const v1::FaultReport& report, Digits digits) {
-  Table out{"Faults", {"sensor", "fault", "size", "from", "detected after", "evidence", "in"}, {}};
+  Table out{"Faults", {"sensor", "fault", "size", "from", "seen after", "evidence", "in"}, {}};
   for (const v1::SensorFault& one : report.faults()) {
     out.rows.push_back({accused(one), one.kind(), size_of(one, report.unit(), digits),
                         duration(one.onset_s()), duration(one.delay_s()),
