@@ -102,9 +102,8 @@ ParsedCommand simulate_command(CLI::App& program) {
   simulate
       ->add_option(
           "--witness", raw->witnesses,
-          "Channel that effects follow, written beside the simulated one: noise in SI units "
-          "(NAME[UNIT]: MODEL) or a recorded channel (NAME=FILE); repeat for more channels, "
-          "or for one file per replicate")
+          "Witness that effects follow, also written: noise in SI units (NAME[UNIT]: MODEL) or a "
+          "recorded channel (NAME=FILE); repeatable, also for one file per replicate")
       ->allow_extra_args(false)
       ->type_name("WITNESS");
   simulate->add_option("--rate", raw->rate, "Sampling rate (Hz)")

@@ -209,10 +209,13 @@ void add_filters(const Current& current, Suggestions& out) {
   }
 }
 
-// Correlation time of a Markov process, samples; 0 of any other.
+// Correlation time of a Markov process, of the slower root of a second-order one, samples; 0 of any
+// other.
 double memory_of(const Process& process) {
-  const auto* markov = std::get_if<Ar1>(&process);
-  return markov != nullptr && markov->phi > 0.0 ? -1.0 / std::log(markov->phi) : 0.0;
+  for (const DerivedQuantity& one : derived(process, Hertz{1.0})) {
+    if (one.coefficient == Coefficient::kCorrelationTime) return one.value;
+  }
+  return 0.0;
 }
 
 // A Markov process so fast that it left no white noise is the sensor's bandwidth.
@@ -232,14 +235,14 @@ bool is_bandwidth(const Model& noise) {
 // Heat does not move a sensor faster than this.
 constexpr double kFastestHeat = 10.0;  // s
 
-bool has_slow_markov(const Model& noise, Hertz rate) {
+bool has_slow_memory(const Model& noise, Hertz rate) {
   return std::any_of(noise.terms.begin(), noise.terms.end(), [&](const Term& term) {
     return memory_of(term.process) > kFastestHeat * rate.value;
   });
 }
 
 // What a Markov process may be in truth.
-void name_markov(const Current& current, TriedTerm& tried) {
+void name_markov(TriedTerm& tried) {
   const FittedModel& fitted = tried.fitted;
   if (is_bandwidth(fitted.fit.model.noise)) {
     tried.cause = "low_pass";
@@ -252,7 +255,6 @@ void name_markov(const Current& current, TriedTerm& tried) {
     tried.likelihood_gain += levels - kClearly;  // so much chance may gain
     return;
   }
-  tried.slow = has_slow_markov(fitted.fit.model.noise, current.subject().rate);
 }
 
 }  // namespace
@@ -325,8 +327,10 @@ std::vector<Cause> noise_causes() {
 
 void review_noise(const Current& current, TriedTerm& tried) {
   constexpr double kUnsteady = 1e-3;
-  if (tried.cause == "gauss_markov") name_markov(current, tried);
+  if (tried.cause == "gauss_markov") name_markov(tried);
   if (tried.cause == "telegraph") return;
+  if (tried.cause == "gauss_markov" || tried.cause == "second_order")
+    tried.slow = has_slow_memory(tried.fitted.fit.model.noise, current.subject().rate);
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
   tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
 }

@@ -78,8 +78,8 @@ TEST_F(CampaignFolder, OfTwinsTheFirstIsTaken) {
   const CampaignFiles files = read();
   EXPECT_EQ(found(files), "a=x");
   ASSERT_EQ(files.rejected.size(), 2U);
-  EXPECT_NE(files.rejected[0].problems(0).find("the name 'x' is that of"), std::string::npos);
-  EXPECT_NE(files.rejected[1].problems(0).find("the folder"), std::string::npos);
+  EXPECT_NE(files.rejected[0].problems(0).find("has the same name 'x' as"), std::string::npos);
+  EXPECT_NE(files.rejected[1].problems(0).find("has the same folder"), std::string::npos);
 }
 
 TEST_F(CampaignFolder, WhatIsInForceIsNotDisplaced) {

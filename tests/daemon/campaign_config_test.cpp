@@ -171,7 +171,7 @@ TEST(CampaignConfig, ModelsHaveEffectsThatACalibrationCanUse) {
   EXPECT_TRUE(problems("models = ['WN + RW + line(f=23.4)', 'WN + line(f=23.4)']").empty());
   const std::map<std::string, std::string> refused = {
       {"models = ['WN + own_powers']", "own_powers changes the noise itself"},
-      {"models = ['WN + line(g=2)']", "'g'"},
+      {"models = ['WN + line(g=2)']", "'g=2' is not known here"},
       {"models = ['WN + line(f=2)', 'WN + RW']", "have different effects"},
       {"array = true\narray_model = 'WN + ramp'", "ramp is an effect"},
   };

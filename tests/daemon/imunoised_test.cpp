@@ -31,8 +31,8 @@ TEST_F(Imunoised, RefusesCampaignsThatMeetInOneFolder) {
   std::ofstream(folder_ / "b.toml") << "name = \"a\"\nfolder = \"./a\"\nlength = \"2 s\"\n"
                                     << device("a");
   EXPECT_EQ(run({"--check-config", "a.toml", "b.toml"}), 1);
-  EXPECT_NE(read("out").find("b.toml: the name 'a'"), std::string::npos) << read("out");
-  EXPECT_NE(read("out").find("b.toml: the folder ./a"), std::string::npos);
+  EXPECT_NE(read("out").find("b.toml: has the same name 'a'"), std::string::npos) << read("out");
+  EXPECT_NE(read("out").find("b.toml: has the same folder ./a"), std::string::npos);
 }
 
 TEST_F(Imunoised, WrongUsageIsTold) {

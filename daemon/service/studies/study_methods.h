@@ -1,8 +1,8 @@
 #pragma once
 
-#include "daemon/service/studies/jobs.h"
 #include "daemon/service/api/methods.h"
 #include "daemon/service/recordings/records.h"
+#include "daemon/service/studies/jobs.h"
 #include "daemon/service/studies/study_computation.h"
 #include "daemon/service/studies/study_store.h"
 

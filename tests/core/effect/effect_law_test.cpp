@@ -214,7 +214,8 @@ TEST(Effects, ASimulationSaysWhatItLacks) {
             "line(f=5): a simulation needs amplitude=… (amplitude of the fundamental; the multiple "
             "h has an h-th of it)");
   EXPECT_EQ(message("WN + witness(heat, coefficient=1)"),
-            "witness(heat, coefficient=1): a simulation needs the samples of heat");
+            "witness(heat, coefficient=1): a simulation needs the samples of heat; give imunoise "
+            "simulate --witness \"heat: RW(gamma2=1e-6)\" or --witness heat=FILE");
   EXPECT_EQ(message("WN + line(f=26, amplitude=1)"),
             "line(f=26, amplitude=1): half the sampling rate is 25 Hz");
   EXPECT_EQ(message("WN + line(f=5, amplitude=1)"), "possible");

@@ -203,7 +203,7 @@ TEST_F(CatalogueOf, FindsADeviceByWhatPeopleCallIt) {
   refreshed(catalogue);
   const auto several = catalogue.device("imu0");
   ASSERT_FALSE(several);
-  EXPECT_NE(several.error().message.find("name one of simulated:0042, simulated:0043"),
+  EXPECT_NE(several.error().message.find("give one of simulated:0042, simulated:0043"),
             std::string::npos);
 }
 
