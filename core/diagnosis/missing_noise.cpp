@@ -209,8 +209,7 @@ void add_filters(const Current& current, Suggestions& out) {
   }
 }
 
-// Correlation time of a Markov process, of the slower root of a second-order one, samples; 0 of any
-// other.
+// Correlation time, samples; 0 of a process that has none.
 double memory_of(const Process& process) {
   for (const DerivedQuantity& one : derived(process, Hertz{1.0})) {
     if (one.coefficient == Coefficient::kCorrelationTime) return one.value;
@@ -235,9 +234,13 @@ bool is_bandwidth(const Model& noise) {
 // Heat does not move a sensor faster than this.
 constexpr double kFastestHeat = 10.0;  // s
 
-bool has_slow_memory(const Model& noise, Hertz rate) {
-  return std::any_of(noise.terms.begin(), noise.terms.end(), [&](const Term& term) {
-    return memory_of(term.process) > kFastestHeat * rate.value;
+// By its correlation time, or by the frequency at which it rings.
+bool as_slow_as_heat(const Process& process, Hertz rate) {
+  const std::vector<DerivedQuantity> all = derived(process, rate);
+  return std::any_of(all.begin(), all.end(), [](const DerivedQuantity& one) {
+    const bool rings = one.coefficient == Coefficient::kFrequency;
+    return rings ? 2.0 * std::numbers::pi * one.value * kFastestHeat < 1.0
+                 : one.coefficient == Coefficient::kCorrelationTime && one.value > kFastestHeat;
   });
 }
 
@@ -329,8 +332,12 @@ void review_noise(const Current& current, TriedTerm& tried) {
   constexpr double kUnsteady = 1e-3;
   if (tried.cause == "gauss_markov") name_markov(tried);
   if (tried.cause == "telegraph") return;
-  if (tried.cause == "gauss_markov" || tried.cause == "second_order")
-    tried.slow = has_slow_memory(tried.fitted.fit.model.noise, current.subject().rate);
+  if (tried.cause == "gauss_markov" || tried.cause == "second_order") {
+    const std::vector<Term>& terms = tried.fitted.fit.model.noise.terms;
+    tried.slow = std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+      return as_slow_as_heat(term.process, current.subject().rate);
+    });
+  }
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
   tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
 }
