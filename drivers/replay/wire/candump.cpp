@@ -44,9 +44,17 @@ class CandumpCodec final : public WireCodec {
           fmt::format("{}: no line of candump -L with a message of {}; is it another IMU's?",
                       file.string(), product_));
     }
+    for (const imunoise::can::CanStream& one : left_out) {
+      notes_.push_back(
+          fmt::format("{}: message {} comes once, which tells no rate; it is left out (rate=100 "
+                      "records it)",
+                      file.string(), one.message().name));
+    }
   }
 
   drivers::DeviceInfo info() const override { return {streams_.descriptions(), product_}; }
+
+  std::vector<std::string> notes() const override { return notes_; }
 
   std::optional<std::int64_t> next() override {
     if (!read_frame(log_)) return std::nullopt;
@@ -77,6 +85,7 @@ class CandumpCodec final : public WireCodec {
   }
 
   std::string product_;
+  std::vector<std::string> notes_;
   drivers::CanChannels channels_;
   imunoise::can::FrameStreams streams_;
   LogFile log_;

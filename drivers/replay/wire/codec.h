@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/adis16405/settings.h"
 #include "drivers/can/codec/channels.h"
@@ -24,6 +25,8 @@ class WireCodec {
 
   /// What the driver would say.
   virtual drivers::DeviceInfo info() const = 0;
+  /// What its opening found that a person should know, a sentence each.
+  virtual std::vector<std::string> notes() const { return {}; }
   /// Goes on to the next message: its time, ns since the first. Nothing: that was the last.
   virtual std::optional<std::int64_t> next() = 0;
   /// Adds what that message holds, or counts why it does not.

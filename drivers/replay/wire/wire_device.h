@@ -13,7 +13,9 @@ namespace imunoise::replay {
 class WireDevice final : public plugin::Device {
  public:
   WireDevice(std::unique_ptr<WireCodec> codec, Pace pace, const plugin::Host& host)
-      : codec_(std::move(codec)), timeline_(pace, host), next_ns_(codec_->next()) {}
+      : codec_(std::move(codec)), timeline_(pace, host), next_ns_(codec_->next()) {
+    for (const std::string& note : codec_->notes()) host.note(note);
+  }
 
   drivers::DeviceInfo describe() override { return codec_->info(); }
   void read(plugin::Samples& samples, const plugin::Wait& wait) override;

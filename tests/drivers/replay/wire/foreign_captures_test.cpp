@@ -114,6 +114,17 @@ TEST_F(Capture, CandumpLinesOfOthersArePassedOver) {
   EXPECT_EQ(session->rows()[77].numbers[0], 77.0);
 }
 
+TEST_F(Capture, ACandumpMessageThatComesOnceIsNamed) {
+  std::string log = "(1700000000.000000) can0 032#000000000000\n";
+  for (int i = 0; i < 100; ++i)
+    log += fmt::format("({:.6f}) can0 034#{:04X}00000000\n", 1.7e9 + 0.01 * i, i);
+  write(log);
+  const auto session = replay({{"preset", "mti600"}}, "candump");
+  ASSERT_NE(session, nullptr);
+  EXPECT_EQ(session->info().streams.size(), 1U);
+  EXPECT_NE(session->notes().find("RateOfTurn comes once"), std::string::npos) << session->notes();
+}
+
 TEST_F(Capture, BurstsEndWithTheLastWholeOne) {
   write(std::string(26 * 5 + 13, '\0'));  // nothing in them is new
   const auto session = replay({}, "adis16405");
