@@ -41,7 +41,7 @@ void walk(const CommandText& command, Lists& out) {
   const std::string name = below_program(command);
   std::vector<std::string> parts;
   std::vector<std::string> options;
-  for (const auto& [group, part] : command.parts) parts.push_back(short_name(part));
+  for (const CommandText& part : command.parts) parts.push_back(short_name(part));
   for (const OptionText& option : command.options) {
     for (const std::string& one : option.names) {
       options.push_back(one);
@@ -51,7 +51,7 @@ void walk(const CommandText& command, Lists& out) {
   }
   out.words += "    \"" + name + "\") parts=\"" + words(parts) + "\" options=\"" + words(options) +
                "\" ;;\n";
-  for (const auto& [group, part] : command.parts) {
+  for (const CommandText& part : command.parts) {
     out.commands +=
         (out.commands.empty() ? "" : " | ") + ("\"" + name + ":") + short_name(part) + "\"";
     walk(part, out);

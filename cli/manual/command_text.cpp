@@ -123,10 +123,10 @@ CommandText read_command(const CLI::App& command) {
   read_inherited(command, out);
   for (const CLI::App* part : command.get_subcommands({})) {
     if (part->get_name().empty()) continue;
-    const std::string group = part->get_group() == "Subcommands" ? "Commands" : part->get_group();
-    if (std::find(out.groups.begin(), out.groups.end(), group) == out.groups.end())
-      out.groups.push_back(group);
-    out.parts.emplace_back(group, read_command(*part));
+    CommandText& text = out.parts.emplace_back(read_command(*part));
+    text.group = part->get_group() == "Subcommands" ? "Commands" : part->get_group();
+    if (std::find(out.groups.begin(), out.groups.end(), text.group) == out.groups.end())
+      out.groups.push_back(text.group);
   }
   return out;
 }

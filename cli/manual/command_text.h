@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace imunoise::manual {
@@ -31,8 +30,9 @@ struct CommandText {
   std::string notes;                  ///< paragraphs; lines that begin with a blank stay
   std::vector<OptionText> arguments;  ///< in their order
   std::vector<OptionText> options;    ///< with those of the program that hold here too
-  std::vector<std::string> groups;    ///< titles of `parts`, in their order
-  std::vector<std::pair<std::string, CommandText>> parts;  ///< title of its group, subcommand
+  std::string group;                  ///< title of the group that it stands in; empty: the program
+  std::vector<std::string> groups;    ///< titles of the groups of `parts`, in their order
+  std::vector<CommandText> parts;     ///< subcommands
 };
 
 /// Reads one command with everything below it. The footer of a command begins with "Examples:";

@@ -62,8 +62,8 @@ std::string help_text(const CommandText& command) {
   if (!command.examples.empty()) out += "\nExamples:\n" + command.examples + "\n";
   for (const std::string& group : command.groups) {
     out += "\n" + group + ":\n";
-    for (const auto& [title, part] : command.parts) {
-      if (title == group) out += entry(short_name(part), part.about);
+    for (const CommandText& part : command.parts) {
+      if (part.group == group) out += entry(short_name(part), part.about);
     }
   }
   out += section("Arguments", command.arguments) + section("Options", command.options);

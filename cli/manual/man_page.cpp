@@ -85,8 +85,8 @@ std::string commands(const CommandText& command, int section) {
   std::string out = ".SH COMMANDS\n";
   for (const std::string& group : command.groups) {
     out += ".SS " + escaped(group) + "\n";
-    for (const auto& [title, part] : command.parts) {
-      if (title != group) continue;
+    for (const CommandText& part : command.parts) {
+      if (part.group != group) continue;
       out += ".TP\n" + reference(page_name(part.name), section) + "\n" + escaped(part.about) + "\n";
     }
   }
@@ -136,7 +136,7 @@ std::string page(const CommandText& command, int section, const std::string& ver
 std::vector<ManPage> man_pages(const CommandText& command, int section,
                                const std::string& version) {
   std::vector<ManPage> out = {{page_name(command.name), section, page(command, section, version)}};
-  for (const auto& [group, part] : command.parts) {
+  for (const CommandText& part : command.parts) {
     for (ManPage& one : man_pages(part, section, version)) out.push_back(std::move(one));
   }
   return out;

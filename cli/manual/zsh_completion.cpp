@@ -72,17 +72,17 @@ std::string function_of(const CommandText& command) {
       "  case $state in\n"
       "    command)\n"
       "      local -a commands=(\n";
-  for (const auto& [group, part] : command.parts)
+  for (const CommandText& part : command.parts)
     out += "        '" + short_name(part) + ":" + quoted(part.about) + "'\n";
   out +=
       "      )\n"
       "      _describe -t commands command commands ;;\n"
       "    argument)\n"
       "      case $line[1] in\n";
-  for (const auto& [group, part] : command.parts)
+  for (const CommandText& part : command.parts)
     out += "        " + short_name(part) + ") " + function_name(part) + " ;;\n";
   out += "      esac ;;\n  esac\n}\n\n";
-  for (const auto& [group, part] : command.parts) out += function_of(part);
+  for (const CommandText& part : command.parts) out += function_of(part);
   return out;
 }
 
