@@ -9,7 +9,14 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 hide=""
-if [[ ${1:-} == --hide ]]; then hide=${2:?"--hide needs the name of an effect"}; fi
+case ${1:-} in
+  --hide) hide=${2:?"--hide needs the name of an effect"} ;;
+  "") ;;
+  *)
+    echo "usage: $0 [--hide fan|mains|step|outliers|warm_up|temperature]" >&2
+    exit 2
+    ;;
+esac
 
 # A MEMS gyro: angle random walk 0.17 °/√h, a bias that wanders by 20 °/h with a memory of 5 s, and
 # slowly without bound. Six static recordings of one hour at 100 Hz show all four parameters.
