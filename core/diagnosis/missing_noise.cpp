@@ -180,6 +180,30 @@ void add_second_order(const Current& current, const ScoreSpace& space, double lo
   if (!special) out.push_back(std::move(best));
 }
 
+// White noise that a sensor averages over a window which is no multiple of the sampling interval,
+// as where a host reads it at a pace of its own: neighbours share a part of the window. Offered
+// where it explains clearly more than filters of known length.
+void add_free_filter(const Current& current, std::size_t place, double before, Suggestions& out) {
+  constexpr double kClearly = 6.0;
+  Model changed = current.fit.model.noise;
+  const double sigma2 = values(changed.terms[place].process)[0];
+  const MovingAverage start{0.9 * sigma2, {0.1}};
+  changed.terms[place] = Term(start);
+  WhittleEstimate found = whittle(changed, current.pooled);
+  const double gain = before - found.objective;
+  const bool special = std::any_of(out.begin(), out.end(), [&](const Suggestion& other) {
+    return other.cause == "low_pass" && other.score_nats > gain - kClearly;
+  });
+  if (special || !(gain > 0.0)) return;
+  const auto filter = std::find_if(
+      found.model.terms.begin(), found.model.terms.end(),
+      [](const Term& term) { return std::holds_alternative<MovingAverage>(term.process); });
+  const Process added = filter->process;
+  out.push_back({.cause = "low_pass",
+                 .added = NoiseChange{std::move(found.model), added},
+                 .score_nats = gain});
+}
+
 // White noise through the device's filter instead of white noise.
 void add_filters(const Current& current, Suggestions& out) {
   const Model& noise = current.fit.model.noise;
@@ -207,6 +231,7 @@ void add_filters(const Current& current, Suggestions& out) {
     }
     if (best.score_nats > 0.0) out.push_back(std::move(best));
   }
+  add_free_filter(current, place, before, out);
 }
 
 // Correlation time, samples; 0 of a process that has none.

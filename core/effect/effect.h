@@ -128,7 +128,7 @@ struct Effect {
   const std::vector<SharedVector>& (*variance_course)(const EffectTerm& term,
                                                       const Subject& subject) = nullptr;
   /// Gives each replicate noise of its own, and the likelihood of that.
-  void (*own_noise)(const Regression& regression, JointFit& fit) = nullptr;
+  void (*own_noise)(const EffectTerm& term, const Regression& regression, JointFit& fit) = nullptr;
 
   // Simulation.
   /// Puts the term's truth into one replicate; every required truth is given.

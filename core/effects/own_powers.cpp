@@ -1,4 +1,4 @@
-// own_powers: every replicate has noise powers of its own.
+// own_powers: every replicate has noise powers of its own, or a whole spectrum of its own.
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 
 #include "core/effect/columns.h"
 #include "core/search/search_view.h"
+#include "core/support/parallel.h"
 
 namespace imunoise::effects {
 
@@ -13,7 +14,9 @@ const Effect& own_powers();
 
 namespace {
 
-enum OwnPowersParameter : std::size_t { kOwnPowersSpread };
+enum OwnPowersParameter : std::size_t { kOwnPowersSpread, kOwnPowersShapes };
+
+bool with_shapes(const EffectTerm& term) { return term[kOwnPowersShapes] != 0.0; }
 
 // The model with all that is not a power held as it is.
 Model powers_only(Model model) {
@@ -23,12 +26,16 @@ Model powers_only(Model model) {
   return model;
 }
 
-void fit_own_powers(const Regression& regression, JointFit& fit) {
+void fit_own_powers(const EffectTerm& term, const Regression& regression, JointFit& fit) {
+  const Model start = with_shapes(term) ? fit.model.noise : powers_only(fit.model.noise);
+  const std::vector<BandedPower> residual = regression.residual(fit.effects.value);
+  std::vector<WhittleEstimate> found(residual.size());
+  for_each_index(residual.size(),
+                 [&](std::size_t k) { found[k] = whittle(start, std::span(&residual[k], 1)); });
   fit.log_likelihood = 0.0;
-  for (const BandedPower& one : regression.residual(fit.effects.value)) {
-    const WhittleEstimate found = whittle(powers_only(fit.model.noise), std::span(&one, 1));
-    fit.log_likelihood -= found.objective;
-    fit.own_noise.push_back(found.model);
+  for (const WhittleEstimate& one : found) {
+    fit.log_likelihood -= one.objective;
+    fit.own_noise.push_back(one.model);
   }
 }
 
@@ -51,6 +58,22 @@ double log_ratio(const Model& own, const Model& all) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+// The shapes of each replicate's noise.
+void add_shapes(const JointFit& fit, std::vector<ReportedNumber>& out) {
+  for (std::size_t k = 0; k < fit.own_noise.size(); ++k) {
+    for (const Term& term : fit.own_noise[k].terms) {
+      const std::vector<ParameterInfo> infos = parameters(term.process);
+      const std::vector<double> own = values(term.process);
+      for (std::size_t p = 1; p < own.size(); ++p) {
+        if (term.given[p]) continue;
+        out.push_back(
+            {fmt::format("{} of {} in replicate {}", infos[p].name, info(term.process).name, k + 1),
+             own[p], infos[p].dimension == Dimension::kSeconds ? "s" : "1"});
+      }
+    }
+  }
+}
+
 std::vector<ReportedNumber> own_powers_numbers(const FittedEffect& effect) {
   const JointFit& fit = effect.model.fit;
   const auto replicates = static_cast<Eigen::Index>(fit.own_noise.size());
@@ -65,31 +88,63 @@ std::vector<ReportedNumber> own_powers_numbers(const FittedEffect& effect) {
   }
   for (Eigen::Index k = 0; k < replicates; ++k)
     out.push_back({fmt::format("power ratio of replicate {}", k + 1), std::exp(ratios(k)), "1"});
+  if (with_shapes(effect.term())) add_shapes(fit, out);
   return out;
 }
 
-// Powers that could differ between replicates.
-double free_powers(const Model& noise) {
-  double out = 0.0;
+// What could differ between replicates: powers, and with them shapes.
+struct FreeNumbers {
+  double powers = 0.0;
+  double shapes = 0.0;
+};
+
+FreeNumbers free_numbers(const Model& noise) {
+  FreeNumbers out;
   for (const Term& term : noise.terms) {
-    if (!term.given[0] && values(term.process)[0] > 0.0) ++out;
+    if (!(values(term.process)[0] > 0.0)) continue;
+    if (!term.given[0]) ++out.powers;
+    for (std::size_t p = 1; p < term.given.size(); ++p) out.shapes += term.given[p] ? 0.0 : 1.0;
   }
   return out;
 }
 
+// What a spectrum that all replicates share could still gain at most, nats.
+double common_misfit(const Current& current) {
+  double out = 0.0;
+  for (const BandedPower& bands : current.pooled) {
+    const Eigen::ArrayXd ratio = bands.power / spectrum(current.fit.model.noise, bands.frequency);
+    out += (0.5 * bands.count * (ratio - 1.0 - ratio.log())).sum();
+  }
+  return out;
+}
+
+Suggestion suggested(const Current& current, bool shapes, double dof) {
+  const EffectTerm own(own_powers(), "", {{"shapes", shapes ? 1.0 : 0.0}});
+  const JointFit apart = joint_fit(current.regression.with(own), current.fit.model.noise);
+  return {.cause = shapes ? "replicate_bandwidth" : "replicate_change",
+          .added = own,
+          .score_nats = apart.log_likelihood - current.fit.log_likelihood,
+          .dof = dof};
+}
+
 Suggestions search_own_powers(const SearchView& view) {
   const Current& current = view.current();
-  const auto replicates = static_cast<double>(view.subject().replicates());
   // What modulates the noise has made it differ between replicates, and the likelihood of their
   // powers does not know.
   const bool modulated = !current.fit.modulation.empty();
   if (view.subject().replicates() == 1 || !current.fit.own_noise.empty() || modulated) return {};
-  const EffectTerm own(own_powers());
-  const JointFit apart = joint_fit(current.regression.with(own), current.fit.model.noise);
-  return {{.cause = "replicate_change",
-           .added = own,
-           .score_nats = apart.log_likelihood - current.fit.log_likelihood,
-           .dof = (replicates - 1.0) * free_powers(current.fit.model.noise)}};
+  const double others = static_cast<double>(view.subject().replicates()) - 1.0;
+  const FreeNumbers free = free_numbers(current.fit.model.noise);
+  Suggestions out{suggested(current, false, others * free.powers)};
+  if (!(free.shapes > 0.0)) return out;
+  // Shapes are offered where they explain clearly more than powers alone, which are simpler, and
+  // than a better spectrum for all could: spectra of their own hide what is missing in all.
+  Suggestion shapes = suggested(current, true, others * (free.powers + free.shapes));
+  constexpr double kClearly = 6.0;
+  const double chance = 0.5 * others * free.shapes;
+  const bool clearly = shapes.score_nats - out[0].score_nats > 2.0 * chance + kClearly;
+  if (clearly && shapes.score_nats > 2.0 * common_misfit(current)) out.push_back(std::move(shapes));
+  return out;
 }
 
 // Of the noise that each replicate has of its own, white noise alone explains less than half.
@@ -119,13 +174,25 @@ const Effect& own_powers() {
                                  "noise power",
                       .unit = "1",
                       .reported = "spread",
-                      .truth = true}},
+                      .truth = true},
+                     {.name = "shapes",
+                      .meaning = "correlation times, frequencies and filters differ, too",
+                      .form = ParameterForm::kFlag}},
       .causes = {{.id = "replicate_change",
                   .title = "noise that differs between replicates",
                   .physics = "The device, its surroundings or its settings were not the same in "
                              "every replicate.",
                   .record_next = "more replicates, with everything that could differ written down",
                   .looks_like = {"modulated_variance"},
+                  .family = "replicate_change"},
+                 {.id = "replicate_bandwidth",
+                  .title = "a spectrum that differs between replicates",
+                  .physics = "The sampling rate or the sensor's filter was not the same in every "
+                             "replicate: the host read the sensor at another pace, or a register "
+                             "was set differently.",
+                  .record_next = "the clock time of every sample and the filter settings of every "
+                                 "replicate",
+                  .looks_like = {"replicate_change"},
                   .family = "replicate_change"}},
       .own_noise = fit_own_powers,
       .simulate = simulate_own_powers,

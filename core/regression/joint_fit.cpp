@@ -32,7 +32,7 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
     if (round > 0 && std::abs(out.log_likelihood - before) < kSettled) break;
   }
   for (const EffectTerm& term : regression.effects()) {
-    if (term.effect->own_noise != nullptr) term.effect->own_noise(regression, out);
+    if (term.effect->own_noise != nullptr) term.effect->own_noise(term, regression, out);
   }
   const std::vector<const VarianceCourse*> courses = variance_courses(regression);
   if (courses.empty()) return out;

@@ -1,0 +1,79 @@
+// Sensors that average over a window and are read at a pace of the host's own: their filter is
+// found, and so are replicates that were read at another pace.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/search/search_view.h"
+#include "tests/core/diagnosis/subject_of.h"
+
+namespace imunoise {
+namespace {
+
+constexpr std::size_t kSamples = 8192;
+
+// Four replicates of white noise averaged over a window of `windows[k]` sampling intervals, at
+// least one and at most two: neighbours correlate by 1 - 1/window, others not at all.
+std::shared_ptr<const Subject> averaged(const std::vector<double>& windows, std::uint64_t seed) {
+  std::vector<std::vector<double>> noise;
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    const double rho = 1.0 - 1.0 / windows[k];
+    const double theta = rho > 0.0 ? (1.0 - std::sqrt(1.0 - 4.0 * rho * rho)) / (2.0 * rho) : 0.0;
+    const MovingAverage process{1.0 / (1.0 + theta * theta), {theta}};
+    noise.push_back(
+        simulate(Model{{Term(process)}}, kSamples, seed, static_cast<std::uint32_t>(k)));
+  }
+  return subject_of({.model = "RW(gamma2=1e-5)",
+                     .samples = kSamples,
+                     .replicates = windows.size(),
+                     .seed = seed + 1000,
+                     .added = [&](std::size_t k, double seconds) {
+                       return noise[k][static_cast<std::size_t>(std::lround(seconds * 50.0))];
+                     }});
+}
+
+const TriedTerm& best(const Diagnosis& diagnosis) { return diagnosis.effects.at(0).tried; }
+
+std::string added(const TriedTerm& tried) {
+  if (tried.term() != nullptr) return print(*tried.term());
+  return std::string(info(std::get<NoiseChange>(tried.suggestion.added).added).name);
+}
+
+TEST(OwnPowers, AWindowThatIsNoMultipleOfTheIntervalIsAFilterOfFreeTap) {
+  const Diagnosis diagnosis = diagnose(fitted(averaged({1.2, 1.2, 1.2, 1.2}, 51)));
+  EXPECT_EQ(best(diagnosis).cause, "low_pass");
+  EXPECT_EQ(added(best(diagnosis)), "MA");
+}
+
+TEST(OwnPowers, AWindowOfTwoIntervalsIsTheKnownFilter) {
+  const Diagnosis diagnosis = diagnose(fitted(averaged({2.0, 2.0, 2.0, 2.0}, 52)));
+  EXPECT_EQ(best(diagnosis).cause, "low_pass");
+  EXPECT_EQ(added(best(diagnosis)), "MAVG");
+}
+
+TEST(OwnPowers, AReplicateReadAtAnotherPaceHasASpectrumOfItsOwn) {
+  const auto subject = averaged({1.2, 1.2, 1.2, 1.42}, 53);
+  const Diagnosis diagnosis = diagnose(fitted(subject, "MA(1) + RW"));
+  EXPECT_EQ(best(diagnosis).cause, "replicate_bandwidth");
+  EXPECT_EQ(added(best(diagnosis)), "own_powers(shapes)");
+  const auto& own = best(diagnosis).fitted.fit.own_noise;
+  ASSERT_EQ(own.size(), 4U);
+  // θ of a window of 1.2 and of 1.42; its standard error is √((1 - θ²)/n) = 0.011.
+  EXPECT_NEAR(values(own[0].terms[0].process)[1], 0.172, 4 * 0.011);
+  EXPECT_NEAR(values(own[3].terms[0].process)[1], 0.328, 4 * 0.011);
+}
+
+TEST(OwnPowers, SpectraOfTheirOwnHideNothingThatAllReplicatesMiss) {
+  const auto subject = averaged({1.2, 1.2, 1.2, 1.42}, 54);
+  const Diagnosis diagnosis = diagnose(fitted(subject, "WN + RW + AR1"));
+  EXPECT_NE(added(best(diagnosis)), "own_powers(shapes)");
+}
+
+TEST(OwnPowers, EqualReplicatesGetNoSpectraOfTheirOwn) {
+  const Diagnosis diagnosis = diagnose(fitted(averaged({1.2, 1.2, 1.2, 1.2}, 55), "MA(1) + RW"));
+  for (const RankedTerm& one : diagnosis.effects) EXPECT_NE(one.tried.cause, "replicate_bandwidth");
+}
+
+}  // namespace
+}  // namespace imunoise
