@@ -23,6 +23,18 @@ double weighted_misfit(const Estimate& estimate, std::span<const WaveletVariance
 
 }  // namespace
 
+void fill_likelihood_intervals(Fit& fit, std::span<const BandedPower> powers) {
+  const Model& model = fit.estimate.model;
+  const ParameterSets sets = parameter_sets(model);
+  const auto power_error = [&](Eigen::Index column, double value) {
+    const Model worth = with_power(model, column, value);
+    return error_among(sets.interior, column, [&](const std::vector<Eigen::Index>& set) {
+      return bound(worth, powers, set);
+    });
+  };
+  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, powers[0].rate);
+}
+
 Fit make_efficient(Fit fit, std::span<const WaveletVariance> replicates,
                    std::span<const BandedPower> powers, const Progress& progress) {
   WhittleEstimate found = whittle(fit.estimate.model, powers, progress);
@@ -32,14 +44,7 @@ Fit make_efficient(Fit fit, std::span<const WaveletVariance> replicates,
   const Model& model = fit.estimate.model;
   fit.covariances = moment_covariances(model, replicates);
   fill_residuals(fit, replicates, normal_scores(model, replicates, fit.covariances));
-  const ParameterSets sets = parameter_sets(model);
-  const auto power_error = [&](Eigen::Index column, double value) {
-    const Model worth = with_power(model, column, value);
-    return error_among(sets.interior, column, [&](const std::vector<Eigen::Index>& set) {
-      return bound(worth, powers, set);
-    });
-  };
-  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, replicates[0].rate);
+  fill_likelihood_intervals(fit, powers);
   return fit;
 }
 

@@ -13,4 +13,8 @@ namespace imunoise {
 Fit make_efficient(Fit fit, std::span<const WaveletVariance> replicates,
                    std::span<const BandedPower> powers, const Progress& progress = {});
 
+/// Fills the intervals of a fit whose model is set, at the maximum of Whittle's likelihood of these
+/// powers: from the Fisher information.
+void fill_likelihood_intervals(Fit& fit, std::span<const BandedPower> powers);
+
 }  // namespace imunoise

@@ -11,6 +11,7 @@
 #include "study/analysis/diagnosis_report.h"
 #include "study/analysis/integrity_report.h"
 #include "study/analysis/judge.h"
+#include "study/analysis/ladder_findings.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/misfit_sentences.h"
 #include "study/analysis/prepare.h"
@@ -38,6 +39,17 @@ void drop_useless(FittedModel& model, Step& step, double level) {
                             useless->term, useless->loss);
     model = std::move(useless->without);
   }
+}
+
+// What a step says that leads back to a model of the same ladder.
+std::string came_back(const Step& step) {
+  std::string dropped;
+  for (const std::string& term : step.dropped)
+    dropped += fmt::format("{}{}", dropped.empty() ? "" : ", ", term);
+  return fmt::format(
+      "The ladder ends where it would go in circles: {} could be added, but beside it {} is no "
+      "longer needed, and the model is one that was tried before.",
+      step.added, dropped.empty() ? "nothing" : dropped);
 }
 
 // Works out what the ladder would show were one of the best candidates added, exactly as adding it
@@ -125,6 +137,9 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   *out.mutable_compared_before() = comparison_of(model, left, seen.name, seen.replicates);
   const double first = model.fit.log_likelihood;
   Step step{.added = "", .why = "The model as it was given."};
+  ModelsSeen models;
+  models.is_new(model.fit.model);
+  std::optional<DiagnosisVerdict> remaining;
   const int most = options.automatic ? kMostRungs : 1;
   for (int rung = 0; rung < most; ++rung) {
     const double begin = 0.25 + 0.7 * rung / most;
@@ -142,18 +157,29 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
       if (progress.stopped()) return fail("stopped");
     }
     if (!diagnosis.worth_adding) {
-      if (rung > 0) add_remaining(diagnosis.verdict, out);
+      remaining = diagnosis.verdict;
       break;
     }
     RankedTerm& best = diagnosis.effects.front();
-    step = step_of(best.tried);
-    model = std::move(best.tried.fitted);
-    if (options.automatic) drop_useless(model, step, options.level);
+    Step next = step_of(best.tried);
+    FittedModel grown = std::move(best.tried.fitted);
+    if (options.automatic) drop_useless(grown, next, options.level);
+    if (!models.is_new(grown.fit.model)) {
+      out.add_notes(came_back(next));
+      remaining = DiagnosisVerdict::kUnknown;
+      break;
+    }
+    step = std::move(next);
+    model = std::move(grown);
     left = left_over(model);
     if (rung + 1 < most) continue;
     if (!step.dropped.empty()) best.heldout = errors_held_out(model);
     *out.add_ladder() =
         rung_of(model, left, step, first, misfit_p_value(misfit_of(model)), best.heldout);
+  }
+  if (options.automatic && out.ladder_size() > 1) {
+    add_findings(model, out);
+    add_remaining(remaining, out);
   }
   *out.mutable_after() = budget_of(model, left);
   if (out.ladder_size() > 1)

@@ -176,16 +176,24 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
   }
 }
 
-void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to) {
-  to.set_remaining(verdict_of(verdict));
+void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport& to) {
+  std::string all;
+  for (const v1::LadderFinding& one : to.findings())
+    all += fmt::format("{}{}", all.empty() ? "" : "; ", one.sentence());
   // Several effects explain together what the best of them does not.
-  if (to.verdict() == v1::unknown) {
-    std::string all;
-    for (int rung = 1; rung < to.ladder_size(); ++rung)
-      all += fmt::format("{}{}", rung == 1 ? "" : ", ", cause_info(to.ladder(rung).effect()).title);
+  if (to.verdict() == v1::unknown && !all.empty()) {
     to.set_summary(fmt::format("Missing: {}.", all));
+  } else if (!all.empty()) {
+    to.set_summary(fmt::format("{} Found: {}.", to.summary(), all));
   }
-  const std::string_view left = verdict == DiagnosisVerdict::kNone
+  if (!verdict) {
+    to.set_summary(
+        to.summary() +
+        " The ladder ends at its longest; go on from its last model with imunoise study.");
+    return;
+  }
+  to.set_remaining(verdict_of(*verdict));
+  const std::string_view left = *verdict == DiagnosisVerdict::kNone
                                     ? "no further effect is missing that these data could show"
                                     : "a misfit remains that no known effect explains";
   to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));

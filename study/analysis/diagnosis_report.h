@@ -11,8 +11,9 @@ namespace imunoise::study {
 /// Fills verdict, summary, candidates and limits of a report whose unit is set.
 void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to);
 
-/// Adds what a look at the last rung showed, once something was added.
-void add_remaining(DiagnosisVerdict verdict, v1::DiagnosisReport& to);
+/// Tells in the summary what the whole ladder found (the report's findings), and what a look at its
+/// last rung showed; unset: the ladder was long enough, and that was not looked at.
+void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport& to);
 
 /// How the ladder came to a model.
 struct Step {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/estimate/whittle.h"
+#include "core/inference/efficient_fit.h"
 #include "core/inference/intervals.h"
 #include "core/inference/parameter_covariance.h"
 #include "study/analysis/vocabulary.h"
@@ -15,14 +16,7 @@ constexpr double kConfidence = 0.95;
 
 std::vector<v1::EffectParameter> messages_of(const std::vector<ReportedNumber>& numbers) {
   std::vector<v1::EffectParameter> out;
-  for (const ReportedNumber& from : numbers) {
-    v1::EffectParameter& to = out.emplace_back();
-    to.set_name(from.name);
-    to.set_value(from.value);
-    to.set_unit(from.unit);
-    if (from.lower) to.set_lower(*from.lower);
-    if (from.upper) to.set_upper(*from.upper);
-  }
+  for (const ReportedNumber& from : numbers) out.push_back(message_of(from));
   return out;
 }
 
@@ -95,6 +89,38 @@ std::vector<v1::EffectParameter> effect_parameters(const TriedTerm& tried, const
     first.push_back(std::move(one));
   first.insert(first.end(), last.begin(), last.end());
   return messages_of(first);
+}
+
+std::vector<ReportedNumber> noise_coefficients(const FittedModel& model, std::size_t term) {
+  const Quantity quantity = model.regression.subject().quantity;
+  Fit fit;
+  fit.estimate.model = model.fit.model.noise;
+  fit.confidence = kConfidence;
+  fill_likelihood_intervals(
+      fit, pooled(model.regression.residual(model.fit.effects, model.fit.model.noise)));
+  std::vector<ReportedNumber> out;
+  for (const DerivedEstimate& one : fit.derived[term]) {
+    const CoefficientUnits units = coefficient_units(one.coefficient, quantity);
+    ReportedNumber& number = out.emplace_back();
+    number.name = units.title;
+    number.value = one.value;
+    number.unit = units.si;
+    if (std::isfinite(one.lower) && std::isfinite(one.upper) && one.lower < one.upper) {
+      number.lower = one.lower;
+      number.upper = one.upper;
+    }
+  }
+  return out;
+}
+
+v1::EffectParameter message_of(const ReportedNumber& from) {
+  v1::EffectParameter to;
+  to.set_name(from.name);
+  to.set_value(from.value);
+  to.set_unit(from.unit);
+  if (from.lower) to.set_lower(*from.lower);
+  if (from.upper) to.set_upper(*from.upper);
+  return to;
 }
 
 std::vector<v1::EffectParameter> fitted_parameters(const FittedModel& model, std::size_t number) {

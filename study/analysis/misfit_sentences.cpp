@@ -5,16 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
+
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
 
 constexpr double kWorthSaying = 3.0;  // standard deviations
 constexpr double kOfMany = 4.0;       // of so many places some deviate by three
+constexpr int kMostSentences = 12;
 
 std::string percent_more(double ratio) {
-  return ratio >= 1.0 ? fmt::format("{:.0f} % more", 100.0 * (ratio - 1.0))
-                      : fmt::format("{:.0f} % less", 100.0 * (1.0 - ratio));
+  return fmt::format("{} % {}",
+                     report::number(100.0 * std::abs(ratio - 1.0), 2, report::Digits::kPlain),
+                     ratio >= 1.0 ? "more" : "less");
 }
 
 std::string in_how_many(int found, int all) {
@@ -110,41 +115,76 @@ void add_bands(const std::vector<BandMisfit>& bands, v1::DiagnosisReport& to) {
   }
 }
 
-void add_times(v1::DiagnosisReport& to) {
+// The stretches of all replicates that are noisier, or quieter, than the rest: one sentence.
+void add_stretches(v1::DiagnosisReport& to, double side) {
+  const v1::TimeStretch* worst = nullptr;
+  std::set<std::string> replicates;
+  int stretches = 0;
   for (const v1::TimeStretch& one : to.compared_before().times()) {
-    if (std::abs(one.sigma()) < kOfMany) continue;
-    v1::Misfit& misfit = add(to, "time", one.sigma(),
-                             fmt::format("{}: from {:.0f} to {:.0f} s the noise has {} variance "
-                                         "than in the rest ({:.1f} sigma).",
-                                         one.replicate(), one.from(), one.to(),
-                                         percent_more(one.ratio()), std::abs(one.sigma())));
-    misfit.set_from(one.from());
-    misfit.set_to(one.to());
+    if (!(side * one.sigma() >= kOfMany)) continue;
+    ++stretches;
+    replicates.insert(one.replicate());
+    if (worst == nullptr || side * one.sigma() > side * worst->sigma()) worst = &one;
   }
+  if (worst == nullptr) return;
+  std::string others;
+  if (stretches > 1)
+    others = fmt::format(" The same holds in {} stretches of {} replicate{}; this is the worst.",
+                         stretches, replicates.size(), replicates.size() == 1 ? "" : "s");
+  v1::Misfit& misfit =
+      add(to, "time", worst->sigma(),
+          fmt::format("{}: from {:.0f} to {:.0f} s the noise has {} variance than in the rest "
+                      "({:.1f} sigma).{}",
+                      worst->replicate(), worst->from(), worst->to(), percent_more(worst->ratio()),
+                      std::abs(worst->sigma()), others));
+  misfit.set_from(worst->from());
+  misfit.set_to(worst->to());
 }
 
-// A replicate that deviates more than all of them together do is a matter of its own.
-void add_replicates(v1::DiagnosisReport& to) {
-  const v1::NoiseBudget& budget = to.before();
-  for (const v1::ReplicateResidual& one : to.compared_before().replicates()) {
-    const int count = std::min(one.residual_size(), budget.scales_size());
-    int worst = -1;
-    for (int i = 0; i < count; ++i) {
-      const double own = std::abs(one.residual(i));
-      if (own < kOfMany || own < std::abs(budget.residual(i))) continue;
-      if (worst < 0 || own > std::abs(one.residual(worst))) worst = i;
-    }
-    if (worst < 0) continue;
-    v1::Misfit& misfit =
-        add(to, "replicate", one.residual(worst),
-            fmt::format("{}: at an averaging time of {:.3g} s it has {} variance than the model "
-                        "({:.1f} sigma).",
-                        one.name(), one.scales_s(worst),
-                        percent_more(one.measured(worst) / budget.model(worst)),
-                        std::abs(one.residual(worst))));
-    misfit.set_from(one.scales_s(worst));
-    misfit.set_to(one.scales_s(worst));
+// Where a replicate deviates more than all of them together do.
+struct OwnMisfit {
+  const v1::ReplicateResidual* replicate = nullptr;
+  int scale = 0;
+  double sigma = 0.0;
+};
+
+OwnMisfit own_misfit(const v1::ReplicateResidual& one, const v1::NoiseBudget& budget) {
+  OwnMisfit out{&one};
+  for (int i = 0; i < std::min(one.residual_size(), budget.residual_size()); ++i) {
+    const double own = one.residual(i);
+    if (std::abs(own) < std::max(kOfMany, std::abs(budget.residual(i)))) continue;
+    if (std::abs(own) > std::abs(out.sigma)) out = {&one, i, own};
   }
+  return out;
+}
+
+// The replicates that are noisier, or quieter, than the model: one sentence.
+void add_replicates(v1::DiagnosisReport& to, double side) {
+  const v1::NoiseBudget& budget = to.before();
+  std::vector<OwnMisfit> found;
+  for (const v1::ReplicateResidual& one : to.compared_before().replicates()) {
+    const OwnMisfit own = own_misfit(one, budget);
+    if (side * own.sigma > 0.0) found.push_back(own);
+  }
+  if (found.empty()) return;
+  std::stable_sort(found.begin(), found.end(), [](const OwnMisfit& a, const OwnMisfit& b) {
+    return std::abs(a.sigma) > std::abs(b.sigma);
+  });
+  const OwnMisfit& worst = found.front();
+  std::string others;
+  for (std::size_t i = 1; i < found.size(); ++i)
+    others += fmt::format("{}{}", i == 1 ? "" : ", ", found[i].replicate->name());
+  if (!others.empty()) others = fmt::format(" Likewise, less surely: {}.", others);
+  const double seconds = worst.replicate->scales_s(worst.scale);
+  v1::Misfit& misfit = add(
+      to, "replicate", worst.sigma,
+      fmt::format("{}: at an averaging time of {:.3g} s it has {} variance than the model ({:.1f} "
+                  "sigma).{}",
+                  worst.replicate->name(), seconds,
+                  percent_more(worst.replicate->measured(worst.scale) / budget.model(worst.scale)),
+                  std::abs(worst.sigma), others));
+  misfit.set_from(seconds);
+  misfit.set_to(seconds);
 }
 
 void add_sensors(v1::DiagnosisReport& to) {
@@ -171,15 +211,27 @@ void add_kurtosis(const MisfitReport& misfit, v1::DiagnosisReport& to) {
                   misfit.excess_kurtosis, sigma));
 }
 
+void keep_worst(google::protobuf::RepeatedPtrField<v1::Misfit>& misfits) {
+  std::stable_sort(misfits.pointer_begin(), misfits.pointer_end(),
+                   [](const v1::Misfit* a, const v1::Misfit* b) {
+                     return std::abs(a->sigma()) > std::abs(b->sigma());
+                   });
+  if (misfits.size() > kMostSentences)
+    misfits.DeleteSubrange(kMostSentences, misfits.size() - kMostSentences);
+}
+
 }  // namespace
 
 void add_misfits(const MisfitReport& misfit, v1::DiagnosisReport& to) {
   add_scales(to);
   add_bands(misfit.bands, to);
-  add_times(to);
-  add_replicates(to);
+  for (const double side : {1.0, -1.0}) {
+    add_stretches(to, side);
+    add_replicates(to, side);
+  }
   add_sensors(to);
   add_kurtosis(misfit, to);
+  keep_worst(*to.mutable_misfits());
 }
 
 }  // namespace imunoise::study

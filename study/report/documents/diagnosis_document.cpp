@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "study/report/documents/diagnosis_words.h"
 #include "study/report/documents/effect_rows.h"
@@ -24,6 +25,12 @@ std::string name_of(const v1::Rung& rung) {
   return out;
 }
 
+// Empty where there are none.
+std::string nats(double value, int significant, Digits digits) {
+  constexpr double kNothing = 0.05;
+  return std::abs(value) < kNothing ? "" : number(value, significant, digits) + " nats";
+}
+
 Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
   Table out{"The ladder: held-out error (noise floor = 1)",
             {"added", "held-out error", "training error", "gained", "misfit p"},
@@ -35,8 +42,7 @@ Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
                                             rung.heldout_upper(), digits)
                             : "-",
                         number(rung.training_error(), 3, digits),
-                        fmt::format("{} nats", number(rung.log_likelihood(), 4, digits)),
-                        p_value(rung.misfit_p(), digits)});
+                        nats(rung.log_likelihood(), 4, digits), p_value(rung.misfit_p(), digits)});
   }
   return out;
 }
@@ -55,9 +61,9 @@ Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
     const v1::EffectCandidate& one = report.candidates(i);
     if (i >= kAlwaysShown && one.familywise_p() >= 0.5) break;
-    out.rows.push_back({one.effect(), one.term(),
-                        fmt::format("{} nats", number(one.gain_nats(), 3, digits)),
-                        p_value(one.familywise_p(), digits),
+    const std::string gain = nats(one.gain_nats(), 3, digits);
+    if (gain.empty() && !one.term().empty()) continue;  // a defect of the samples has no gain
+    out.rows.push_back({one.effect(), one.term(), gain, p_value(one.familywise_p(), digits),
                         one.has_heldout_error_after()
                             ? fmt::format("{} → {}", number(one.heldout_error_before(), 3, digits),
                                           number(one.heldout_error_after(), 3, digits))

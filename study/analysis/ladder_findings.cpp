@@ -1,0 +1,140 @@
+#include "study/analysis/ladder_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/causes.h"
+#include "core/support/parallel.h"
+#include "study/analysis/effect_parameters.h"
+#include "study/words/number.h"
+
+namespace imunoise::study {
+namespace {
+
+using Index = Eigen::Index;
+
+std::string printed_alone(const Term& term) {
+  Model alone;
+  alone.terms.push_back(term);
+  return print(alone);
+}
+
+double spread(const Eigen::VectorXd& x) { return (x.array() - x.mean()).square().sum(); }
+
+// The root mean square of what an effect adds to the samples about the mean of each replicate, in
+// the channel's unit. The interval follows from the errors of its coefficients, whose regressors
+// are taken as orthogonal: each replicate's own, or one alone.
+ReportedNumber size_in_samples(const FittedModel& model, std::size_t effect) {
+  const auto& regression = model.regression;
+  const Subject& subject = regression.subject();
+  const EffectCoefficients& found = model.fit.effects;
+  const Index first = regression.first(effect);
+  const Index count = regression.first(effect + 1) - first;
+  Eigen::VectorXd others = found.value;
+  others.segment(first, count).setZero();
+  std::vector<double> squares(subject.replicates());
+  std::vector<double> samples(subject.replicates());
+  for_each_index(squares.size(), [&](std::size_t k) {
+    const Eigen::VectorXd without = regression.residual_samples(others, k);
+    squares[k] = spread(without - regression.residual_samples(found.value, k));
+    samples[k] = static_cast<double>(without.size());
+  });
+  double total = 0.0;
+  double length = 0.0;
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    total += squares[k];
+    length += samples[k];
+  }
+  ReportedNumber out{"rms", std::sqrt(total / length), std::string(si_symbol(subject.quantity))};
+  if (!(total > 0.0)) return out;
+  double variance = 0.0;  // of the logarithm
+  for (Index c = 0; c < count; ++c) {
+    const std::size_t own =
+        regression.coefficients()[static_cast<std::size_t>(first + c)].replicate;
+    if (own == CoefficientName::kAll && count > 1) return out;
+    const double share = own == CoefficientName::kAll ? 1.0 : squares[own] / total;
+    const double relative =
+        std::sqrt(found.covariance(first + c, first + c)) / found.value(first + c);
+    variance += share * share * relative * relative;
+  }
+  return with_log_error(out, std::sqrt(variance));
+}
+
+// The first number in the channel's unit; where there is none, what its regressors add to the
+// samples; else the first number of all.
+ReportedNumber size_of(const FittedModel& model, std::size_t effect) {
+  const std::string unit(si_symbol(model.regression.subject().quantity));
+  const std::vector<ReportedNumber> numbers = fitted_numbers({model, effect});
+  const auto in_unit = std::find_if(numbers.begin(), numbers.end(),
+                                    [&](const auto& one) { return one.unit == unit; });
+  if (in_unit != numbers.end()) return *in_unit;
+  if (model.regression.first(effect) < model.regression.first(effect + 1))
+    return size_in_samples(model, effect);
+  return numbers.empty() ? ReportedNumber{} : numbers.front();
+}
+
+// Of noise: its first coefficient, which grows with the root of its power.
+ReportedNumber size_of_noise(const FittedModel& model, std::size_t term) {
+  for (const ReportedNumber& one : noise_coefficients(model, term)) return one;
+  return {};
+}
+
+std::optional<ReportedNumber> size_of_added(const FittedModel& model, const std::string& added) {
+  const std::vector<EffectTerm>& effects = model.regression.effects();
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (print(effects[e]) == added) return size_of(model, e);
+  }
+  const std::vector<Term>& terms = model.fit.model.noise.terms;
+  for (std::size_t t = terms.size(); t-- > 0;) {
+    if (printed_alone(terms[t]) == added) return size_of_noise(model, t);
+  }
+  return std::nullopt;
+}
+
+std::string sentence_of(const v1::LadderFinding& found) {
+  const v1::EffectParameter& size = found.amplitude();
+  std::string out = fmt::format("{}, {}", found.title(), found.term());
+  if (size.name().empty()) return out;
+  std::string name = size.name();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const std::string value =
+      size.has_lower()
+          ? report::with_interval(size.value(), size.lower(), size.upper(), report::Digits::kPlain)
+          : report::number(size.value(), 3, report::Digits::kPlain);
+  return fmt::format("{}: {} {}{}", out, name, value, size.unit() == "1" ? "" : " " + size.unit());
+}
+
+}  // namespace
+
+bool ModelsSeen::is_new(const FullModel& model) {
+  std::multiset<std::string> terms;
+  for (const Term& one : model.noise.terms) terms.insert(printed_alone(one));
+  for (const EffectTerm& one : model.effects) terms.insert(print(one));
+  return seen_.insert(std::move(terms)).second;
+}
+
+void add_findings(const FittedModel& last, v1::DiagnosisReport& to) {
+  std::vector<const v1::Rung*> kept;
+  for (int i = 1; i < to.ladder_size(); ++i) {
+    for (const std::string& term : to.ladder(i).dropped()) {
+      const auto gone = std::find_if(kept.begin(), kept.end(),
+                                     [&](const v1::Rung* one) { return one->added() == term; });
+      if (gone != kept.end()) kept.erase(gone);
+    }
+    kept.push_back(&to.ladder(i));
+  }
+  for (const v1::Rung* rung : kept) {
+    const auto size = size_of_added(last, rung->added());
+    if (!size) continue;  // it was dropped with the rung that added it
+    v1::LadderFinding& found = *to.add_findings();
+    found.set_effect(rung->effect());
+    found.set_title(std::string(cause_info(rung->effect()).title));
+    found.set_term(rung->added());
+    if (!size->name.empty()) *found.mutable_amplitude() = message_of(*size);
+    found.set_sentence(sentence_of(found));
+  }
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,169 @@
+// What a diagnosis says in words: where the model fails, and what the whole ladder found.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/effects/parse_full_model.h"
+#include "study/analysis/diagnose_series.h"
+#include "study/analysis/ladder_findings.h"
+#include "study/analysis/misfit_sentences.h"
+
+namespace imunoise::study {
+namespace {
+
+constexpr Hertz kFifty{50.0};
+
+std::vector<recording::Replicate> three_of(const std::string& noise, double amplitude, double f) {
+  std::vector<recording::Replicate> out;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    std::vector<double> samples = simulate(*parse_model(noise, kFifty), 4096, 51, k);
+    for (std::size_t t = 0; t < samples.size(); ++t) {
+      const double seconds = static_cast<double>(t) / kFifty.value;
+      samples[t] += amplitude * std::sin(2.0 * std::numbers::pi * f * seconds + k);
+    }
+    recording::Channel channel{"gyro_x",
+                               std::make_shared<recording::Samples>(samples),
+                               0,
+                               4096,
+                               1.0,
+                               0.0,
+                               *parse_unit("rad/s"),
+                               kFifty};
+    out.push_back({fmt::format("run{}", k + 1), "", kFifty, {channel}});
+  }
+  return out;
+}
+
+// A report in which everything fails everywhere: alternating scales, stretches and replicates.
+v1::DiagnosisReport failing_everywhere() {
+  v1::DiagnosisReport out;
+  out.set_channel("gyro_x");
+  for (int i = 0; i < 20; ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    out.mutable_before()->add_scales_s(0.02 * std::pow(2.0, i));
+    out.mutable_before()->add_model(1.0);
+    out.mutable_before()->add_measured(1.0 + sign * 0.002);
+    out.mutable_before()->add_residual(sign * (4.0 + i));
+    out.mutable_before()->add_tested(true);
+  }
+  for (int k = 0; k < 6; ++k) {
+    v1::ReplicateResidual& one = *out.mutable_compared_before()->add_replicates();
+    one.set_name(fmt::format("run{}", k + 1));
+    for (int i = 0; i < 20; ++i) {
+      one.add_scales_s(out.before().scales_s(i));
+      one.add_measured(1.5);
+      one.add_residual(30.0 + k);
+    }
+    for (int t = 0; t < 16; ++t) {
+      v1::TimeStretch& stretch = *out.mutable_compared_before()->add_times();
+      stretch.set_replicate(one.name());
+      stretch.set_from(10.0 * t);
+      stretch.set_to(10.0 * t + 10.0);
+      stretch.set_ratio(t % 2 == 0 ? 1.004 : 0.996);
+      stretch.set_sigma((t % 2 == 0 ? 1.0 : -1.0) * (5.0 + k));
+    }
+  }
+  return out;
+}
+
+TEST(Misfits, AreAtMostTwelveWorstFirst) {
+  v1::DiagnosisReport report = failing_everywhere();
+  add_misfits({}, report);
+  ASSERT_GT(report.misfits_size(), 0);
+  EXPECT_LE(report.misfits_size(), 12);
+  for (int i = 1; i < report.misfits_size(); ++i)
+    EXPECT_GE(std::abs(report.misfits(i - 1).sigma()), std::abs(report.misfits(i).sigma())) << i;
+  EXPECT_EQ(report.misfits(0).kind(), "replicate") << report.misfits(0).sentence();
+}
+
+// Stretches of one kind are one sentence; so are the replicates.
+TEST(Misfits, AreMergedOverTimeAndReplicates) {
+  v1::DiagnosisReport report = failing_everywhere();
+  report.mutable_before()->clear_scales_s();
+  report.mutable_before()->clear_residual();
+  add_misfits({}, report);
+  std::multiset<std::string> kinds;
+  for (const v1::Misfit& one : report.misfits()) {
+    kinds.insert(one.kind());
+    EXPECT_EQ(one.sentence().find(" 0 %"), std::string::npos) << one.sentence();
+  }
+  EXPECT_EQ(kinds.count("time"), 2U);  // more, and less
+  const v1::Misfit& time = *std::find_if(report.misfits().begin(), report.misfits().end(),
+                                         [](const auto& one) { return one.kind() == "time"; });
+  EXPECT_NE(time.sentence().find("run6"), std::string::npos) << time.sentence();
+  EXPECT_NE(time.sentence().find("0.40 %"), std::string::npos) << time.sentence();
+  EXPECT_NE(time.sentence().find("48 stretches of 6 replicates"), std::string::npos)
+      << time.sentence();
+}
+
+TEST(Ladder, AModelComesBackWhateverTheOrderOfItsTerms) {
+  const auto model = [](const char* text) { return *parse_full_model(text, kFifty); };
+  ModelsSeen seen;
+  EXPECT_TRUE(seen.is_new(model("WN + AR1 + RW + line(f=7) + ramp")));
+  EXPECT_TRUE(seen.is_new(model("WN + 2*AR1 + RW + line(f=7) + ramp")));
+  EXPECT_TRUE(seen.is_new(model("WN + AR1 + RW + line(f=8) + ramp")));
+  EXPECT_FALSE(seen.is_new(model("RW + ramp + AR1 + WN + line(f=7)")));
+}
+
+TEST(Ladder, TheHeadlineNamesAllThatItFoundWithAmplitudes) {
+  DiagnoseOptions options;
+  options.model = "WN + RW";
+  options.automatic = true;
+  constexpr double kAmplitude = 0.4;
+  const auto report = diagnose_series(
+      three_of("WN(sigma2=1) + RW(gamma2=1e-5) + QN(q2=0.3)", kAmplitude, 7.0), 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_EQ(report->findings_size(), 2) << report->summary();
+  std::map<std::string, v1::LadderFinding> found;
+  for (const v1::LadderFinding& one : report->findings()) {
+    found[one.effect()] = one;
+    EXPECT_NE(report->summary().find(one.sentence()), std::string::npos) << report->summary();
+  }
+  const v1::EffectParameter& line = found["line"].amplitude();
+  EXPECT_EQ(line.unit(), "rad/s");
+  EXPECT_LT(line.lower(), kAmplitude);
+  EXPECT_GT(line.upper(), kAmplitude);
+  // Q in rad of a power of 0.3 (rad/s)² at 50 Hz.
+  const v1::EffectParameter& quantum = found["quantisation"].amplitude();
+  EXPECT_EQ(quantum.unit(), "rad");
+  EXPECT_LT(quantum.lower(), std::sqrt(0.3) / 50.0);
+  EXPECT_GT(quantum.upper(), std::sqrt(0.3) / 50.0);
+}
+
+// What a coupling adds to the samples is told in their unit.
+TEST(Ladder, ACouplingIsToldByWhatItAddsToTheSamples) {
+  auto recordings = three_of("WN(sigma2=1)", 0.0, 1.0);
+  constexpr double kCoefficient = 0.05;
+  double squares = 0.0;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const auto walk = simulate(*parse_model("AR1(sigma2=0.1, phi=0.995)", kFifty), 4096, 52, k);
+    auto sum = std::get<std::vector<double>>(*recordings[k].channels[0].samples);
+    const double mean = std::accumulate(walk.begin(), walk.end(), 0.0) / 4096.0;
+    for (std::size_t t = 0; t < sum.size(); ++t) {
+      sum[t] += kCoefficient * walk[t];
+      squares += (walk[t] - mean) * (walk[t] - mean) / (3.0 * 4096.0);
+    }
+    recordings[k].channels[0].samples = std::make_shared<recording::Samples>(sum);
+    recordings[k].channels.push_back({"temperature", std::make_shared<recording::Samples>(walk), 0,
+                                      4096, 1.0, 0.0, *parse_unit("K"), kFifty});
+  }
+  DiagnoseOptions options;
+  options.model = "WN";
+  options.automatic = true;
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_GE(report->findings_size(), 1) << report->summary();
+  const v1::EffectParameter& rms = report->findings(0).amplitude();
+  EXPECT_EQ(rms.unit(), "rad/s");
+  EXPECT_LT(rms.lower(), kCoefficient * std::sqrt(squares));
+  EXPECT_GT(rms.upper(), kCoefficient * std::sqrt(squares));
+}
+
+}  // namespace
+}  // namespace imunoise::study
