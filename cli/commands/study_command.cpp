@@ -1,5 +1,3 @@
-#include <cstdlib>
-
 #include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/parse/input_options.h"
@@ -30,15 +28,6 @@ Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input,
   return read_with_witnesses(input_from(raw), witnesses);
 }
 
-// The user's, as the XDG base directory specification has it; empty where there is none.
-std::filesystem::path cache_folder() {
-  const char* named = std::getenv("XDG_CACHE_HOME");
-  if (named != nullptr && *named == '/') return std::filesystem::path(named) / "imunoise";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".cache" / "imunoise";
-  return {};
-}
-
 bool changed_since(const v1::Study& known, const std::filesystem::path& file) {
   const auto now = study::read_study(file);
   return !now || study::study_text(*now) != study::study_text(known);
@@ -64,7 +53,7 @@ int run(const StudyArguments& arguments) {
     };
     ProgressLine line("study");
     auto done = study::apply(study, arguments.request, read_them, line.progress(),
-                             study::SeenPlaces{.other = cache_folder()});
+                             study::SeenPlace{study::user_cache_folder()});
     if (!done) return print_error(done.error());
     if (!opens && changed_since(study, arguments.file))
       return print_error(

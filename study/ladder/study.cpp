@@ -51,7 +51,7 @@ void count_from_first(const v1::Study& study, v1::Rung& rung) {
 class Operation {
  public:
   Operation(v1::Study& study, const ReadInput& read, const Progress& progress,
-            const std::optional<SeenPlaces>& keep)
+            const std::optional<SeenPlace>& keep)
       : study_(study), read_(read), progress_(progress), keep_(keep) {}
 
   Result<void> open(const v1::StudyRequest::Open& request);
@@ -75,7 +75,7 @@ class Operation {
   v1::Study& study_;
   const ReadInput& read_;
   const Progress& progress_;
-  const std::optional<SeenPlaces>& keep_;
+  const std::optional<SeenPlace>& keep_;
   std::optional<SeenFolder> folder_;  // of what was read
 };
 
@@ -254,7 +254,7 @@ Result<void> Operation::seek() {
 
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                         const ReadInput& read, const Progress& progress,
-                        const std::optional<SeenPlaces>& keep) {
+                        const std::optional<SeenPlace>& keep) {
   v1::Study out = study;
   Operation operation(out, read, progress, keep);
   Result<void> done;

@@ -24,7 +24,7 @@ using ReadInput = std::function<Result<std::vector<recording::Replicate>>(
 /// kept where `keep` says; unset: nowhere.
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                         const ReadInput& read, const Progress& progress = {},
-                        const std::optional<SeenPlaces>& keep = std::nullopt);
+                        const std::optional<SeenPlace>& keep = std::nullopt);
 
 /// The current model, in the grammar.
 const std::string& current_model(const v1::Study& study);

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "recording/import/table/sidecar.h"
 #include "recording/store/format/crc32c.h"
@@ -98,18 +101,16 @@ fs::path file_in(const fs::path& folder, const std::string& name) {
 }
 
 // The file of this name that was made of files with these stamps, if it is there and whole.
-std::optional<SeenFile> find_file(const std::vector<fs::path>& folders, const std::string& name,
+std::optional<SeenFile> find_file(const fs::path& folder, const std::string& name,
                                   const std::string& stamps) {
-  for (const fs::path& folder : folders) {
-    const fs::path path = file_in(folder, name);
-    std::error_code ignored;
-    if (!is_own(folder) || !fs::is_regular_file(fs::symlink_status(path, ignored))) continue;
-    auto file = read_seen_file(path);
-    if (!file || file->header.key() != name + stamps) continue;
-    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // it was used
-    return std::move(*file);
-  }
-  return std::nullopt;
+  if (folder.empty() || !is_own(folder)) return std::nullopt;
+  const fs::path path = file_in(folder, name);
+  std::error_code ignored;
+  if (!fs::is_regular_file(fs::symlink_status(path, ignored))) return std::nullopt;
+  auto file = read_seen_file(path);
+  if (!file || file->header.key() != name + stamps) return std::nullopt;
+  fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // it was used
+  return std::move(*file);
 }
 
 std::uintmax_t bytes_of(const SeenFile& file) {
@@ -119,35 +120,42 @@ std::uintmax_t bytes_of(const SeenFile& file) {
   return out;
 }
 
-void keep_file(const std::vector<fs::path>& folders, const std::string& name,
-               const std::string& stamps, std::uintmax_t most, SeenFile file) {
-  if (find_file(folders, name, stamps)) return;
+void keep_file(const SeenPlace& place, const std::string& name, const std::string& stamps,
+               SeenFile file) {
+  if (place.folder.empty() || find_file(place.folder, name, stamps)) return;
   file.header.set_key(name + stamps);
-  for (const fs::path& folder : folders) {
-    std::error_code wrong;
-    fs::create_directories(folder, wrong);
-    if (wrong || !is_own(folder) || !make_room(folder, bytes_of(file), most)) continue;
-    if (write_seen_file(file_in(folder, name), file)) return;
-  }
+  std::error_code wrong;
+  fs::create_directories(place.folder, wrong);
+  if (wrong || !is_own(place.folder)) return;
+  if (make_room(place.folder, bytes_of(file), place.most_bytes))
+    (void)write_seen_file(file_in(place.folder, name), file);
+}
+
+// With paths that mean the same wherever the program runs.
+v1::StudyInput absolute(v1::StudyInput input) {
+  for (std::string& file : *input.mutable_files())
+    file = fs::absolute(file).lexically_normal().string();
+  return input;
 }
 
 }  // namespace
 
-SeenFolder::SeenFolder(const v1::StudyInput& input, const SeenPlaces& places)
-    : input_(fmt::format("{} {}\n{}", IMUNOISE_VERSION, kVersion, input.SerializeAsString())),
-      most_bytes_(places.most_bytes) {
-  for (const std::string& file : input.files()) {
+fs::path user_cache_folder() {
+  const char* const named = std::getenv("XDG_CACHE_HOME");  // NOLINT(concurrency-mt-unsafe)
+  if (named != nullptr && *named == '/') return fs::path(named) / "imunoise";
+  const char* const home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe)
+  if (home != nullptr && *home == '/') return fs::path(home) / ".cache" / "imunoise";
+  return {};
+}
+
+SeenFolder::SeenFolder(const v1::StudyInput& input, SeenPlace place) : place_(std::move(place)) {
+  const v1::StudyInput here = absolute(input);
+  input_ = fmt::format("{} {}\n{}", IMUNOISE_VERSION, kVersion, here.SerializeAsString());
+  for (const std::string& file : here.files()) {
     const auto of = stamps(file);
     if (!of) return;
     stamps_ += *of;
   }
-  if (places.beside && input.files_size() > 0) {
-    const fs::path first = input.files(0);
-    std::error_code ignored;
-    folders_.push_back((fs::is_directory(first, ignored) ? first : first.parent_path()) /
-                       ".imunoise");
-  }
-  if (!places.other.empty()) folders_.push_back(places.other);
 }
 
 std::string SeenFolder::name_of(const std::string& channel, const std::string& witness) const {
@@ -155,26 +163,26 @@ std::string SeenFolder::name_of(const std::string& channel, const std::string& w
 }
 
 std::optional<SeenChannel> SeenFolder::find(const std::string& channel) const {
-  const auto file = find_file(folders_, name_of(channel, ""), stamps_);
+  const auto file = find_file(place_.folder, name_of(channel, ""), stamps_);
   return file ? channel_of(*file) : std::nullopt;
 }
 
 std::optional<Witness> SeenFolder::find_witness(const std::string& channel,
                                                 const std::string& witness) const {
-  const auto file = find_file(folders_, name_of(channel, witness), stamps_);
+  const auto file = find_file(place_.folder, name_of(channel, witness), stamps_);
   return file ? witness_of(*file) : std::nullopt;
 }
 
 void SeenFolder::keep(const SeenChannel& seen) const {
   SeenFile own = record_of(seen);
   std::uintmax_t bytes = bytes_of(own);
-  if (bytes > most_bytes_ / 4) return;
-  keep_file(folders_, name_of(seen.name, ""), stamps_, most_bytes_, std::move(own));
+  if (bytes > place_.most_bytes / 2) return;
+  keep_file(place_, name_of(seen.name, ""), stamps_, std::move(own));
   for (const Witness& witness : seen.subject->witnesses) {
     SeenFile other = record_of(witness, seen.subject->rate);
     bytes += bytes_of(other);
-    if (bytes > most_bytes_ / 4) return;
-    keep_file(folders_, name_of(seen.name, witness.name), stamps_, most_bytes_, std::move(other));
+    if (bytes > place_.most_bytes / 2) return;
+    keep_file(place_, name_of(seen.name, witness.name), stamps_, std::move(other));
   }
 }
 

@@ -6,31 +6,30 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "imunoise/v1/study.pb.h"
 #include "study/analysis/seen_channel.h"
 
 namespace imunoise::study {
 
-struct SeenPlaces {
-  /// In the folder `.imunoise` beside the first file (in a recording's folder, inside it).
-  bool beside = true;
-  /// Where that cannot be written, or was not wanted; empty: nowhere.
-  std::filesystem::path other{};
-  /// That a folder holds, of all recordings: those longest unused are deleted first. A study gets a
-  /// quarter.
-  std::uintmax_t most_bytes = std::uintmax_t{4} << 30U;
+/// Where results are kept, and how much.
+struct SeenPlace {
+  std::filesystem::path folder;  ///< Empty: nothing is kept.
+  /// Of all recordings together; imunoise deletes those longest unused first. A study gets half.
+  std::uintmax_t most_bytes = std::uintmax_t{2} << 30U;
 };
+
+/// The user's cache folder, as the XDG base directory specification has it; empty if there is none.
+std::filesystem::path user_cache_folder();
 
 /// Of the recordings of one study. What was kept is found again as long as no file of them was
 /// written to, moved or put in another's place. Nothing here fails: what cannot be kept is worked
 /// out again.
 class SeenFolder {
  public:
-  /// Looks at the files' stamps now: make it before they are read. Folders of other users, and
-  /// links, are left alone.
-  SeenFolder(const v1::StudyInput& input, const SeenPlaces& places);
+  /// Looks at the files' stamps now: make it before they are read. A folder of another user, or a
+  /// link, is left alone.
+  SeenFolder(const v1::StudyInput& input, SeenPlace place);
 
   /// A channel without its witnesses.
   std::optional<SeenChannel> find(const std::string& channel) const;
@@ -44,8 +43,7 @@ class SeenFolder {
 
   std::string input_;   // which files, and how they are read
   std::string stamps_;  // of the files now
-  std::vector<std::filesystem::path> folders_;
-  std::uintmax_t most_bytes_;
+  SeenPlace place_;
 };
 
 }  // namespace imunoise::study

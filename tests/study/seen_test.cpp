@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -24,7 +25,7 @@ constexpr Hertz kRate{50.0};
 class Seen : public testing::Test {
  protected:
   Seen() {
-    fs::create_directories(root_ / "home");
+    fs::create_directories(root_);
     for (const char* name : {"a.h5", "b.h5"}) {
       write(root_ / name, name);
       input_.add_files((root_ / name).string());
@@ -67,8 +68,8 @@ class Seen : public testing::Test {
   Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                           const std::optional<fs::path>& cache) {
     const auto reading = [this](const v1::StudyInput&, const std::string&) { return read(); };
-    std::optional<SeenPlaces> keep;
-    if (cache) keep = SeenPlaces{.other = *cache};
+    std::optional<SeenPlace> keep;
+    if (cache) keep = SeenPlace{*cache};
     return study::apply(study, request, reading, {}, keep);
   }
 
@@ -98,7 +99,6 @@ class Seen : public testing::Test {
   }
 
   fs::path root_ = fs::temp_directory_path() / ("imunoise_seen_" + std::to_string(getpid()));
-  fs::path beside_ = root_ / ".imunoise";
   fs::path home_ = root_ / "home";
   v1::StudyInput input_;
   int reads_ = 0;
@@ -107,8 +107,8 @@ class Seen : public testing::Test {
 TEST_F(Seen, WhatIsAddedIsTheSameToTheBitAndNothingIsRead) {
   const v1::Study study = opened(home_);
   EXPECT_EQ(reads_, 1);
-  EXPECT_EQ(kept(beside_).size(), 1U);
-  EXPECT_TRUE(kept(home_).empty());
+  EXPECT_EQ(kept(home_).size(), 1U);
+  EXPECT_FALSE(fs::exists(root_ / ".imunoise")) << "nothing lies beside the recordings";
   for (const char* term : {"line(f=3)", "QN", "ramp", "step(replicate=2, t=120)"}) {
     EXPECT_EQ(added(study, term, home_), added(study, term, std::nullopt)) << term;
   }
@@ -119,7 +119,7 @@ TEST_F(Seen, AWitnessIsKeptOnceItWasLookedAt) {
   const v1::Study study = opened(home_);
   const std::string first = added(study, "witness(temperature)", home_);
   EXPECT_EQ(reads_, 2);
-  EXPECT_EQ(kept(beside_).size(), 2U);
+  EXPECT_EQ(kept(home_).size(), 2U);
   EXPECT_EQ(added(study, "witness(temperature, lag=2)", home_).substr(0, 1), "{");
   EXPECT_EQ(added(study, "witness(temperature)", home_), first);
   EXPECT_EQ(reads_, 2);
@@ -137,7 +137,7 @@ TEST_F(Seen, AModelThatCannotBeReadCostsNothing) {
   EXPECT_NE(added(study, "lime(f=3)", home_).find("lime"), std::string::npos);
   EXPECT_EQ(reads_, 1);
   EXPECT_NE(added(study, "witness(temprature)", home_).substr(0, 1), "{");
-  EXPECT_EQ(kept(beside_).size(), 1U) << "of a model that is none nothing is kept";
+  EXPECT_EQ(kept(home_).size(), 1U) << "of a model that is none nothing is kept";
 }
 
 TEST_F(Seen, TheSearchKeepsAllWitnesses) {
@@ -145,19 +145,18 @@ TEST_F(Seen, TheSearchKeepsAllWitnesses) {
   request.mutable_candidates();
   const auto sought = apply(opened(home_), request, home_);
   ASSERT_TRUE(sought) << sought.error().message;
-  EXPECT_EQ(kept(beside_).size(), 2U);
+  EXPECT_EQ(kept(home_).size(), 2U);
   const int before = reads_;
   EXPECT_EQ(added(*sought, "witness(temperature, quadratic)", home_).substr(0, 1), "{");
   EXPECT_EQ(reads_, before);
   // What is there already is not written again.
   std::vector<fs::path> aside;
-  for (const fs::path& one : kept(beside_)) {
+  for (const fs::path& one : kept(home_)) {
     aside.push_back(root_ / one.filename());
     fs::create_hard_link(one, aside.back());
   }
   ASSERT_TRUE(apply(*sought, request, home_));
-  for (const fs::path& one : aside)
-    EXPECT_TRUE(fs::equivalent(one, beside_ / one.filename())) << one;
+  for (const fs::path& one : aside) EXPECT_TRUE(fs::equivalent(one, home_ / one.filename())) << one;
 }
 
 TEST_F(Seen, AFileThatWasWrittenToIsReadAgain) {
@@ -171,7 +170,7 @@ TEST_F(Seen, AFileThatWasWrittenToIsReadAgain) {
   write(root_ / "a.h5.json", "{}");  // a sidecar changes what numbers mean
   added(study, "QN", home_);
   EXPECT_EQ(reads_, 3);
-  EXPECT_EQ(kept(beside_).size(), 1U) << "what was made of the old files is replaced";
+  EXPECT_EQ(kept(home_).size(), 1U) << "what was made of the old files is replaced";
   v1::Study other = study;
   other.mutable_input()->set_rate_hz(10.0);
   added(other, "QN", home_);
@@ -185,7 +184,7 @@ TEST_F(Seen, FilesInARecordingsFolderCount) {
   input_.clear_files();
   input_.add_files(recording.string());
   const v1::Study study = opened(home_);
-  EXPECT_EQ(kept(recording / ".imunoise").size(), 1U);
+  EXPECT_EQ(kept(home_).size(), 1U);
   added(study, "QN", home_);
   EXPECT_EQ(reads_, 1) << "what is kept is no file of the recording";
   write(recording / "r001" / "imu" / "000002.h5", "chunk");
@@ -206,7 +205,7 @@ TEST_F(Seen, FilesInARecordingsFolderCount) {
 TEST_F(Seen, DamageIsNoticedAndMended) {
   const v1::Study study = opened(home_);
   const std::string right = added(study, "QN", home_);
-  const fs::path file = kept(beside_).at(0);
+  const fs::path file = kept(home_).at(0);
   const auto size = static_cast<std::streamoff>(fs::file_size(file));
   for (const std::streamoff at : {std::streamoff{3}, std::streamoff{40}, size / 2, size - 100}) {
     const int before = reads_;
@@ -223,64 +222,88 @@ TEST_F(Seen, DamageIsNoticedAndMended) {
   }
   fs::resize_file(file, static_cast<std::uintmax_t>(size) / 2);
   EXPECT_EQ(added(study, "QN", home_), right);
-  fs::remove_all(beside_);  // may be done at any time
+  fs::remove_all(home_);  // may be done at any time
   EXPECT_EQ(added(study, "QN", home_), right);
 }
 
-TEST_F(Seen, WhereTheFolderCannotBeWrittenTheUsersIsTaken) {
-  write(beside_, "a file is in the way");
+TEST_F(Seen, WhereTheFolderCannotBeWrittenNothingIsKept) {
+  write(home_, "a file is in the way");
   const v1::Study study = opened(home_);
-  EXPECT_EQ(kept(home_).size(), 1U);
-  added(study, "QN", home_);
-  EXPECT_EQ(reads_, 1);
-  added(study, "QN", fs::path());  // nowhere
+  EXPECT_NE(added(study, "QN", home_).size(), 0U);
   EXPECT_EQ(reads_, 2);
+  added(study, "QN", fs::path());  // nowhere
+  EXPECT_EQ(reads_, 3);
+}
+
+// One folder serves all studies of the user: a relative path names another file elsewhere.
+TEST_F(Seen, AFileIsTheSameWhereverTheProgramRuns) {
+  const v1::Study study = opened(home_);
+  const fs::path here = fs::current_path();
+  fs::current_path(root_);
+  v1::Study relative = study;
+  for (std::string& file : *relative.mutable_input()->mutable_files())
+    file = fs::path(file).filename().string();
+  EXPECT_EQ(added(relative, "QN", home_).substr(0, 1), "{");
+  fs::current_path(here);
+  EXPECT_EQ(reads_, 1);
+  EXPECT_EQ(kept(home_).size(), 1U);
+}
+
+TEST_F(Seen, TheUsersCacheFolderIsTheStandardOne) {
+  ::setenv("XDG_CACHE_HOME", "/somewhere/cache", 1);
+  EXPECT_EQ(user_cache_folder(), "/somewhere/cache/imunoise");
+  ::setenv("XDG_CACHE_HOME", "no/absolute/path", 1);
+  const char* const home = std::getenv("HOME");
+  const fs::path expected = home == nullptr ? fs::path() : fs::path(home) / ".cache" / "imunoise";
+  EXPECT_EQ(user_cache_folder(), expected);
+  ::unsetenv("XDG_CACHE_HOME");
+  EXPECT_EQ(user_cache_folder(), expected);
 }
 
 TEST_F(Seen, ALinkIsNotFollowed) {
   fs::create_directories(root_ / "elsewhere");
-  fs::create_directory_symlink(root_ / "elsewhere", beside_);
-  opened(fs::path());
+  fs::create_directory_symlink(root_ / "elsewhere", home_);
+  opened(home_);
   EXPECT_TRUE(kept(root_ / "elsewhere").empty());
-  fs::remove(beside_);
-  opened(fs::path());
-  const fs::path own = kept(beside_).at(0);
+  fs::remove(home_);
+  opened(home_);
+  const fs::path own = kept(home_).at(0);
   fs::remove(own);
   write(root_ / "precious", "precious");
   fs::create_symlink(root_ / "precious", own.string() + "." + std::to_string(getpid()) + ".part");
-  opened(fs::path());
+  opened(home_);
   EXPECT_EQ(fs::file_size(root_ / "precious"), 8U);
 }
 
 TEST_F(Seen, WhatWasUnusedLongestMakesRoom) {
-  fs::create_directories(beside_);
+  fs::create_directories(home_);
   const auto now = fs::file_time_type::clock::now();
   for (const char* name : {"older.seen", "old.seen", "other.h5"}) {
-    write(beside_ / name, "");
-    fs::resize_file(beside_ / name, std::uintmax_t{3} << 30U);  // with nothing in it
-    fs::last_write_time(beside_ / name, now - std::chrono::hours(name[3] == '.' ? 1 : 2));
+    write(home_ / name, "");
+    fs::resize_file(home_ / name, std::uintmax_t{3} << 29U);  // with nothing in it
+    fs::last_write_time(home_ / name, now - std::chrono::hours(name[3] == '.' ? 1 : 2));
   }
-  write(beside_ / "1.seen.2.part", "left by who was killed");
-  fs::last_write_time(beside_ / "1.seen.2.part", now - std::chrono::hours(2));
-  write(beside_ / "1.seen.3.part", "being written");
+  write(home_ / "1.seen.2.part", "left by who was killed");
+  fs::last_write_time(home_ / "1.seen.2.part", now - std::chrono::hours(2));
+  write(home_ / "1.seen.3.part", "being written");
   opened(home_);
-  EXPECT_FALSE(fs::exists(beside_ / "1.seen.2.part"));
-  EXPECT_TRUE(fs::exists(beside_ / "1.seen.3.part"));
-  EXPECT_FALSE(fs::exists(beside_ / "older.seen"));
-  EXPECT_TRUE(fs::exists(beside_ / "old.seen"));
-  EXPECT_TRUE(fs::exists(beside_ / "other.h5"));
-  EXPECT_EQ(kept(beside_).size(), 4U);
+  EXPECT_FALSE(fs::exists(home_ / "1.seen.2.part"));
+  EXPECT_TRUE(fs::exists(home_ / "1.seen.3.part"));
+  EXPECT_FALSE(fs::exists(home_ / "older.seen"));
+  EXPECT_TRUE(fs::exists(home_ / "old.seen"));
+  EXPECT_TRUE(fs::exists(home_ / "other.h5"));
+  EXPECT_EQ(kept(home_).size(), 4U);
 }
 
 // As two names may have one checksum.
 TEST_F(Seen, AnotherStudysFileUnderTheSameNameIsLeftAlone) {
   const v1::Study study = opened(home_);
-  const fs::path own = kept(beside_).at(0);
+  const fs::path own = kept(home_).at(0);
   const fs::path aside = root_ / "aside";
   fs::rename(own, aside);
   input_.set_split_into(2);
   opened(home_);
-  fs::rename(kept(beside_).at(0), own);
+  fs::rename(kept(home_).at(0), own);
   const int before = reads_;
   added(study, "QN", home_);
   EXPECT_EQ(reads_, before + 1);

@@ -26,7 +26,8 @@ Result<v1::ReplicateManifest> own_manifest(const FileSystem& files,
 Result<RecorderManifests> RecorderManifests::open(FileSystem& files,
                                                   const std::filesystem::path& folder,
                                                   const RecordingPlan& plan) {
-  auto recovered = recover_replicates(files, folder, Recovery::kUnsettled, plan.unfinished);
+  auto recovered =
+      recover_replicates(files, folder, Recovery::kUnsettled, {plan.unfinished, plan.replicate});
   if (!recovered) return tl::make_unexpected(recovered.error());
   auto own = own_manifest(files, folder, plan.replicate);
   if (!own) return tl::make_unexpected(own.error());

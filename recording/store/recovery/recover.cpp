@@ -19,14 +19,17 @@ using google::protobuf::util::MessageDifferencer;
 class RecordingRecovery {
  public:
   RecordingRecovery(FileSystem& files, const std::filesystem::path& root, Recovery how,
-                    const std::string& unfinished)
-      : files_(files), root_(root), how_(how), unfinished_(unfinished) {}
+                    const Circumstances& circumstances)
+      : files_(files), root_(root), how_(how), circumstances_(circumstances) {}
 
   Result<RecoveredRecording> run() {
+    if (auto done = take_manifest(); !done) return tl::make_unexpected(done.error());
+    const auto nothing = nothing_to_recover();
+    if (!nothing) return tl::make_unexpected(nothing.error());
+    if (*nothing) return std::move(out_);
     auto names = files_.list(root_);
     if (!names) return tl::make_unexpected(names.error());
     names_ = std::move(*names);
-    if (auto done = take_manifest(); !done) return tl::make_unexpected(done.error());
     record_broken_manifests();
     for (const std::uint32_t replicate : to_recover()) {
       if (auto done = recover_one(replicate); !done) return tl::make_unexpected(done.error());
@@ -47,7 +50,9 @@ class RecordingRecovery {
   // A damaged manifest.json is set aside.
   Result<void> take_manifest() {
     const std::string name(kManifestName);
-    if (!there(name)) return {};
+    const auto begun = files_.exists(root_ / name);
+    if (!begun) return tl::make_unexpected(begun.error());
+    if (!*begun) return {};
     const auto text = read_manifest_text(files_, root_ / name);
     if (!text) return tl::make_unexpected(text.error());
     auto manifest = parse_recording_manifest((root_ / name).string(), *text);
@@ -56,6 +61,22 @@ class RecordingRecovery {
     one_file_ = manifest->replicates.has_value();
     if (one_file_) known_ = std::move(*manifest->replicates);
     return {};
+  }
+
+  // The usual start of a replicate: the recording was closed, all its replicates are settled, and
+  // the next one is new. A folder of a thousand replicates takes longer to list than to sync.
+  Result<bool> nothing_to_recover() const {
+    const std::uint32_t next = circumstances_.next;
+    if (how_ != Recovery::kUnsettled || !before_ || one_file_ || !before_->closed()) return false;
+    if (before_->settled_size() != 1) return false;
+    const v1::ReplicateRange& settled = before_->settled(0);
+    if (settled.first() != 1 || std::uint64_t{settled.last()} + 1 != next) return false;
+    for (const std::string& name : {replicate_folder(next), replicate_manifest(next)}) {
+      const auto there = files_.exists(root_ / name);
+      if (!there) return tl::make_unexpected(there.error());
+      if (*there) return false;
+    }
+    return true;
   }
 
   Result<void> set_manifest_aside(const std::string& name, const std::string& text,
@@ -117,8 +138,8 @@ class RecordingRecovery {
     const v1::ReplicateManifest known = read->value_or(v1::ReplicateManifest());
     RecoveredReplicate now{known, {}, true, {}};
     if (!settled(replicate)) {
-      auto recovered =
-          recover_replicate(files_, root_, replicate, out_.manifest, known, how_, unfinished_);
+      auto recovered = recover_replicate(files_, root_, replicate, out_.manifest, known, how_,
+                                         circumstances_.unfinished);
       if (!recovered) return tl::make_unexpected(recovered.error());
       now = std::move(*recovered);
     }
@@ -166,7 +187,7 @@ class RecordingRecovery {
   FileSystem& files_;
   const std::filesystem::path& root_;
   Recovery how_;
-  const std::string& unfinished_;
+  const Circumstances& circumstances_;
   std::vector<std::string> names_;  // in the folder, sorted
   std::optional<v1::RecordingManifest> before_;
   bool one_file_ = false;                                 // manifest.json has everything: version 1
@@ -177,8 +198,8 @@ class RecordingRecovery {
 }  // namespace
 
 Result<RecoveredRecording> recover_replicates(FileSystem& files, const std::filesystem::path& root,
-                                              Recovery how, const std::string& unfinished) {
-  return RecordingRecovery(files, root, how, unfinished).run();
+                                              Recovery how, const Circumstances& known) {
+  return RecordingRecovery(files, root, how, known).run();
 }
 
 Result<RecoveredRecording> recover_recording(FileSystem& files, const std::filesystem::path& root,

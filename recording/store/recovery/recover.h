@@ -62,11 +62,18 @@ struct RecoveredRecording {
   std::vector<std::string> repaired;
 };
 
+/// What is known before a recovery.
+struct Circumstances {
+  std::string unfinished;  ///< Why a replicate may have stayed open; empty: unknown.
+  std::uint32_t next = 0;  ///< The replicate that will be recorded; 0: none.
+};
+
 /// Recovers replicates and writes their manifests; manifest.json is left to the caller. Its time
-/// does not depend on the number of replicates that are settled. Hold the lock. Error: the disk's,
-/// a manifest of another version.
+/// does not depend on the number of settled replicates if the recording was closed and `next`
+/// follows them: it does not even list the folder. Hold the lock. Error: the disk's, a manifest of
+/// another version.
 Result<RecoveredRecording> recover_replicates(FileSystem& files, const std::filesystem::path& root,
-                                              Recovery how, const std::string& unfinished = {});
+                                              Recovery how, const Circumstances& known = {});
 
 /// The same, and writes manifest.json.
 Result<RecoveredRecording> recover_recording(FileSystem& files, const std::filesystem::path& root,

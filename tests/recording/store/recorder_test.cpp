@@ -346,38 +346,6 @@ TEST(Recorder, AChunkThatCannotBeReadBackKeepsItsJournal) {
   EXPECT_EQ(names->chunks, std::vector<std::uint64_t>());
 }
 
-// What was closed is not read again: the hundredth replicate starts as quickly as the second.
-TEST(Recorder, AStartReadsNothingOfClosedReplicates) {
-  FakeDisk disk;
-  using Call = FakeDisk::Call;
-  using Cost = std::array<std::uint64_t, 4>;  // of a start
-  const auto cost = [&] {
-    return Cost{static_cast<std::uint64_t>(disk.calls(Call::kRead)),
-                static_cast<std::uint64_t>(disk.calls(Call::kList)), disk.bytes_read(),
-                disk.bytes_written()};
-  };
-  std::vector<Cost> costs;
-  for (std::uint32_t replicate = 1; replicate <= 20; ++replicate) {
-    RecordingPlan next = plan({test_device()}, replicate);
-    next.note = v1::ReplicateNote();
-    const Cost before = cost();
-    const auto recorder = Recorder::start(disk, "/run", next, small_segments());
-    ASSERT_TRUE(recorder) << recorder.error().message;
-    Cost& taken = costs.emplace_back(cost());
-    for (std::size_t i = 0; i < taken.size(); ++i) taken[i] -= before[i];
-    ASSERT_TRUE((*recorder)->push(0, imu_block(0, 100)));
-    v1::ReplicateNote note;
-    note.set_state(v1::complete);
-    ASSERT_TRUE((*recorder)->close([&](const auto&) { return note; }));
-  }
-  EXPECT_EQ(costs[1][0], 1U) << "the manifest";
-  EXPECT_EQ(costs[18][0], costs[1][0]) << "reads";
-  EXPECT_EQ(costs[18][1], costs[1][1]) << "lists";
-  EXPECT_LE(costs[18][2], costs[1][2] + 2) << "bytes read: two numbers have a digit more";
-  EXPECT_LE(costs[18][3], costs[1][3] + 10) << "bytes written";
-  EXPECT_TRUE(verify_recording(disk, "/run", false)->sound());
-}
-
 // Nothing new has to come before it is tried again: a sync of the journal, a rename of a chunk.
 TEST(Recorder, WhatFailedOnceIsTriedAgainByItself) {
   for (const FakeDisk::Call kind : {FakeDisk::Call::kSync, FakeDisk::Call::kRename}) {
