@@ -7,17 +7,22 @@ namespace {
 
 constexpr Eigen::Index kMostEnumerated = 16;
 
-// Minimiser of cᵀGc over Σ c = 1, on the space where G is not singular.
+// G with the power of a motion that all sensors see. Where Σ c = 1 it adds a constant to cᵀGc and
+// moves no minimum; what it leaves singular are combinations of gain zero, which are no sensor.
+Eigen::MatrixXd with_motion(const MatrixRef& g) { return g.array() + g.diagonal().mean(); }
+
+// Minimiser of cᵀGc over Σ c = 1.
 Eigen::VectorXd unit_gain(const MatrixRef& g) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(g.rows());
-  const Eigen::VectorXd c = pseudo_inverse(g).matrix * ones;
+  const Eigen::VectorXd c = pseudo_inverse(with_motion(g)).matrix * ones;
   return c / c.sum();
 }
 
 // The same over c ≥ 0: the non-negative minimiser of cᵀGc - 2·1ᵀc is it, but for its length.
 Eigen::VectorXd nonnegative(const MatrixRef& g) {
-  const Eigen::VectorXd scale = g.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * g * scale.asDiagonal();
+  const Eigen::MatrixXd moved = with_motion(g);
+  const Eigen::VectorXd scale = moved.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * moved * scale.asDiagonal();
   const Eigen::VectorXd c = scale.cwiseProduct(nonnegative_least_squares(scaled, scale));
   return c / c.sum();
 }
@@ -113,7 +118,7 @@ Eigen::MatrixXd weight_covariance(const VirtualSensor& sensor, const MatrixRef& 
   }
   const Eigen::MatrixXd project =
       -(Eigen::MatrixXd::Identity(size, size) - c * Eigen::RowVectorXd::Ones(size)) *
-      pseudo_inverse(g).matrix;
+      pseudo_inverse(with_motion(g)).matrix;
   const Pairs pairs = all_pairs(n);
   const Eigen::Index scales = scale_weights.size();
   Eigen::MatrixXd slope =
@@ -142,8 +147,9 @@ Eigen::ArrayXd gain_over_mean(const std::vector<Eigen::MatrixXd>& covariance,
       Eigen::VectorXd::Constant(weights.size(), 1.0 / static_cast<double>(weights.size()));
   Eigen::ArrayXd out(static_cast<Eigen::Index>(covariance.size()));
   for (std::size_t j = 0; j < covariance.size(); ++j) {
+    const double of_mean = equal.dot(covariance[j] * equal);
     out(static_cast<Eigen::Index>(j)) =
-        weights.dot(covariance[j] * weights) / equal.dot(covariance[j] * equal);
+        of_mean > 0.0 ? weights.dot(covariance[j] * weights) / of_mean : 1.0;
   }
   return out;
 }

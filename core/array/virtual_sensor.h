@@ -40,7 +40,8 @@ Eigen::MatrixXd weight_covariance(const VirtualSensor& sensor, const MatrixRef& 
                                   const Eigen::VectorXd& scale_weights,
                                   const Eigen::MatrixXd& moments);
 
-/// r_j = ν_j(c) / ν_j(equal weights), one a scale: below 1 where the weights beat the mean.
+/// r_j = ν_j(c) / ν_j(equal weights), one a scale: below 1 where the weights beat the mean;
+/// 1 where the mean has no noise.
 Eigen::ArrayXd gain_over_mean(const std::vector<Eigen::MatrixXd>& covariance,
                               const Eigen::VectorXd& weights);
 

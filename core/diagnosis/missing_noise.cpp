@@ -92,7 +92,6 @@ void add_best(const Current& current, const ScoreSpace& space, std::string_view 
     most = score;
     best = i;
   }
-  if (!(most > 0.0)) return;
   Process process = family[best];
   std::vector<double> v = values(process);
   const double precision = space.precision(process);
@@ -102,7 +101,7 @@ void add_best(const Current& current, const ScoreSpace& space, std::string_view 
   grown.terms.emplace_back(process);
   out.push_back({.cause = cause,
                  .added = NoiseChange{std::move(grown), process},
-                 .score_nats = 0.5 * most * most,
+                 .score_nats = most > 0.0 ? 0.5 * most * most : 0.0,
                  .power = true,
                  .search = {.path = path_length(directions)},
                  .information = precision * precision});
@@ -177,7 +176,8 @@ void add_second_order(const Current& current, const ScoreSpace& space, double lo
     return (other.cause == "gauss_markov" || other.cause == "resonance") &&
            objective(other) < reached + kClearly;
   });
-  if (!special) out.push_back(std::move(best));
+  if (special) best.score_nats = 0.0;
+  out.push_back(std::move(best));
 }
 
 // White noise that a sensor averages over a window which is no multiple of the sampling interval,
@@ -229,7 +229,7 @@ void add_filters(const Current& current, Suggestions& out) {
       best.score_nats = gain;
       best.added = NoiseChange{std::move(changed), filter};
     }
-    if (best.score_nats > 0.0) out.push_back(std::move(best));
+    out.push_back(std::move(best));
   }
   add_free_filter(current, place, before, out);
 }
@@ -374,7 +374,7 @@ Suggestions search_noise(const Current& current) {
   add_simple<QuantisationNoise>(current, space, "quantisation", out);
   add_simple<RandomWalk>(current, space, "random_walk", out);
   add_simple<Flicker>(current, space, "flicker", out);
-  const auto longest = static_cast<double>(current.subject().length(0));
+  const auto longest = static_cast<double>(current.subject().length(current.longest()));
   add_best(current, space, "gauss_markov", markov_family(longest / 4.0), out);
   Suggestions resonances;
   for (const double damping : {0.005, 0.02, 0.08, 0.25})

@@ -56,9 +56,7 @@ std::vector<FreeNumber> free_numbers(const Model& model) {
     if (!term.given[0]) add_power(model, t, out);
     for (std::size_t p = 1; p < v.size(); ++p) {
       if (term.given[p] || !(v[0] > 0.0)) continue;
-      const bool at_bound =
-          v[p] <= about[p].lower * (1.0 + 1e-9) || v[p] >= about[p].upper * (1.0 - 1e-13);
-      if (!at_bound) out.push_back({t, p, Kind::kLevel, false});
+      if (!at_bound(about[p], v[p])) out.push_back({t, p, Kind::kLevel, false});
       if (slope_is_inside(term.trends[p])) out.push_back({t, p, Kind::kSlope, false});
     }
   }

@@ -123,7 +123,6 @@ Suggestions search_outliers(const SearchView& view) {
   const Subject& subject = view.subject();
   const double above = outlier_threshold(subject);
   const Outliers found = find_outliers(view.current(), above);
-  if (found.count == 0) return {};
   double samples = 0.0;
   for (const SharedVector& x : subject.samples) samples += static_cast<double>(x.size());
   const auto count = static_cast<double>(found.count);

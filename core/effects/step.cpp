@@ -77,7 +77,6 @@ Suggestions search_step(const SearchView& view) {
       time = t;
     }
   }
-  if (!(best.score_nats > 0.0)) return {};
   const Part& part = subject.parts[replicate];
   best.added = EffectTerm(step(), "",
                           {{"replicate", static_cast<double>(part.recorded + 1)},

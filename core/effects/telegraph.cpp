@@ -79,10 +79,9 @@ Suggestions search_telegraph(const SearchView& view) {
   const auto& effects = view.current().regression.effects();
   if (std::find(effects.begin(), effects.end(), term) != effects.end()) return {};
   const TwoLevels found = find_two_levels(view.steps());
-  if (found.jumps < kFewestJumps) return {};
   return {{.cause = "telegraph",
            .added = term,
-           .score_nats = found.gain_nats,
+           .score_nats = found.jumps < kFewestJumps ? 0.0 : found.gain_nats,
            .search = {.log_places = log_places(found.courses)}}};
 }
 

@@ -72,7 +72,6 @@ Suggestion best_pair(const SearchView& view, const SlowView& slow, const Witness
   SlowView::Means means;
   for (std::size_t k = 0; k < subject.replicates(); ++k)
     means.push_back(slow.means(channel.samples[k], k));
-  const double block_s = static_cast<double>(slow.block(0)) / subject.rate.value;
   constexpr std::array<double, 4> kRatios{1.0, 0.5, 0.25, 0.125};
   double path = 0.0;
   double rows = 0.0;
@@ -82,8 +81,10 @@ Suggestion best_pair(const SearchView& view, const SlowView& slow, const Witness
     if (!(shortest < single.longest())) continue;
     const SlowView::BestTime best = best_of(shortest, [&](double seconds) {
       SlowView::Means late;
-      for (const Eigen::VectorXd& x : means)
-        late.push_back(behind(x, seconds / block_s, ratio * seconds / block_s));
+      for (std::size_t k = 0; k < means.size(); ++k) {
+        const double blocks = seconds / slow.block_seconds(k);
+        late.push_back(behind(means[k], blocks, ratio * blocks));
+      }
       return late;
     });
     path += best.path;

@@ -45,9 +45,9 @@ void simulate_warm_up(const EffectTerm& term, const SimulatedReplicate& at,
 Suggestions search_warm_up(const SearchView& view) {
   const Subject& subject = view.subject();
   // From a few blocks to half a replicate; longer is a ramp.
-  const double longest = 0.5 * subject.seconds(0);
+  const double longest = 0.5 * subject.seconds(view.current().longest());
   const double shortest =
-      std::max(4.0 * static_cast<double>(view.slow().block(0)), 16.0) / subject.rate.value;
+      std::max(4.0 * view.slow().longest_block_seconds(), 16.0 / subject.rate.value);
   Suggestions out;
   if (shortest >= longest) return out;
   for (const bool own : {false, true}) {
@@ -55,7 +55,6 @@ Suggestions search_warm_up(const SearchView& view) {
     const SlowView::BestTime best = view.slow().best_time(shortest, longest, own, [&](double tau) {
       return view.over_time([&](double t) { return std::exp(-t / tau); });
     });
-    if (!(best.gain > 0.0)) continue;
     out.push_back(
         {.cause = "warm_up",
          .added = EffectTerm(warm_up(), "", {{"tau", best.seconds}, {"own", own ? 1.0 : 0.0}}),

@@ -9,6 +9,7 @@
 #include "core/effects/couplings.h"
 #include "core/search/lagged_witness.h"
 #include "core/search/search_view.h"
+#include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
@@ -108,8 +109,8 @@ std::string witness_unit(const EffectTerm& term, const Subject& subject) {
   return below == "1" ? above : above + "/" + below;
 }
 
-// Sums over all replicates, by the place in the transform of the first: products of the whitened
-// witness with what is left, and its squares. Cumulated from low frequencies up.
+// Sums over all replicates, by frequency: products of the whitened witness with what is left, and
+// its squares. Cumulated from low frequencies up.
 struct Cumulated {
   Eigen::ArrayXd product;
   Eigen::ArrayXd square;
@@ -120,11 +121,17 @@ struct Cumulated {
   }
 };
 
-// At the octaves of frequency: entry i holds all below 2^i/2T. `regressor`: one transform a
+// Octave i begins at 2^i/2T, where T is the longest replicate; in cycles per sample.
+double octave_edge(const Current& current, Index octave) {
+  const auto n = static_cast<double>(current.subject().length(current.longest()));
+  return std::exp2(static_cast<double>(octave)) * 0.5 / n;
+}
+
+// At the octaves of frequency: entry i holds all below octave_edge(i). `regressor`: one transform a
 // replicate.
 Cumulated cumulated(const Current& current, const std::vector<SharedVector>& regressor) {
-  const auto octaves =
-      static_cast<Index>(std::ceil(std::log2(static_cast<double>(current.subject().length(0)))));
+  const Index length = current.subject().length(current.longest());
+  const auto octaves = static_cast<Index>(std::ceil(std::log2(static_cast<double>(length))));
   Cumulated out{Eigen::ArrayXd::Zero(octaves + 1), Eigen::ArrayXd::Zero(octaves + 1)};
   for (std::size_t k = 0; k < current.cosines.size(); ++k) {
     const Eigen::ArrayXd weighted = regressor[k].array() / current.spectrum[k];
@@ -132,7 +139,7 @@ Cumulated cumulated(const Current& current, const std::vector<SharedVector>& reg
     double product = 0.0;
     double square = 0.0;
     for (Index i = 0; i <= octaves; ++i) {
-      const Index end = std::min<Index>(weighted.size(), (Index{1} << i) - 1);
+      const Index end = coefficients_below(octave_edge(current, i), weighted.size() + 1);
       product += weighted.segment(begin, end - begin)
                      .matrix()
                      .dot(current.cosines[k].segment(begin, end - begin));
@@ -151,7 +158,7 @@ Cumulated cumulated(const Current& current, const std::vector<SharedVector>& reg
 constexpr Index kFirstOctave = 4;
 
 double edge_of(const Current& current, Index octave) {
-  return std::exp2(static_cast<double>(octave)) * 0.5 / current.subject().seconds(0);
+  return octave_edge(current, octave) * current.subject().rate.value;
 }
 
 void add_static(const Current& current, const Witness& channel, Suggestions& out) {
@@ -183,8 +190,8 @@ void add_static(const Current& current, const Witness& channel, Suggestions& out
   // A bench tilts over minutes; what is faster is vibration.
   constexpr double kFastestTilt = 0.1;  // Hz
   if (std::get<EffectTerm>(slow.added)[kWitnessTo] > kFastestTilt) slow.cause = fast.cause;
-  if (slow.score_nats > 0.0) out.push_back(std::move(slow));
-  if (fast.score_nats > 0.0) out.push_back(std::move(fast));
+  out.push_back(std::move(slow));
+  out.push_back(std::move(fast));
 }
 
 // A gyroscope on a bench that rocks feels how fast the accelerometers' view of gravity turns: at
@@ -211,7 +218,7 @@ void add_rocking(const Current& current, const Witness& channel, Suggestions& ou
     best.information = sums.square(i);
     std::get<EffectTerm>(best.added).set("to", edge_of(current, i));
   }
-  if (best.score_nats > 0.0) out.push_back(std::move(best));
+  out.push_back(std::move(best));
 }
 
 void add_lagged(const Current& current, const SlowView& view, const Witness& channel,
@@ -226,15 +233,13 @@ void add_lagged(const Current& current, const SlowView& view, const Witness& cha
     const SlowView::BestTime best = best_of([&](double lag) { return behind.late(lag); });
     const SlowView::BestTime backwards = best_of([&](double lag) { return behind.early(lag); });
     constexpr double kClearly = 3.0;  // nats
-    if (best.gain > 0.0) {
-      out.push_back({.cause = cause,
-                     .added = EffectTerm(witness(), channel.name, {{"lag", best.seconds}}),
-                     .score_nats = best.gain,
-                     .search = {best.path, 0.0},
-                     .information = best.information,
-                     .shape_error = best.log_error,
-                     .backwards = backwards.gain > best.gain + kClearly});
-    }
+    out.push_back({.cause = cause,
+                   .added = EffectTerm(witness(), channel.name, {{"lag", best.seconds}}),
+                   .score_nats = best.gain,
+                   .search = {best.path, 0.0},
+                   .information = best.information,
+                   .shape_error = best.log_error,
+                   .backwards = backwards.gain > best.gain + kClearly});
   }
 
   std::vector<Eigen::VectorXd> squares;

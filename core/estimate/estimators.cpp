@@ -1,7 +1,10 @@
 #include "core/estimate/estimators.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "core/estimate/match_terms.h"
 #include "core/support/linear_algebra.h"
 #include "core/wavelet/moment_covariance.h"
 
@@ -9,6 +12,20 @@ namespace imunoise {
 namespace {
 
 constexpr int kMostReweightings = 2;
+
+const WaveletVariance& longest(std::span<const WaveletVariance> replicates) {
+  return *std::max_element(replicates.begin(), replicates.end(), [](const auto& a, const auto& b) {
+    return a.scales.size() < b.scales.size();
+  });
+}
+
+double disagreement(const Model& average, const std::vector<Estimate>& separate, HalfWidths m) {
+  Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(m.size());
+  for (const Estimate& one : separate)
+    mean += variance(one.model, m) / static_cast<double>(separate.size());
+  const Eigen::ArrayXd ratio = variance(average, m) / mean;
+  return std::exp(ratio.log().abs().maxCoeff());
+}
 
 }  // namespace
 
@@ -35,7 +52,7 @@ bool gives_weights(const Model& model, std::span<const WaveletVariance> replicat
   const SumCovariance sum = sum_covariance(model);
   const bool random = sum.linear != 0.0 || sum.cubic != 0.0 || !sum.near.empty() ||
                       !sum.exponentials.empty() || sum.flicker > 0.0;
-  return random && (variance(model, replicates[0].scales.half_widths()) > 0.0).all();
+  return random && (variance(model, longest(replicates).scales.half_widths()) > 0.0).all();
 }
 
 std::vector<Eigen::MatrixXd> diagonal_roots(std::span<const WaveletVariance> replicates) {
@@ -92,13 +109,13 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
   if (full && !gives_weights(found.model, replicates)) found = minimise(first, progress);
   for (int round = 0; full && round < kMostReweightings; ++round) {
     if (progress.stopped() || !gives_weights(found.model, replicates)) break;
-    const Eigen::ArrayXd before = variance(found.model, replicates[0].scales.half_widths());
+    const Eigen::ArrayXd before = variance(found.model, longest(replicates).scales.half_widths());
     out.weight_roots = full_roots(found.model, replicates);
     const Problem problem = tied_problem(model, replicates, out.weight_roots);
     // The whole search is made once, with the first full weights; later rounds follow it.
     found =
         round == 0 ? minimise(problem, progress) : minimise_from(problem, found.model, progress);
-    const Eigen::ArrayXd after = variance(found.model, replicates[0].scales.half_widths());
+    const Eigen::ArrayXd after = variance(found.model, longest(replicates).scales.half_widths());
     if (((after - before).abs() <= 1e-7 * after).all()) break;
   }
   out.model = sorted(std::move(found.model));
@@ -116,10 +133,15 @@ AverageEstimate agmwm(const Model& model, std::span<const WaveletVariance> repli
   std::vector<std::vector<double>> sums;
   for (const Term& term : model.terms) sums.emplace_back(term.given.size(), 0.0);
   const auto count = static_cast<double>(replicates.size());
+  const Eigen::ArrayXd m = longest(replicates).scales.half_widths();
+  // Equal terms of separate fits belong together where they explain the same.
+  std::optional<Model> reference;
+  if (has_equal_terms(model)) reference = mugmwm(model, replicates, weighting).model;
   for (std::size_t k = 0; k < replicates.size(); ++k) {
     const auto at = static_cast<double>(k);
     Estimate one = mugmwm(model, replicates.subspan(k, 1), weighting,
                           progress.part(at / count, (at + 1) / count));
+    if (reference) one.model = matched(one.model, *reference, m);
     average.objective += one.objective;
     if (one.termination != Termination::kConverged) average.termination = one.termination;
     average.weight_roots.push_back(one.weight_roots[0]);
@@ -130,6 +152,7 @@ AverageEstimate agmwm(const Model& model, std::span<const WaveletVariance> repli
     out.separate.push_back(std::move(one));
   }
   for (std::size_t t = 0; t < sums.size(); ++t) set_values(average.model.terms[t].process, sums[t]);
+  out.disagreement = disagreement(average.model, out.separate, m);
   average.model = sorted(std::move(average.model));
   return out;
 }

@@ -55,10 +55,14 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
                 Weighting weighting, const Progress& progress = {});
 
 /// AGMWM: the average of the parameters (per sample, as in the grammar) of K separate GMWM fits,
-/// which are returned too. `objective` is the sum of theirs; weight_roots are theirs.
+/// which are returned too, their terms matched() to those of the pooled estimate. `objective` is
+/// the sum of theirs; weight_roots are theirs.
 struct AverageEstimate {
   Estimate average;
   std::vector<Estimate> separate;
+  /// The largest factor, over scales, between the variance of the average and the mean variance of
+  /// the separate fits; 1 where they agree. Where it is large, the average describes no replicate.
+  double disagreement = 1.0;
 };
 AverageEstimate agmwm(const Model& model, std::span<const WaveletVariance> replicates,
                       Weighting weighting, const Progress& progress = {});

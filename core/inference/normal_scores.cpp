@@ -9,6 +9,17 @@ namespace imunoise {
 namespace {
 
 constexpr double kLeastDegreesOfFreedom = 5.0;
+// Of the variance along an eigenvector of the correlations, which is 1 in the mean. Less is left of
+// the differences of scales within an octave: there the small ways in which the scores are not
+// normal count more than the data. Scales an octave apart have no such directions.
+constexpr double kLeastVariance = 0.01;
+
+Eigen::MatrixXd whitened(const Eigen::MatrixXd& correlation) {
+  const SymmetricEigen along = symmetric_eigen(correlation);
+  const auto kept = (along.values.array() >= kLeastVariance).count();
+  return along.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
+         along.vectors.rightCols(kept).transpose();
+}
 
 }  // namespace
 
@@ -32,7 +43,7 @@ NormalScores::NormalScores(const Model& model, const WaveletVariance& wv,
       correlation(i, j) = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
     }
   }
-  whitening_ = size > 0 ? whiten(correlation).matrix : Eigen::MatrixXd(0, 0);
+  whitening_ = size > 0 ? whitened(correlation) : Eigen::MatrixXd(0, 0);
 }
 
 Eigen::VectorXd NormalScores::residual(const Eigen::ArrayXd& measured,

@@ -10,8 +10,10 @@ namespace imunoise {
 
 /// The moments of one kind of replicate as numbers whose distribution is close to normal. The
 /// measured variance of a scale with few degrees of freedom is skew, close to χ²: its cube root is
-/// normal (Wilson & Hilferty 1931), itself it is not. Made from the covariance under one model;
-/// other models close to it are scored with the same relative deviations and correlations.
+/// normal (Wilson & Hilferty 1931), itself it is not. What the scales of one octave differ by is
+/// left out where it has less than a hundredth of their variance. Made from the covariance under
+/// one model; other models close to it are scored with the same relative deviations and
+/// correlations.
 class NormalScores {
  public:
   /// `covariance` is V of the moments of `wv` under `model`, n × n. Only scales with at least 5

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/process/parameter_scale.h"
+
 namespace imunoise {
 
 ParameterSets parameter_sets(const Model& model) {
@@ -20,8 +22,7 @@ ParameterSets parameter_sets(const Model& model) {
       continue;
     }
     const ParameterInfo about = parameters(term.process)[p];
-    const bool at_bound = v[p] <= about.lower * (1.0 + 1e-9) || v[p] >= about.upper * (1.0 - 1e-13);
-    if (v[0] > 0.0 && !at_bound) out.interior.push_back(column);
+    if (v[0] > 0.0 && !at_bound(about, v[p])) out.interior.push_back(column);
   }
   return out;
 }

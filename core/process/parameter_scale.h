@@ -38,4 +38,10 @@ class ParameterScale {
   bool logarithmic_;
 };
 
+/// True where a search that keeps to the bounds of a parameter has run into one.
+inline bool at_bound(const ParameterInfo& info, double value) {
+  return value <= info.lower + 1e-9 * std::abs(info.lower) ||
+         value >= info.upper - 1e-13 * std::abs(info.upper);
+}
+
 }  // namespace imunoise

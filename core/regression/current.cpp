@@ -1,9 +1,18 @@
 #include "core/regression/current.h"
 
+#include <algorithm>
+
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
+
+std::size_t Current::longest() const {
+  const auto found =
+      std::max_element(cosines.begin(), cosines.end(),
+                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  return static_cast<std::size_t>(found - cosines.begin());
+}
 
 Current current_of(const Regression& regression, const JointFit& fit) {
   const std::size_t count = regression.subject().replicates();

@@ -14,6 +14,8 @@ struct Current {
   std::vector<Eigen::VectorXd> weighted;  ///< the inverse transform of cosines/spectrum: in time
 
   const Subject& subject() const { return regression.subject(); }
+  /// Number of the longest replicate, the first of those: it shows all frequencies that any shows.
+  std::size_t longest() const;
 };
 Current current_of(const Regression& regression, const JointFit& fit);
 

@@ -55,8 +55,8 @@ class Regression {
                                    std::size_t replicate) const;
   Eigen::VectorXd residual_cosines(const Eigen::VectorXd& coefficients,
                                    std::size_t replicate) const;
-  /// Share of the information on some coefficients that lies in each band, summed over replicates
-  /// of the same length as the first: adds up to their number.
+  /// Share of the information on some coefficients that lies in each band of each replicate: all
+  /// add up to their number.
   std::vector<Eigen::ArrayXd> leverage(const EffectCoefficients& found, const Model& noise) const;
 
  private:

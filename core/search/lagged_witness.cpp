@@ -7,24 +7,28 @@
 
 namespace imunoise {
 
-LaggedWitness::LaggedWitness(const SlowView& view, const Subject& subject, const Witness& witness)
-    : block_s_(static_cast<double>(view.block(0)) / subject.rate.value),
-      shortest_(std::max(4.0 * block_s_, 2e-4 * subject.seconds(0))),
-      longest_(0.25 * subject.seconds(0)) {
-  for (std::size_t k = 0; k < subject.replicates(); ++k)
+LaggedWitness::LaggedWitness(const SlowView& view, const Subject& subject, const Witness& witness) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
     means_.push_back(view.means(witness.samples[k], k));
+    block_s_.push_back(view.block_seconds(k));
+    longest = std::max(longest, subject.seconds(k));
+  }
+  shortest_ = std::max(4.0 * view.longest_block_seconds(), 2e-4 * longest);
+  longest_ = 0.25 * longest;
 }
 
 SlowView::Means LaggedWitness::late(double lag_s) const {
   SlowView::Means out;
-  for (const Eigen::VectorXd& x : means_) out.push_back(lagged(x, lag_s / block_s_));
+  for (std::size_t k = 0; k < means_.size(); ++k)
+    out.push_back(lagged(means_[k], lag_s / block_s_[k]));
   return out;
 }
 
 SlowView::Means LaggedWitness::early(double lag_s) const {
   SlowView::Means out;
-  for (const Eigen::VectorXd& x : means_)
-    out.push_back(lagged(x.reverse(), lag_s / block_s_).reverse());
+  for (std::size_t k = 0; k < means_.size(); ++k)
+    out.push_back(lagged(means_[k].reverse(), lag_s / block_s_[k]).reverse());
   return out;
 }
 

@@ -17,7 +17,7 @@ class LaggedWitness {
 
  private:
   SlowView::Means means_;
-  double block_s_;
+  std::vector<double> block_s_;  // of each replicate
   double shortest_;
   double longest_;
 };

@@ -23,7 +23,7 @@ Index block_length(Index n) {
 
 }  // namespace
 
-SlowView::SlowView(const Current& current) {
+SlowView::SlowView(const Current& current) : rate_(current.subject().rate) {
   Index total = 0;
   for (std::size_t k = 0; k < current.cosines.size(); ++k) {
     const Index n = current.cosines[k].size() + 1;
@@ -39,6 +39,12 @@ SlowView::SlowView(const Current& current) {
     left_.segment(parts_[k].begin, kept) =
         (current.cosines[k].head(kept).array() / parts_[k].deviation).matrix();
   }
+}
+
+double SlowView::longest_block_seconds() const {
+  double out = 0.0;
+  for (std::size_t k = 0; k < parts_.size(); ++k) out = std::max(out, block_seconds(k));
+  return out;
 }
 
 Eigen::VectorXd SlowView::means(const VectorRef& samples, std::size_t replicate) const {

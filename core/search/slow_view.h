@@ -15,6 +15,11 @@ class SlowView {
 
   /// Samples that make a block of a replicate.
   Eigen::Index block(std::size_t replicate) const { return parts_[replicate].block; }
+  double block_seconds(std::size_t replicate) const {
+    return static_cast<double>(block(replicate)) / rate_.value;
+  }
+  /// The longest of any replicate: shapes must not be faster.
+  double longest_block_seconds() const;
   /// Block means of a series as long as the replicate.
   Eigen::VectorXd means(const VectorRef& samples, std::size_t replicate) const;
   /// Regressors given as block means of each replicate, as they stand against the noise.
@@ -41,6 +46,7 @@ class SlowView {
     Eigen::Index begin;        // of its coefficients
     Eigen::ArrayXd deviation;  // of these, under the noise
   };
+  Hertz rate_;
   std::vector<Part> parts_;
   Eigen::VectorXd left_;  // whitened
 };

@@ -41,7 +41,8 @@ struct Suggestion {
   PlainCoupling coupling = PlainCoupling::kNo;
 };
 
-/// Each search suggests at most a few terms, the best of a kind.
+/// Each search suggests at most a few terms, the best of a kind, and also where that gains nothing
+/// (score_nats is 0 then): every one is a chance of a false alarm.
 using Suggestions = std::vector<Suggestion>;
 
 /// A suggestion that was tried: fitted together with the current model.

@@ -1,6 +1,7 @@
 #include "core/spectrum/bands.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace imunoise {
 namespace {
@@ -22,6 +23,14 @@ Bands::Bands(Eigen::Index n) : edges{0} {
     count(b) = static_cast<double>(edges[static_cast<std::size_t>(b) + 1]) - begin;
     frequency(b) = (begin + 0.5 * (count(b) + 1.0)) / (2.0 * static_cast<double>(n));
   }
+}
+
+Eigen::Index coefficients_below(double frequency, Eigen::Index n) {
+  // Coefficient k is at k/2n. A frequency that is one of these, but for rounding, is not below.
+  constexpr double kRounding = 1e-9;
+  const double place = 2.0 * static_cast<double>(n) * frequency;
+  const auto first = static_cast<Eigen::Index>(std::ceil(place * (1.0 - kRounding)));
+  return std::clamp<Eigen::Index>(first - 1, 0, n - 1);
 }
 
 }  // namespace imunoise

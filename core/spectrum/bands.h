@@ -19,4 +19,8 @@ struct Bands {
   std::vector<Eigen::Index> edges;  ///< place of the first coefficient of each, and the end
 };
 
+/// How many coefficients of a cosine transform of length n lie below a frequency, in cycles per
+/// sample: where the same frequency begins in transforms of different lengths.
+Eigen::Index coefficients_below(double frequency, Eigen::Index n);
+
 }  // namespace imunoise

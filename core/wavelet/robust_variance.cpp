@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -80,7 +82,7 @@ double root_in_step(std::span<const double> squares, double low, double step, do
 // The largest root, given the mean of the squares: no root is beyond mean / E χ, since χ(r) ≤ r².
 // Goes down from there in steps until the balance turns positive. Data that are mostly zero never
 // do: what comes nearest is taken.
-double solve(std::span<const double> squares, double mean, const Biweight& form) {
+double scanned_root(std::span<const double> squares, double mean, const Biweight& form) {
   if (!(mean > 0.0)) return 0.0;
   constexpr double kStep = 0.8;
   constexpr std::size_t kTogether = 4;
@@ -102,6 +104,49 @@ double solve(std::span<const double> squares, double mean, const Biweight& form)
     }
   }
   return nearest;
+}
+
+constexpr std::size_t kMany = std::size_t{1} << 16;
+constexpr std::size_t kThin = 16;
+
+// The root for one block in sixteen: near that for all of them.
+double root_of_few(std::span<const double> squares, const Biweight& form) {
+  std::vector<double> few;
+  double sum = 0.0;
+  for (std::size_t from = 0; from + kBlock <= squares.size(); from += kThin * kBlock) {
+    const auto block = squares.subspan(from, kBlock);
+    few.insert(few.end(), block.begin(), block.end());
+    sum = std::accumulate(block.begin(), block.end(), sum);
+  }
+  return scanned_root(few, sum / static_cast<double>(few.size()), form);
+}
+
+// Newton's method on the logarithm from a root that is near; none where it does not arrive at once,
+// and there the whole range is scanned.
+std::optional<double> root_near(std::span<const double> squares, double near,
+                                const Biweight& form) {
+  constexpr int kRounds = 5;
+  constexpr double kFarthest = 0.1;
+  constexpr double kClose = 1e-8;  // the last step but one: it leaves the square of this
+  double at = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Balance here = balance(squares, std::array{near * std::exp(at)}, form)[0];
+    const double step = -here.value / here.slope;
+    at += step;
+    if (!(std::abs(at) < kFarthest)) return std::nullopt;
+    if (std::abs(step) < kClose) return near * std::exp(at);
+  }
+  return std::nullopt;
+}
+
+double solve(std::span<const double> squares, double mean, const Biweight& form) {
+  if (squares.size() >= kMany) {
+    const double near = root_of_few(squares, form);
+    if (near > 0.0) {
+      if (const auto found = root_near(squares, near, form)) return *found;
+    }
+  }
+  return scanned_root(squares, mean, form);
 }
 
 }  // namespace

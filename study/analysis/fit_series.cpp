@@ -25,11 +25,26 @@ Result<void> check_likelihood(const Series& series, const MeasureOptions& measur
   return {};
 }
 
-Fit estimate(const Series& series, const Model& model, const std::vector<WaveletVariance>& measured,
-             const FitOptions& options, const Progress& progress) {
-  if (options.estimator == Estimator::kAGmwm) {
-    return infer(agmwm(model, measured, options.weighting, progress), measured, options.confidence);
+// An average of parameters that differ by much describes none of the replicates.
+Result<Fit> average_estimate(const Model& model, const std::vector<WaveletVariance>& measured,
+                             const FitOptions& options, const Progress& progress) {
+  constexpr double kMuch = 4.0;
+  const AverageEstimate found = agmwm(model, measured, options.weighting, progress);
+  if (found.disagreement > kMuch) {
+    return fail(fmt::format(
+        "estimator: the fits of the replicates do not match: at some averaging time the mean of "
+        "their parameters has a variance {:.2g} times too large or too small; use --estimator "
+        "mugmwm, or imunoise test to see how the replicates differ",
+        found.disagreement));
   }
+  return infer(found, measured, options.confidence);
+}
+
+Result<Fit> estimate(const Series& series, const Model& model,
+                     const std::vector<WaveletVariance>& measured, const FitOptions& options,
+                     const Progress& progress) {
+  if (options.estimator == Estimator::kAGmwm)
+    return average_estimate(model, measured, options, progress);
   Fit fit =
       infer(mugmwm(model, measured, options.weighting, progress), measured, options.confidence);
   if (options.estimator != Estimator::kWhittle || progress.stopped()) return fit;
@@ -66,10 +81,11 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
       return tl::unexpected(able.error());
   }
   const Progress fitting = progress.part(0.6, 0.9);
-  const Fit fit = estimate(left.series, model, measured, options, fitting);
+  const Result<Fit> fit = estimate(left.series, model, measured, options, fitting);
   if (progress.stopped()) return fail("stopped");
-  v1::FitReport out = fit_report(fit, left.series, measured);
-  add_effects(left, fit.estimate.model, out);
+  if (!fit) return tl::unexpected(fit.error());
+  v1::FitReport out = fit_report(*fit, left.series, measured);
+  add_effects(left, fit->estimate.model, out);
   out.set_default_model(!options.model);
   out.set_estimator(name_of(options.estimator, series.replicates.size()));
   if (!options.model) out.add_notes(default_model_note("was fitted"));

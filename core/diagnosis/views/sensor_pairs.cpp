@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/spectrum/bands.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -13,13 +14,15 @@ using Index = Eigen::Index;
 constexpr Index kFirst = 8;        // coefficients of a replicate: below, there are too few
 constexpr double kAgreeing = 3.0;  // standard deviations: a neighbour of a stretch
 
-// Half octaves of the coefficients of a replicate of n samples: where each begins, and the end.
-std::vector<Index> half_octaves(Index n) {
-  std::vector<Index> out;
+// Half octaves of the coefficients of a replicate of n samples: where each begins, and the end, in
+// cycles per sample.
+std::vector<double> half_octaves(Index n) {
+  std::vector<double> out;
+  const double per_place = 0.5 / static_cast<double>(n);
   for (double at = static_cast<double>(kFirst); at < static_cast<double>(n - 1);
        at *= std::sqrt(2.0))
-    out.push_back(static_cast<Index>(std::lround(at)));
-  out.push_back(n - 1);
+    out.push_back(per_place * static_cast<double>(std::lround(at) + 1));
+  out.push_back(0.5);
   return out;
 }
 
@@ -42,14 +45,15 @@ struct Products {
 
 using Cosines = std::vector<SharedVector>;  // a replicate each
 
-std::vector<Products> products_of(const Cosines& a, const Cosines& b, std::size_t octaves) {
-  std::vector<Products> out(octaves);
+std::vector<Products> products_of(const Cosines& a, const Cosines& b,
+                                  const std::vector<double>& edges) {
+  std::vector<Products> out(edges.size() - 1);
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const std::vector<Index> edges = half_octaves(a[k].size() + 1);
-    for (std::size_t i = 0; i + 1 < edges.size() && i < octaves; ++i) {
-      const Index n = edges[i + 1] - edges[i];
-      const auto x = a[k].segment(edges[i], n);
-      const auto y = b[k].segment(edges[i], n);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Index begin = coefficients_below(edges[i], a[k].size() + 1);
+      const Index n = coefficients_below(edges[i + 1], a[k].size() + 1) - begin;
+      const auto x = a[k].segment(begin, n);
+      const auto y = b[k].segment(begin, n);
       out[i].first += x.squaredNorm();
       out[i].second += y.squaredNorm();
       out[i].both += x.dot(y);
@@ -61,8 +65,8 @@ std::vector<Products> products_of(const Cosines& a, const Cosines& b, std::size_
 
 double two_sided(double sigma) { return std::erfc(std::abs(sigma) / std::sqrt(2.0)); }
 
-SensorPair strongest(const std::vector<Products>& at, const std::vector<Index>& edges,
-                     double per_place) {
+SensorPair strongest(const std::vector<Products>& at, const std::vector<double>& edges,
+                     Hertz rate) {
   const auto best =
       std::max_element(at.begin(), at.end(), [](const Products& a, const Products& b) {
         return std::abs(a.sigma()) < std::abs(b.sigma());
@@ -75,8 +79,8 @@ SensorPair strongest(const std::vector<Products>& at, const std::vector<Index>& 
   while (begin > 0 && agrees(at[begin - 1])) --begin;
   while (end < at.size() && agrees(at[end])) ++end;
   SensorPair out;
-  out.from = per_place * static_cast<double>(edges[begin] + 1);
-  out.to = per_place * static_cast<double>(edges[end]);
+  out.from = rate.value * edges[begin];
+  out.to = rate.value * edges[end];
   out.correlation = best->correlation();
   out.sigma = best->sigma();
   out.p_value = two_sided(out.sigma);
@@ -93,13 +97,11 @@ std::vector<SensorPair> sensor_pairs(const Current& current) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
     for (std::size_t j = i + 1; j < channels.size(); ++j) out.push_back({.first = i, .second = j});
   }
-  const std::vector<Index> edges = half_octaves(subject.length(0));
-  const double per_place = 0.5 / subject.seconds(0);
+  const std::vector<double> edges = half_octaves(subject.length(current.longest()));
   if (edges.size() < 2) return {};
   for_each_index(out.size(), [&](std::size_t p) {
-    SensorPair found =
-        strongest(products_of(*channels[out[p].first], *channels[out[p].second], edges.size() - 1),
-                  edges, per_place);
+    SensorPair found = strongest(
+        products_of(*channels[out[p].first], *channels[out[p].second], edges), edges, subject.rate);
     found.first = out[p].first;
     found.second = out[p].second;
     out[p] = found;

@@ -17,9 +17,8 @@ struct SpectrumPoint {
   double peak = 0.0;  ///< of the strongest single frequency, mean of all replicates
 };
 
-/// The spectrum of what the effects of a model leave, from the longest period of the first
-/// replicate to half the rate; some thirty points a decade. Replicates of another length than the
-/// first are left out.
+/// The spectrum of what the effects of a model leave, from the longest period of the longest
+/// replicate to half the rate; some thirty points a decade.
 std::vector<SpectrumPoint> spectral_view(const Current& current);
 
 }  // namespace imunoise

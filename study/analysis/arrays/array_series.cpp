@@ -8,6 +8,8 @@
 #include "core/array/array_blocks.h"
 #include "core/array/array_whittle.h"
 #include "core/array/dependence.h"
+#include "core/array/sensor_misfit.h"
+#include "core/support/holm.h"
 #include "study/analysis/arrays/array_parameters.h"
 #include "study/analysis/arrays/array_setup.h"
 #include "study/analysis/arrays/array_weights.h"
@@ -36,14 +38,37 @@ void add_scales(const WaveletCovariance& mean, std::size_t replicates,
   }
 }
 
+void add_sensor_fits(const ArrayFit& fit, const Measured& measured, v1::ArrayReport& out) {
+  const std::vector<TestOutcome> tests = sensor_misfits(fit.model, measured);
+  std::vector<double> p_values;
+  for (const TestOutcome& one : tests) p_values.push_back(one.p_value);
+  const std::vector<double> adjusted = holm(p_values);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    v1::SensorFit& to = *out.add_sensor_fits();
+    to.set_sensor(out.sensors(static_cast<int>(i)));
+    to.set_statistic(tests[i].statistic);
+    to.set_degrees_of_freedom(tests[i].degrees_of_freedom);
+    to.set_p_value(tests[i].p_value);
+    to.set_adjusted_p_value(adjusted[i]);
+    to.set_fits(adjusted[i] >= kLevel);
+  }
+}
+
+// The test of a pair takes its scatter from the model: it means something only where that fits.
+void judge(const PairDependence& from, const v1::ArrayReport& report, v1::SensorPair& to) {
+  const bool fit = report.sensor_fits(static_cast<int>(from.pair.a)).fits() &&
+                   report.sensor_fits(static_cast<int>(from.pair.b)).fits();
+  to.set_withheld(!fit);
+  to.set_dependent(fit && from.adjusted_p < kLevel);
+}
+
 void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<Series>& sensors,
                double confidence, v1::ArrayReport& out) {
   for (const WaveletCovariance& one : measured) {
     if (one.samples != measured.front().samples) {
       out.add_notes(
-          "The replicates differ in length: cross-covariances are shown and tested on those as "
-          "long "
-          "as the first.");
+          "The replicates differ in length: cross-covariances are tested on all, and shown on "
+          "those as long as the first.");
       break;
     }
   }
@@ -55,7 +80,7 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
   mean.covariance = groups_of(alike).front().mean;
   const std::vector<Eigen::MatrixXd> model = covariance(fit.model, mean.scales);
   const Eigen::ArrayXd m = mean.scales.half_widths();
-  for (const PairDependence& from : dependence(fit.model, alike)) {
+  for (const PairDependence& from : dependence(fit.model, measured)) {
     v1::SensorPair& to = *out.add_pairs();
     to.set_first(sensors[static_cast<std::size_t>(from.pair.a)].channel);
     to.set_second(sensors[static_cast<std::size_t>(from.pair.b)].channel);
@@ -63,7 +88,7 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
     to.set_degrees_of_freedom(from.test.degrees_of_freedom);
     to.set_p_value(from.test.p_value);
     to.set_adjusted_p_value(from.adjusted_p);
-    to.set_dependent(from.adjusted_p < kLevel);
+    judge(from, out, to);
     add_scales(mean, alike.size(), model, from.pair, confidence, to);
     if (from.z.size() == 0) continue;
     Eigen::Index strongest = 0;
@@ -126,12 +151,33 @@ void add_budgets(const ArrayFit& fit, const Model& written, const Scales& scales
   }
 }
 
-std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& scale_weights) {
+std::string pairs_sentence(const v1::ArrayReport& report) {
   int dependent = 0;
-  for (const v1::SensorPair& pair : report.pairs()) dependent += pair.dependent() ? 1 : 0;
-  std::string out = dependent == 0 ? "These recordings show no shared noise."
-                                   : fmt::format("{} of {} pairs of sensors share noise.",
-                                                 dependent, report.pairs_size());
+  int withheld = 0;
+  for (const v1::SensorPair& pair : report.pairs()) {
+    dependent += pair.dependent() ? 1 : 0;
+    withheld += pair.withheld() ? 1 : 0;
+  }
+  std::string misfits;
+  for (const v1::SensorFit& one : report.sensor_fits()) {
+    if (!one.fits()) misfits += (misfits.empty() ? "" : ", ") + one.sensor();
+  }
+  std::string out;
+  if (!misfits.empty()) {
+    out = fmt::format(
+        "The model does not fit {}: whether {} of {} pairs share noise is not judged; add the "
+        "terms "
+        "that imunoise diagnose finds. ",
+        misfits, withheld, report.pairs_size());
+  }
+  if (dependent > 0)
+    return out +
+           fmt::format("{} of {} pairs of sensors share noise.", dependent, report.pairs_size());
+  return withheld == report.pairs_size() ? out : out + "These recordings show no shared noise.";
+}
+
+std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& scale_weights) {
+  std::string out = pairs_sentence(report);
   double predicted = 0.0;
   double measured = 0.0;
   bool held = true;
@@ -141,8 +187,9 @@ std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& sca
     measured += scale_weights(j) * gain.measured();
     held = held && gain.has_measured();
   }
+  if (!out.empty() && out.back() != ' ') out += ' ';
   out += fmt::format(
-      " The virtual sensor should have {:.2g} times the wavelet variance of the mean of the "
+      "The virtual sensor should have {:.2g} times the wavelet variance of the mean of the "
       "sensors, "
       "averaged over its scales",
       predicted);
@@ -151,6 +198,8 @@ std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& sca
                     "times.",
                     measured)
               : "; check this with more than one replicate.";
+  if (report.virtual_sensor().plain_mean())
+    out += " That is no gain: the plain mean of the sensors is used.";
   return out;
 }
 
@@ -177,10 +226,7 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   };
   const ArrayFit fit = fit_first(measured.size(), progress.part(0.6, 0.8));
   std::optional<VirtualSensor> half;
-  const bool alike = std::all_of(measured.begin(), measured.end(), [&](const auto& one) {
-    return one.scales == measured.front().scales;
-  });
-  if (measured.size() > 1 && alike) {
+  if (measured.size() > 1) {
     half = virtual_sensor_of(fit_first((measured.size() + 1) / 2, progress.part(0.8, 1.0)),
                              measured.front().scales, *scale_weights, options.rule);
   }
@@ -199,6 +245,7 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   for (v1::ArrayParameter& one : array_parameters(fit, written, sensors, options.confidence))
     *out.add_parameters() = std::move(one);
   add_budgets(fit, written, measured.front().scales, out);
+  add_sensor_fits(fit, measured, out);
   add_pairs(fit, measured, sensors, options.confidence, out);
   add_virtual_sensor(fit, measured, *scale_weights, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));

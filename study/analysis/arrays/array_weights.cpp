@@ -68,19 +68,65 @@ VirtualSensor virtual_sensor_of(const ArrayFit& fit, const Scales& scales,
   return best_virtual_sensor(weighted_covariance(gammas, scale_weights), rule);
 }
 
+namespace {
+
+// Sums over the replicates that the weights were not made from.
+struct HeldOut {
+  std::vector<Eigen::MatrixXd> covariance;  // a scale each
+  std::vector<bool> seen;                   // whether a replicate is long enough for it
+};
+
+HeldOut held_out(const Measured& measured, const Scales& scales, Eigen::Index sensors) {
+  HeldOut out{{scales.size(), Eigen::MatrixXd::Zero(sensors, sensors)},
+              std::vector<bool>(scales.size(), false)};
+  for (std::size_t k = (measured.size() + 1) / 2; k < measured.size(); ++k) {
+    // Scales of shorter replicates are the first of those of longer ones.
+    const std::size_t common = std::min(scales.size(), measured[k].scales.size());
+    for (std::size_t j = 0; j < common; ++j) {
+      out.covariance[j] += measured[k].covariance[j];
+      out.seen[j] = true;
+    }
+  }
+  return out;
+}
+
+bool noisier_than_mean(const HeldOut& held, const VirtualSensor& sensor,
+                       const Eigen::VectorXd& scale_weights) {
+  const Eigen::MatrixXd weighted = weighted_covariance(held.covariance, scale_weights);
+  return gain_over_mean({weighted}, sensor.weights)(0) > 1.0;
+}
+
+}  // namespace
+
 void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
                         const Eigen::VectorXd& scale_weights, const ArraySeriesOptions& options,
                         const std::optional<VirtualSensor>& half, v1::ArrayReport& out) {
   const Scales& scales = measured.front().scales;
   const auto gammas = covariance(fit.model, scales);
   const Eigen::MatrixXd weighted = weighted_covariance(gammas, scale_weights);
-  const VirtualSensor sensor = best_virtual_sensor(weighted, options.rule);
+  VirtualSensor sensor = best_virtual_sensor(weighted, options.rule);
   v1::VirtualSensor& to = *out.mutable_virtual_sensor();
   to.set_rule(rule_name(options.rule));
   to.set_scales(options.scales);
   for (const double w : scale_weights) to.add_scale_weights(w);
+  const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
+  const HeldOut held = half ? held_out(measured, scales, weighted.rows()) : HeldOut{};
+  const Eigen::ArrayXd seen = half ? gain_over_mean(held.covariance, half->weights) : predicted;
+  for (std::size_t j = 0; j < scales.size(); ++j) {
+    v1::ScaleGain& gain = *to.add_scale_gains();
+    gain.set_tau_s(2.0 * static_cast<double>(scales[j]) / out.rate_hz());
+    gain.set_predicted(predicted(static_cast<Eigen::Index>(j)));
+    if (half && held.seen[j]) gain.set_measured(seen(static_cast<Eigen::Index>(j)));
+  }
+  // Weights of Σ|c| = 1 are asked for as published; others must be worth it.
+  const bool free = options.rule != WeightRule::kUnitLength;
+  if (half && free && noisier_than_mean(held, *half, scale_weights)) {
+    to.set_plain_mean(true);
+    sensor.weights.setConstant(1.0 / static_cast<double>(sensor.weights.size()));
+    sensor.gain = 1.0;
+  }
   Eigen::VectorXd errors;
-  if (options.rule != WeightRule::kUnitLength) {
+  if (!to.plain_mean() && options.rule != WeightRule::kUnitLength) {
     errors = weight_covariance(sensor, weighted, scale_weights, moment_uncertainty(fit, scales))
                  .diagonal()
                  .cwiseMax(0.0)
@@ -93,22 +139,6 @@ void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
     if (errors.size() > 0 && std::isfinite(errors(i))) weight.set_standard_error(errors(i));
   }
   to.set_gain(sensor.gain);
-  const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
-  Eigen::ArrayXd seen;
-  if (half) {
-    std::vector<Eigen::MatrixXd> held(scales.size(),
-                                      Eigen::MatrixXd::Zero(weighted.rows(), weighted.cols()));
-    for (std::size_t k = (measured.size() + 1) / 2; k < measured.size(); ++k) {
-      for (std::size_t j = 0; j < held.size(); ++j) held[j] += measured[k].covariance[j];
-    }
-    seen = gain_over_mean(held, half->weights);
-  }
-  for (std::size_t j = 0; j < scales.size(); ++j) {
-    v1::ScaleGain& gain = *to.add_scale_gains();
-    gain.set_tau_s(2.0 * static_cast<double>(scales[j]) / out.rate_hz());
-    gain.set_predicted(predicted(static_cast<Eigen::Index>(j)));
-    if (half) gain.set_measured(seen(static_cast<Eigen::Index>(j)));
-  }
 }
 
 }  // namespace imunoise::study

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/figures/cross_figure.h"
@@ -15,12 +17,54 @@ Table pairs(const v1::ArrayReport& report, Digits digits) {
             {}};
   for (const v1::SensorPair& one : report.pairs()) {
     const double p = one.adjusted_p_value();
-    out.rows.push_back({one.first() + ", " + one.second(), one.dependent() ? "yes" : "not shown",
+    const char* const shared = one.withheld()    ? "not judged"
+                               : one.dependent() ? "yes"
+                                                 : "not shown";
+    out.rows.push_back({one.first() + ", " + one.second(), shared,
                         p < 1e-4 ? "< 0.0001" : number(p, 2, digits),
                         duration(one.strongest_tau_s()), number(one.correlation(), 2, digits),
                         signed_sigma(one.z(), digits)});
   }
   return out;
+}
+
+Table sensor_fits(const v1::ArrayReport& report, Digits digits) {
+  Table out{
+      "Does the model fit each sensor?", {"sensor", "fits?", "p", "χ²", "degrees of freedom"}, {}};
+  for (const v1::SensorFit& one : report.sensor_fits()) {
+    const double p = one.adjusted_p_value();
+    const bool tested = one.degrees_of_freedom() > 0;
+    out.rows.push_back({one.sensor(),
+                        !tested      ? "not tested"
+                        : one.fits() ? "yes"
+                                     : "no",
+                        p < 1e-4 ? "< 0.0001" : number(p, 2, digits),
+                        number(one.statistic(), 3, digits),
+                        std::to_string(one.degrees_of_freedom())});
+  }
+  return out;
+}
+
+// A correlation of the parameters whose interval excludes zero says that noise is shared, too.
+bool interval_excludes_zero(const v1::ArrayReport& report) {
+  return std::any_of(report.parameters().begin(), report.parameters().end(), [](const auto& one) {
+    return one.has_correlation_lower() &&
+           (one.correlation_lower() > 0.0 || one.correlation_upper() < 0.0);
+  });
+}
+
+void judge(const v1::ArrayReport& report, Section& section) {
+  const auto any = [](const auto& all, const auto& is) {
+    return std::any_of(all.begin(), all.end(), is);
+  };
+  const bool misfit = any(report.sensor_fits(), [](const auto& one) { return !one.fits(); });
+  const bool shared = any(report.pairs(), [](const auto& one) { return one.dependent(); });
+  const bool maybe = interval_excludes_zero(report);
+  section.badge = shared   ? "shared noise"
+                  : misfit ? "the model does not fit"
+                  : maybe  ? "shared noise is uncertain"
+                           : "no shared noise detected";
+  section.mood = shared || misfit || maybe ? Mood::kDoubtful : Mood::kGood;
 }
 
 Table weights(const v1::VirtualSensor& sensor, Digits digits) {
@@ -67,10 +111,7 @@ std::optional<figure::Figure> gain_figure(const v1::VirtualSensor& sensor) {
 Document document(const v1::ArrayReport& report, Digits digits) {
   Section section;
   section.title = joined(report.sensors());
-  bool shared = false;
-  for (const v1::SensorPair& pair : report.pairs()) shared = shared || pair.dependent();
-  section.badge = shared ? "shared noise" : "no shared noise detected";
-  section.mood = shared ? Mood::kDoubtful : Mood::kGood;
+  judge(report, section);
   section.facts = fmt::format("{} · {:g} Hz · {} sensors · {} replicates · {}", report.model(),
                               report.rate_hz(), report.sensors_size(), report.replicates(),
                               report.termination()) +
@@ -80,7 +121,9 @@ Document document(const v1::ArrayReport& report, Digits digits) {
     section.figures.push_back(std::move(*figure));
   }
   if (auto figure = cross_figure(report)) section.figures.push_back(std::move(*figure));
-  section.tables = {pairs(report, digits), weights(report.virtual_sensor(), digits),
+  section.tables = {sensor_fits(report, digits),
+                    pairs(report, digits),
+                    weights(report.virtual_sensor(), digits),
                     gains(report.virtual_sensor(), digits),
                     sensor_budgets("What explains each sensor's noise, over all averaging times",
                                    "sensor", report.budgets()),

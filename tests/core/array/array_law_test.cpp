@@ -274,6 +274,54 @@ TEST(VirtualSensor, WeightsMeetTheOptimalityConditions) {
   }
 }
 
+// Of a singular matrix: two sensors whose noise is opposite cancel, one without noise suffices, and
+// copies share their weight.
+TEST(VirtualSensor, TakesWhatASingularMatrixAllows) {
+  const Eigen::Vector3d opposite(1.0, -1.0, 0.5);
+  Eigen::MatrixXd cancels = 1e-9 * opposite * opposite.transpose();
+  cancels(2, 2) += 1e-9;
+  Eigen::MatrixXd quiet = Eigen::Vector3d(1e-9, 0.0, 4e-9).asDiagonal();
+  const Eigen::Vector3d copy(1.0, 1.0, 0.0);
+  Eigen::MatrixXd copies = 1e-9 * copy * copy.transpose();
+  copies(2, 2) = 1e-9;
+  for (const WeightRule rule : {WeightRule::kUnitGain, WeightRule::kNonnegative}) {
+    const VirtualSensor of_cancelling = best_virtual_sensor(cancels, rule);
+    EXPECT_NEAR(of_cancelling.gain, 1.0, 1e-9);
+    EXPECT_LT(of_cancelling.variance, 1e-18);
+    EXPECT_LT((best_virtual_sensor(quiet, rule).weights - Eigen::Vector3d::Unit(1)).norm(), 1e-9);
+    EXPECT_NEAR(best_virtual_sensor(copies, rule).variance, 0.5e-9, 1e-18);
+  }
+  EXPECT_LT((best_virtual_sensor(copies, WeightRule::kUnitGain).weights -
+             Eigen::Vector3d(0.25, 0.25, 0.5))
+                .norm(),
+            1e-9);
+}
+
+// A cross-covariance at one averaging time is the same quantity in replicates of all lengths.
+TEST(Dependence, UsesReplicatesOfAllLengths) {
+  const auto model_of = [](const char* text) {
+    return expand(parse_array_model(text, Hertz{1.0}).value(), {2, {}});
+  };
+  ArrayModel apart = model_of("WN(sigma2=1) + RW(gamma2=1e-4)");
+  ArrayModel shared = model_of("WN[corr] + RW(gamma2=1e-4)");
+  shared.latents.front().power << 1.0, 0.1, 0.1, 1.0;
+  int alarms = 0;
+  int seen = 0;
+  constexpr std::uint32_t kSets = 100;
+  for (std::uint32_t set = 0; set < kSets; ++set) {
+    const auto p_value = [&](const ArrayModel& longer) {
+      const std::vector<WaveletCovariance> both{
+          testing::simulated_moments(apart, 512, 20261124, 2 * set),
+          testing::simulated_moments(longer, 4096, 20261124, 2 * set + 1)};
+      return dependence(apart, both).front().test.p_value;
+    };
+    alarms += p_value(apart) < 0.05 ? 1 : 0;
+    seen += p_value(shared) < 0.05 ? 1 : 0;
+  }
+  EXPECT_LE(alarms, 13);  // P(more than 13 of 100 at 5 %) < 0.001
+  EXPECT_GE(seen, 95);    // white correlation 0.1 in 4,096 samples: 6 standard deviations
+}
+
 TEST(VirtualSensor, WeightErrorsAgreeWithFiniteDifferences) {
   const Scales scales({1, 4, 16});
   const ArrayModel model = mixed_model();

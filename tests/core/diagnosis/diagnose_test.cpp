@@ -9,7 +9,10 @@
 #include <cmath>
 #include <random>
 
+#include "core/diagnosis/missing_noise.h"
 #include "core/diagnosis/useless.h"
+#include "core/effects/known_effects.h"
+#include "core/search/search_view.h"
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {
@@ -61,6 +64,55 @@ TEST(Diagnose, ATemperatureBehindALag) {
   const auto& term = std::get<EffectTerm>(diagnosis.effects[0].tried.suggestion.added);
   EXPECT_EQ(term.witness, "temperature");
   EXPECT_NEAR(term["lag"], 5.0, 2.0);
+}
+
+// All that two gyroscopes share lies above 6.25 Hz, at the same frequency in a replicate of half
+// the length.
+TEST(Diagnose, SharedVibrationOfReplicatesOfDifferentLengths) {
+  const auto shared = [](double s) {
+    double out = 0.0;
+    for (int i = 0; i < 60; ++i) out += wave(6.3 + 0.307 * i, s + 0.17 * i * i);
+    return 0.1 * out;
+  };
+  const auto beside = [&](std::size_t k, double s) {
+    double own = 0.0;
+    for (int i = 0; i < 40; ++i)
+      own += wave(0.02 + 0.151 * i, s + 0.31 * i * i + 7.0 * static_cast<double>(k));
+    return shared(s) + own;
+  };
+  const FittedModel trial =
+      fitted(subject_of({.first = 4096,
+                         .seed = 31,
+                         .added = [&](std::size_t, double s) { return shared(s); },
+                         .temperature = beside,
+                         .witness = Quantity::kAngularRate}));
+  const Current current = current_of(trial.regression, trial.fit);
+  const SearchView view(current);
+  const Effect& witness = effect_named("witness");
+  double from = 0.0;
+  for (const Suggestion& one : witness.search(view)) {
+    const auto& term = std::get<EffectTerm>(one.added);
+    if (one.cause == "common_vibration" && term["from"] > 0.0) from = term["from"];
+  }
+  EXPECT_NEAR(from, 6.25, 0.01);
+}
+
+// The number of suggestions is what false alarms are counted by: chance must not move it.
+TEST(Diagnose, EverySearchSuggestsItsBestThoughItGainsNothing) {
+  std::vector<std::size_t> counts;
+  for (std::uint64_t seed = 41; seed <= 45; ++seed) {
+    const FittedModel trial =
+        fitted(subject_of({.samples = 2048, .seed = seed, .temperature = temperature}));
+    const Current current = current_of(trial.regression, trial.fit);
+    const SearchView view(current);
+    std::size_t count = search_noise(current).size();
+    for (const Effect* effect : known_effects()) {
+      if (effect->search != nullptr) count += effect->search(view).size();
+    }
+    counts.push_back(count);
+  }
+  EXPECT_EQ(std::count(counts.begin(), counts.end(), counts.front()), 5)
+      << testing::PrintToString(counts);
 }
 
 TEST(Diagnose, AStepInOneReplicate) {

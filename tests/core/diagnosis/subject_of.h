@@ -32,9 +32,11 @@ struct MadeSubject {
   std::size_t samples = 8192;
   std::size_t replicates = 4;
   std::size_t shorter = 0;  ///< samples by which each replicate is shorter than the one before
+  std::size_t first = 0;    ///< samples of the first replicate, where it has its own length
   std::uint64_t seed = 1;
   Addition added = [](std::size_t, double) { return 0.0; };
   Addition temperature{};  ///< a witness "temperature", K, where there is one
+  Quantity witness = Quantity::kTemperature;
 };
 
 inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
@@ -43,7 +45,8 @@ inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
   std::vector<std::vector<double>> series;
   std::vector<std::vector<double>> witness;
   for (std::size_t k = 0; k < made.replicates; ++k) {
-    const std::size_t samples = made.samples - k * made.shorter;
+    const bool own = k == 0 && made.first > 0;
+    const std::size_t samples = own ? made.first : made.samples - k * made.shorter;
     series.push_back(simulate(noise, samples, made.seed, static_cast<std::uint32_t>(k)));
     witness.emplace_back(samples);
     for (std::size_t t = 0; t < samples; ++t) {
@@ -56,8 +59,7 @@ inline std::shared_ptr<const Subject> subject_of(const MadeSubject& made) {
   NamedChannel temperature{"temperature", {}};
   for (std::size_t k = 0; k < made.replicates; ++k) {
     replicates.emplace_back(std::span<const double>(series[k]), kRate, Quantity::kAngularRate);
-    temperature.replicates.emplace_back(std::span<const double>(witness[k]), kRate,
-                                        Quantity::kTemperature);
+    temperature.replicates.emplace_back(std::span<const double>(witness[k]), kRate, made.witness);
   }
   std::vector<NamedChannel> witnesses;
   if (made.temperature) witnesses.push_back(temperature);

@@ -51,6 +51,20 @@ TEST(SpectralView, AWaveStandsOutAtItsFrequency) {
   EXPECT_GT(best->peak / best->model, 20.0);  // A²n/4 = 82 shared by two neighbours at worst
 }
 
+// What only the longer replicates show is shown.
+TEST(SpectralView, SeesReplicatesOfAllLengths) {
+  const Looked at({.first = 4096, .seed = 22, .added = [](std::size_t k, double s) {
+                     return k > 0 ? 0.2 * wave(7.123, s) : 0.0;
+                   }});
+  const auto points = spectral_view(at.current);
+  const auto best = std::max_element(
+      points.begin(), points.end(),
+      [](const auto& a, const auto& b) { return a.peak / a.model < b.peak / b.model; });
+  EXPECT_NEAR(best->frequency, 7.123, 0.08 * 7.123);
+  EXPECT_GT(best->peak / best->model, 15.0);  // three quarters of the 82 of each, at worst a half
+  EXPECT_NEAR(points.front().frequency, 50.0 / (2.0 * 8192.0), 1e-9);
+}
+
 TEST(Misfit, ReplicatesOfDifferentLengthsShareTheirHalfOctaves) {
   const Looked at({.shorter = 400, .seed = 28, .added = [](std::size_t, double s) {
                      return 0.5 * wave(7.123, s);
@@ -104,6 +118,41 @@ TEST(SensorPairs, WhatIsApartIsAsAlikeAsChance) {
                      return std::fmod(s * 7919.0 + 131.0 * static_cast<double>(k), 1.0);
                    }});
   EXPECT_GT(sensor_pairs(at.current).at(0).p_value, 0.01);
+}
+
+TEST(SensorPairs, AHalfLengthReplicateIsNotAnOctaveOff) {
+  const auto beside = [](std::size_t k, double s) {
+    return std::fmod(s * 7919.0 + 131.0 * static_cast<double>(k), 1.0) + 0.5 * wave(7.123, s);
+  };
+  const Looked at({.first = 4096,
+                   .seed = 25,
+                   .added = [](std::size_t, double s) { return 0.3 * wave(7.123, s); },
+                   .temperature = beside});
+  const auto pairs = sensor_pairs(at.current);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_LT(pairs[0].p_value, 1e-4);
+  EXPECT_LT(pairs[0].from, 7.123);
+  EXPECT_GT(pairs[0].to, 7.123);
+  EXPECT_LT(pairs[0].to / pairs[0].from, 1.5);
+}
+
+// Blocks of a replicate of twice the length are twice as long: 16,384 samples stand alone.
+TEST(LagCurves, AreTheSameForReplicatesOfAllLengths) {
+  const auto behind = [](std::size_t k, double s) {
+    return 0.5 * (2.0 * lagged_wave(0.013 + 0.002 * static_cast<double>(k), 5.0, s) +
+                  lagged_wave(0.05, 5.0, s + 3.0));
+  };
+  const Looked at({.samples = 65536,
+                   .replicates = 3,
+                   .first = 16384,
+                   .seed = 29,
+                   .added = behind,
+                   .temperature = swing});
+  const auto curves = lag_curves(at.current);
+  ASSERT_EQ(curves.size(), 1U);
+  const auto best = std::max_element(curves[0].nats.begin(), curves[0].nats.end());
+  const double lag = curves[0].seconds.at(static_cast<std::size_t>(best - curves[0].nats.begin()));
+  EXPECT_NEAR(std::log2(lag / 5.0), 0.0, 0.5);
 }
 
 TEST(LagCurves, PeakBehindTheWitnessThatCauses) {

@@ -81,6 +81,29 @@ TEST(Mugmwm, EqualsTheAverageWhereVarianceIsLinearAndWeightsAreTheSame) {
                      "linear");
 }
 
+// One replicate has a faint slower process, the other a faint faster one: averaged by their order
+// in time, each faint one would meet the strong one of the other.
+TEST(Agmwm, AveragesTermsThatExplainTheSame) {
+  const std::vector<WaveletVariance> moments = {
+      theory(model_of("AR1(sigma2=1e-8, phi=0.9999) + AR1(sigma2=0.02, phi=0.99)"), 1U << 14U),
+      theory(model_of("AR1(sigma2=0.02, phi=0.99) + AR1(sigma2=2e-3, phi=0.5)"), 1U << 14U)};
+  const AverageEstimate found = agmwm(model_of("2*AR1"), moments, Weighting::kDiagonal);
+  EXPECT_LT(found.disagreement, 1.2);
+}
+
+TEST(Agmwm, SaysWhereTheAverageDescribesNoReplicate) {
+  const auto of = [](const std::string& other) {
+    return agmwm(model_of("AR1"),
+                 std::vector{theory(model_of("AR1(sigma2=1, phi=0.9)"), 1U << 14U),
+                             theory(model_of(other), 1U << 14U)},
+                 Weighting::kDiagonal)
+        .disagreement;
+  };
+  EXPECT_NEAR(of("AR1(sigma2=1, phi=0.9)"), 1.0, 1e-6);
+  // Variances 10,000 / 2 and 5.3 in the mean; that of the mean φ is 10.2.
+  EXPECT_GT(of("AR1(sigma2=1, phi=0.9999)"), 50.0);
+}
+
 // Two replicates of one model with different parameters: pooling is not averaging (Jensen).
 class Jensen : public ::testing::Test {
  protected:

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
+#include "core/inference/parameter_covariance.h"
 #include "core/support/distributions.h"
 #include "core/support/parallel.h"
 #include "tests/core/inference/simulated_sets.h"
@@ -38,6 +40,27 @@ TEST(Goodness, JudgesTheModelNotTheWeights) {
   const Fit full = infer(mugmwm(open, moments, Weighting::kFull), moments);
   EXPECT_NE(diagonal.estimate.model, full.estimate.model);
   EXPECT_NEAR(diagonal.goodness.statistic, full.goodness.statistic, 1e-6 * full.goodness.statistic);
+}
+
+// Scales within an octave differ by so little that it is not normal.
+TEST(Goodness, HasItsSizeAtFourScalesAnOctave) {
+  constexpr std::size_t kSets = 1000;
+  constexpr std::size_t kSamples = 2048;
+  const Model truth = model_of("WN(sigma2=1) + RW(gamma2=1e-3)");
+  const WaveletVariance expected = theory(truth, kSamples, 4);
+  const std::vector<WaveletVariance> one{expected};
+  const MomentCovariances covariances = moment_covariances(truth, one);
+  const NormalScores scores(truth, expected, covariances[0]);
+  std::vector<double> p_values(kSets);
+  for_each_index(kSets, [&](std::size_t set) {
+    const auto measured = simulated_set(truth, {kSamples}, 4, kSeed + set);
+    const Eigen::VectorXd z = scores.residual(measured[0].variance, expected.variance);
+    p_values[set] = chi_square_test(z.squaredNorm(), z.size()).p_value;
+  });
+  const auto rejected =
+      std::count_if(p_values.begin(), p_values.end(), [](double p) { return p < 0.05; });
+  EXPECT_NEAR(static_cast<double>(rejected) / kSets, 0.05,
+              testing::binomial_allowance(0.05, kSets));
 }
 
 TEST(Goodness, DoesNotDependOnTheUnit) {
@@ -82,6 +105,21 @@ TEST(Goodness, KnowsThatFewDegreesOfFreedomAreSkew) {
 }
 
 // A random walk at the edge of what is seen: its interval covers the truth, not only its estimate.
+// The lower bound of a correlation lies below zero.
+TEST(ParameterSets, AParameterAtABoundIsNotInside) {
+  Ar2 process{1.0, 0.5, 0.3};
+  const std::vector<ParameterInfo> about = parameters(Process(process));
+  const auto inside = [&](double rho) {
+    process.rho1 = rho;
+    return parameter_sets(Model{{Term(process)}}).interior.size();
+  };
+  ASSERT_LT(about[1].lower, 0.0);
+  EXPECT_EQ(inside(0.5), 3U);
+  EXPECT_EQ(inside(about[1].lower), 2U);
+  EXPECT_EQ(inside(about[1].upper), 2U);
+  EXPECT_EQ(inside(-0.99), 3U);
+}
+
 TEST(Intervals, UpperBoundsCover) {
   constexpr std::size_t kSets = 200;
   const Model truth = model_of("WN(sigma2=1) + RW(gamma2=2e-4)");

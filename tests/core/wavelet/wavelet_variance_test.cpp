@@ -195,6 +195,35 @@ TEST(RobustVariance, IsUnmovedByOutliersAndUnbiasedWithoutThem) {
   EXPECT_LT((ratio(RobustEfficiency::k60) - 1.0).abs().maxCoeff(), 0.05);
 }
 
+// Mean of χ(W/√ν) over the coefficients against its expectation, with outliers among them; long
+// enough that the root is first sought in a part of them.
+TEST(RobustVariance, SolvesItsEquation) {
+  constexpr double kCut = 4.973362134160212;
+  constexpr double kExpectation = 0.6367236798738104;
+  std::vector<double> x = random_samples<double>(150'000, 1.0, 0.0, 12);
+  for (std::size_t t = 0; t < x.size(); t += 700) x[t] = 30.0;
+  const Signal signal{std::span<const double>(x), Hertz{1}};
+  const Scales scales({1, 64});
+  const WaveletVariance found = robust_wavelet_variance(signal, scales, RobustEfficiency::k60);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const auto m = static_cast<std::size_t>(scales[i]);
+    const double nu = found.variance(static_cast<Eigen::Index>(i));
+    double sum = 0.0;
+    double count = 0.0;
+    double w = 0.0;  // 2m W
+    for (std::size_t t = 0; t < m; ++t) w += x[t + m] - x[t];
+    for (std::size_t t = 2 * m;; ++t) {
+      const double r2 = w * w / (4.0 * static_cast<double>(m * m) * nu);
+      const double q = std::max(0.0, 1.0 - r2 / (kCut * kCut));
+      sum += r2 * q * q * q * q;
+      count += 1.0;
+      if (t == x.size()) break;
+      w += x[t] - 2.0 * x[t - m] + x[t - 2 * m];
+    }
+    EXPECT_NEAR(sum / count, kExpectation, 1e-9) << m;
+  }
+}
+
 TEST(Scales, AreDyadicAndBetween) {
   EXPECT_EQ(Scales::for_samples(1'000'000).size(), 18U);
   EXPECT_EQ(Scales::for_samples(10'000'000).size(), 22U);
