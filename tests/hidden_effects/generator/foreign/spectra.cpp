@@ -58,7 +58,7 @@ Injection hide_filtered_resonance(Scene& scene, double delta) {
 // alike for as long as a recording lasts.
 Injection hide_noise_beside_slow_neighbours(Scene& scene, double delta) {
   const double n = static_cast<double>(scene.samples());
-  const double tau = n * log_uniform(scene.random, 0.02, 0.1);
+  const double tau = n * log_uniform(scene.random, 0.01, 0.03);
   double deviation = 0.0;
   Injection out = add_noise(
       scene, delta,
