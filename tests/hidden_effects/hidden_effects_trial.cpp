@@ -39,8 +39,7 @@ TEST(HiddenEffectsTrial, Nothing) {
     GTEST_SKIP() << "IMUNOISE_TRIAL_ONLY asks for some effects of the catalogue alone";
   std::vector<CaseSpec> specs;
   for (std::size_t i = 0; i < 30 * plan.repeats; ++i) {
-    CaseSpec spec;
-    spec.seed = plan.seed(i);
+    CaseSpec spec = plan.null_case(i);
     spec.null_base = static_cast<Base>(i % 5);
     spec.null_weather = i / 5 % 3 == 0 ? Weather::kLively : Weather::kCalm;
     specs.push_back(spec);
@@ -146,15 +145,12 @@ TEST(HiddenEffectsTrial, EveryEffectOfTheCatalogue) {
       "known | δ at 90 %%: tool | oracle that searches\n",
       "effect", "family");
   for (const HiddenEffect& effect : hidden_effects()) {
-    if (effect.kind == Kind::kOutside || !plan.wants(effect.name())) continue;
+    const bool known = effect.kind == Kind::kCatalogue || effect.kind == Kind::kIntegrity;
+    if (!known || !plan.wants(effect.name())) continue;
     std::vector<CaseSpec> specs;
-    for (const double delta : plan.strengths) {
+    for (const double delta : plan.strengths_or({6.0, 8.0, 10.0, 12.0, 16.0})) {
       for (std::size_t i = 0; i < plan.repeats; ++i) {
-        CaseSpec spec;
-        spec.effects = {effect.name()};
-        spec.delta = delta;
-        spec.seed = plan.seed(i);
-        specs.push_back(spec);
+        specs.push_back(plan.one_effect(effect.name(), delta, i));
       }
     }
     Questions questions;
@@ -251,15 +247,13 @@ TEST(HiddenEffectsTrial, WitnessesWithheld) {
   const TrialPlan plan = trial_plan();
   std::vector<CaseSpec> specs;
   for (const HiddenEffect& effect : hidden_effects()) {
-    if (effect.witness.empty() || effect.id == "modulated_variance" || !plan.wants(effect.name())) {
+    if (effect.kind != Kind::kCatalogue || effect.witness.empty() ||
+        effect.id == "modulated_variance" || !plan.wants(effect.name())) {
       continue;
     }
     for (const double delta : {16.0, 32.0}) {
       for (std::size_t i = 0; i < plan.repeats; ++i) {
-        CaseSpec spec;
-        spec.effects = {effect.name()};
-        spec.delta = delta;
-        spec.seed = plan.seed(i);
+        CaseSpec spec = plan.one_effect(effect.name(), delta, i);
         spec.withhold = true;
         specs.push_back(spec);
       }
@@ -278,11 +272,7 @@ TEST(HiddenEffectsTrial, EffectsOutsideTheCatalogue) {
     if (effect.kind != Kind::kOutside || !plan.wants(effect.name())) continue;
     for (const double delta : {16.0, 32.0, 64.0}) {
       for (std::size_t i = 0; i < plan.repeats; ++i) {
-        CaseSpec spec;
-        spec.effects = {effect.name()};
-        spec.delta = delta;
-        spec.seed = plan.seed(i);
-        specs.push_back(spec);
+        specs.push_back(plan.one_effect(effect.name(), delta, i));
       }
     }
   }
@@ -304,10 +294,9 @@ TEST(HiddenEffectsTrial, TwoEffectsAtOnce) {
                                              {"outliers", "temperature/static"},
                                              {"rate_ramp", "harmonics"}}) {
     for (std::size_t i = 0; i < plan.repeats; ++i) {
-      CaseSpec spec;
+      CaseSpec spec = plan.null_case(i);
       spec.effects = pair;
       spec.delta = 14.0;
-      spec.seed = plan.seed(i);
       specs.push_back(spec);
     }
   }

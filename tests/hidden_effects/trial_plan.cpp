@@ -1,5 +1,6 @@
 #include "tests/hidden_effects/trial_plan.h"
 
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
@@ -8,6 +9,25 @@
 #include "core/support/parallel.h"
 
 namespace imunoise::hidden {
+
+CaseSpec TrialPlan::null_case(std::size_t repeat) const {
+  CaseSpec out;
+  out.seed = seed(repeat);
+  out.samples = samples;
+  out.replicates = replicates;
+  return out;
+}
+
+CaseSpec TrialPlan::one_effect(const std::string& name, double delta, std::size_t repeat) const {
+  CaseSpec out = null_case(repeat);
+  out.effects = {name};
+  out.delta = delta;
+  return out;
+}
+
+std::vector<double> TrialPlan::strengths_or(std::vector<double> own) const {
+  return strengths.empty() ? own : strengths;
+}
 
 TrialPlan trial_plan() {
   TrialPlan out;
@@ -24,9 +44,16 @@ TrialPlan trial_plan() {
     out.strengths.assign(std::istream_iterator<double>(words), {});
   }
   out.only = variable("IMUNOISE_TRIAL_ONLY");
-  std::printf("%s seeds from %llu, %zu for each effect and strength%s%s\n",
+  if (const std::string samples = variable("IMUNOISE_TRIAL_SAMPLES"); !samples.empty()) {
+    out.samples = std::bit_floor(std::strtoul(samples.c_str(), nullptr, 10));
+  }
+  if (const std::string count = variable("IMUNOISE_TRIAL_REPLICATES"); !count.empty()) {
+    out.replicates = std::strtoul(count.c_str(), nullptr, 10);
+  }
+  std::printf("%s seeds from %llu, %zu for each effect and strength, %zu × %zu samples%s%s\n",
               out.test_seeds ? "test" : "development", static_cast<unsigned long long>(out.seed(0)),
-              out.repeats, out.only.empty() ? "" : ", only ", out.only.c_str());
+              out.repeats, out.replicates, out.samples, out.only.empty() ? "" : ", only ",
+              out.only.c_str());
   return out;
 }
 

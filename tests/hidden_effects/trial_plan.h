@@ -14,11 +14,19 @@ namespace imunoise::hidden {
 /// Test seeds are run once, and lie in a million of their own for each time: what they show is then
 /// known.
 struct TrialPlan {
-  bool test_seeds = false;  ///< IMUNOISE_TRIAL_SEEDS=test
-  std::size_t repeats = 2;  ///< IMUNOISE_TRIAL_REPEATS: seeds for each effect and strength
-  /// δ of the catalogue's effects; IMUNOISE_TRIAL_STRENGTHS: "8 12"
-  std::vector<double> strengths = {6.0, 8.0, 10.0, 12.0, 16.0};
-  std::string only;  ///< IMUNOISE_TRIAL_ONLY: effects whose name holds this text
+  bool test_seeds = false;          ///< IMUNOISE_TRIAL_SEEDS=test
+  std::size_t repeats = 2;          ///< IMUNOISE_TRIAL_REPEATS: seeds for each effect and strength
+  std::vector<double> strengths;    ///< IMUNOISE_TRIAL_STRENGTHS: "8 12"; empty: each trial's own
+  std::string only;                 ///< IMUNOISE_TRIAL_ONLY: effects whose name holds this text
+  std::size_t samples = 1U << 15U;  ///< IMUNOISE_TRIAL_SAMPLES: of a replicate, a power of two
+  std::size_t replicates = 4;       ///< IMUNOISE_TRIAL_REPLICATES
+
+  /// A case without effects: of this size, with the seed of a repeat.
+  CaseSpec null_case(std::size_t repeat) const;
+  /// The same with one effect.
+  CaseSpec one_effect(const std::string& name, double delta, std::size_t repeat) const;
+  /// The plan's strengths, or `own` where it has none.
+  std::vector<double> strengths_or(std::vector<double> own) const;
 
   std::uint64_t seed(std::size_t repeat) const {
     return (test_seeds ? 4'000'001U : 1U) + static_cast<std::uint64_t>(repeat);

@@ -27,9 +27,9 @@ int fail_with(const std::string& message) {
 
 void list() {
   for (const HiddenEffect& effect : hidden_effects()) {
-    std::printf("%-24s %s%s\n", effect.name().c_str(),
-                effect.kind == Kind::kOutside ? "not in the catalogue" : "",
-                effect.kind == Kind::kIntegrity ? "defect of the samples" : "");
+    static constexpr const char* kKinds[] = {"", "defect of the samples", "not in the catalogue",
+                                             "outside the catalogue's exact shapes", "no defect"};
+    std::printf("%-32s %s\n", effect.name().c_str(), kKinds[static_cast<int>(effect.kind)]);
   }
 }
 
@@ -71,7 +71,7 @@ std::string drawn(std::uint64_t seed) {
   const HiddenEffect* effect = nullptr;
   do {
     effect = &hidden_effects()[below(random, hidden_effects().size())];
-  } while (effect->kind == Kind::kOutside);
+  } while (effect->kind != Kind::kCatalogue && effect->kind != Kind::kIntegrity);
   return effect->name();
 }
 

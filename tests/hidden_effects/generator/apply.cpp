@@ -66,4 +66,24 @@ Injection add_noise(Scene& scene, double delta,
   return of_spectrum(scene, after(deviation));
 }
 
+Injection add_power(Scene& scene, const std::vector<Series>& courses, double delta) {
+  const auto after = [&](double growth) {
+    Series out;
+    for (const Series& course : courses) {
+      for (const double x : course) out.push_back(1.0 + growth * x);
+    }
+    return out;
+  };
+  const double growth =
+      solve_strength(delta, 1e-6, 1e3, [&](double g) { return swing_strength(after(g)); });
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    Series& gyro = scene.recordings[r][kSubject];
+    for (std::size_t t = 0; t < gyro.size(); ++t) {
+      gyro[t] += scene.floor() * std::sqrt(growth * courses[r][t]) * scene.random.normal();
+    }
+  }
+  const double put = swing_strength(after(growth));
+  return {put, put, {}};
+}
+
 }  // namespace imunoise::hidden

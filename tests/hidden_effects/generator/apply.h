@@ -30,4 +30,9 @@ double solve_size(const Scene& scene, double delta, double low, double high,
 Injection add_noise(Scene& scene, double delta,
                     const std::function<BaseNoise(double deviation)>& shape, double& deviation);
 
+/// Adds white noise to gyro_x whose variance follows `courses` (one a replicate, ≥ 0), all times
+/// the one factor that makes δ what is asked, beside the white floor and for an observer who must
+/// fit the mean level: only what swings around that is evidence.
+Injection add_power(Scene& scene, const std::vector<Series>& courses, double delta);
+
 }  // namespace imunoise::hidden

@@ -116,15 +116,22 @@ Series BaseNoise::spectrum(std::size_t samples) const {
   return out;
 }
 
-// A Markov noise of variance v and time τ has the two-sided spectrum 2vτ/(1 + (2πfτ)²). Summed over
-// ln τ, one every ln 2, that is (v/ln 2)·∫ 2τ/(1 + (2πfτ)²) dτ/τ = v/(2f ln 2).
-std::vector<Markov> octaves_of_flicker(double level, std::size_t samples) {
+// A Markov noise of variance v and time τ has the two-sided spectrum 2vτ/(1 + (2πfτ)²). With
+// v = c·τ^(a-1), a = -slope, summed over ln τ, one every ln 2, that is
+// (2c/ln 2)·∫ τ^(a-1)/(1 + (2πfτ)²) dτ = (2c/ln 2)·(2πf)^(-a)·(π/2)/sin(πa/2).
+std::vector<Markov> octaves_of_power_law(double slope, double level, std::size_t samples) {
+  const double a = -slope;
+  const double scale = std::numbers::ln2 / std::numbers::pi * std::sin(0.5 * std::numbers::pi * a) *
+                       std::pow(2.0 * std::numbers::pi, a);
   std::vector<Markov> out;
-  const double deviation = level * std::sqrt(2.0 * std::numbers::ln2);
   for (double tau = 1.0; tau <= 8.0 * static_cast<double>(samples); tau *= 2.0) {
-    out.push_back({deviation, tau});
+    out.push_back({level * std::sqrt(scale * std::pow(tau, a - 1.0)), tau});
   }
   return out;
+}
+
+std::vector<Markov> octaves_of_flicker(double level, std::size_t samples) {
+  return octaves_of_power_law(-1.0, level, samples);
 }
 
 BaseNoise draw_base(Base base, std::size_t samples, RandomStream& random) {

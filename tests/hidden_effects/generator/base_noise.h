@@ -71,7 +71,10 @@ enum class Base {
 BaseNoise draw_base(Base base, std::size_t samples, RandomStream& random);
 
 /// Markov noises, one an octave from 1 sample to eight times the recording, whose sum has the
-/// two-sided spectrum level²/f (f in cycles per sample) between those ends.
+/// two-sided spectrum level²·f^slope (f in cycles per sample, -2 < slope < 0) between those ends.
+std::vector<Markov> octaves_of_power_law(double slope, double level, std::size_t samples);
+
+/// The same of slope -1.
 std::vector<Markov> octaves_of_flicker(double level, std::size_t samples);
 
 }  // namespace imunoise::hidden

@@ -28,6 +28,8 @@ enum class Kind {
   kCatalogue,  ///< To be named.
   kIntegrity,  ///< A defect of the samples: certain to be seen by who looks for it, δ is a count.
   kOutside,    ///< Not in the catalogue: to be noticed and not named.
+  kForeign,    ///< Outside the catalogue's exact shapes: its family is to be named.
+  kHarmless,   ///< No defect: no cause is to be named.
 };
 
 /// How the search-adjusted oracle and the targets see it.
@@ -49,6 +51,10 @@ struct HiddenEffect {
   std::string name() const { return variant.empty() ? id : id + "/" + variant; }
 };
 
+/// A family outside the catalogue's exact shapes.
+HiddenEffect foreign(std::string id, std::string variant,
+                     Injection (*hide)(Scene& scene, double delta));
+
 /// Every effect of the blind trial.
 const std::vector<HiddenEffect>& hidden_effects();
 
@@ -61,6 +67,12 @@ std::vector<HiddenEffect> neighbour_effects();
 std::vector<HiddenEffect> irregular_effects();
 std::vector<HiddenEffect> integrity_effects();
 std::vector<HiddenEffect> outside_effects();
+std::vector<HiddenEffect> foreign_powers();
+std::vector<HiddenEffect> foreign_waves();
+std::vector<HiddenEffect> foreign_courses();
+std::vector<HiddenEffect> foreign_spectra();
+std::vector<HiddenEffect> foreign_couplings();
+std::vector<HiddenEffect> foreign_samples();
 
 /// The effect of that name ("temperature/lagged"), or null.
 const HiddenEffect* find_effect(std::string_view name);

@@ -77,6 +77,20 @@ TEST(BaseNoise, FlickerIsOneOverF) {
   }
 }
 
+// The same of other slopes: flat ones end sooner at the short end, steep ones at the long end.
+TEST(BaseNoise, OctavesMakeAnyPowerLaw) {
+  constexpr std::size_t kSamples = 1U << 15U;
+  for (const double slope : {-0.5, -1.5}) {
+    BaseNoise law;
+    law.markov = octaves_of_power_law(slope, 0.1, kSamples);
+    const Series got = law.spectrum(kSamples);
+    for (std::size_t k = 16; k < kSamples / 500; k *= 2) {
+      const double f = 0.5 * static_cast<double>(k) / kSamples;
+      EXPECT_NEAR(got[k - 1] / (0.01 * std::pow(f, slope)), 1.0, 0.06) << slope << " at " << f;
+    }
+  }
+}
+
 // Haar wavelet variance at half-width m: σ²/2m + γ²(4m² + 2)/24m for white noise and a walk.
 TEST(BaseNoise, HasTheWaveletVarianceOfItsLaw) {
   constexpr std::size_t kSamples = 1U << 18U;
@@ -266,6 +280,24 @@ TEST(Strength, OfOutliersIsTheMeanRatioOfASample) {
   EXPECT_NEAR(outlier_divergence(kShare, kFactor), mean, 5.0 * error);
 }
 
+// KL of Student's t of 4 degrees of freedom and unit variance from the normal law: the difference
+// of their entropies, ½ ln(2πe) - (5/2)(ψ(5/2) - ψ(2)) - ln(√2·B(2, ½)); ψ(5/2) = 8/3 - γ - 2 ln 2,
+// ψ(2) = 1 - γ, B(2, ½) = 4/3.
+TEST(Strength, OfStudentsTailsIsTheDifferenceOfEntropies) {
+  Series weights;
+  Series variances;
+  constexpr double kStep = 0.02;
+  for (double u = -9.0; u < 4.5; u += kStep) {
+    const double chi2 = std::exp(u);
+    weights.push_back(kStep * 0.25 * chi2 * chi2 * std::exp(-0.5 * chi2));
+    variances.push_back(2.0 / chi2);
+  }
+  const double entropy =
+      2.5 * (5.0 / 3.0 - 2.0 * std::numbers::ln2) + std::log(std::numbers::sqrt2 * 4.0 / 3.0);
+  const double normal = 0.5 * std::log(2.0 * std::numbers::pi * std::numbers::e);
+  EXPECT_NEAR(mixture_divergence(weights, variances), normal - entropy, 1e-4);
+}
+
 TEST(Strength, WhatTheBaseCanFollowIsNoEffect) {
   BaseNoise law;
   law.white = 1.0;
@@ -283,8 +315,9 @@ TEST(HiddenCase, EveryEffectReachesItsStrengthAndTouchesTheSubject) {
     spec.effects = {effect.name()};
     const HiddenCase made = make_case(spec);
     ASSERT_EQ(made.injections.size(), 1U);
-    EXPECT_NEAR(made.injections[0].delta, 6.0, effect.id == "outliers" ? 3.0 : 1e-3)
-        << effect.name();
+    // So few samples cannot show tails as faint as those of t8 any better.
+    const bool counted = effect.id == "outliers" || effect.name() == "heavy_tails/t8";
+    EXPECT_NEAR(made.injections[0].delta, 6.0, counted ? 3.0 : 1e-3) << effect.name();
     EXPECT_GE(made.injections[0].informed, made.injections[0].delta - 0.01) << effect.name();
     bool changed = false;
     for (std::size_t r = 0; r < made.recordings.size(); ++r) {

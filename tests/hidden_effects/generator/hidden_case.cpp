@@ -25,12 +25,24 @@ const std::vector<HiddenEffect>& hidden_effects() {
     std::vector<HiddenEffect> out;
     for (const auto& part :
          {noise_effects(), periodic_effects(), slow_effects(), witness_effects(),
-          neighbour_effects(), irregular_effects(), integrity_effects(), outside_effects()}) {
+          neighbour_effects(), irregular_effects(), integrity_effects(), outside_effects(),
+          foreign_powers(), foreign_waves(), foreign_courses(), foreign_spectra(),
+          foreign_couplings(), foreign_samples()}) {
       out.insert(out.end(), part.begin(), part.end());
     }
     return out;
   }();
   return kEffects;
+}
+
+HiddenEffect foreign(std::string id, std::string variant,
+                     Injection (*hide)(Scene& scene, double delta)) {
+  HiddenEffect out;
+  out.id = std::move(id);
+  out.variant = std::move(variant);
+  out.kind = Kind::kForeign;
+  out.hide = hide;
+  return out;
 }
 
 const HiddenEffect* find_effect(std::string_view name) {
@@ -77,12 +89,17 @@ const char* name_of(Base base) {
   return kNames[static_cast<int>(base)];
 }
 
+const char* name_of(Weather weather) {
+  static constexpr const char* kNames[] = {"calm", "lively", "slow"};
+  return kNames[static_cast<int>(weather)];
+}
+
 std::string describe(const CaseSpec& spec) {
   std::string out;
   for (const std::string& name : spec.effects) out += (out.empty() ? "" : " + ") + name;
   if (spec.effects.empty()) {
-    out = std::string("nothing in ") + name_of(spec.null_base) +
-          (spec.null_weather == Weather::kLively ? ", lively weather" : ", calm weather");
+    out = std::string("nothing in ") + name_of(spec.null_base) + ", " + name_of(spec.null_weather) +
+          " weather";
   } else {
     out += ", δ = " + std::to_string(static_cast<int>(spec.delta));
   }

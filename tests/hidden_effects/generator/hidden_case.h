@@ -38,6 +38,9 @@ HiddenCase make_case(const CaseSpec& spec);
 /// "WN+RW": a base by its noises.
 const char* name_of(Base base);
 
+/// "calm", "lively" or "slow".
+const char* name_of(Weather weather);
+
 /// "temperature/lagged, δ = 12, seed 7", for tables and messages.
 std::string describe(const CaseSpec& spec);
 

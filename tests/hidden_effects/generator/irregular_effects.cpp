@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "tests/hidden_effects/generator/apply.h"
 #include "tests/hidden_effects/generator/draw.h"
@@ -70,14 +69,6 @@ Injection hide_outliers(Scene& scene, double delta) {
   return {delta_put, delta_put, {{"share", static_cast<double>(count) / n, "1"}}};
 }
 
-// δ of white noise whose variance becomes `after` (one entry a sample, all replicates one after the
-// other), for an observer who must fit its mean: only what swings around that is evidence.
-double swing_strength(const Series& after) {
-  const double mean =
-      std::accumulate(after.begin(), after.end(), 0.0) / static_cast<double>(after.size());
-  return strength(divergence(Series(after.size(), mean), after), 1.0);
-}
-
 // White noise grows with temperature, from none at the coldest moment. δ beside the white floor.
 Injection hide_modulation(Scene& scene, double delta) {
   double coldest = scene.surroundings.front().temperature.front();
@@ -88,25 +79,13 @@ Injection hide_modulation(Scene& scene, double delta) {
     coldest = std::min(coldest, *low);
     warmest = std::max(warmest, *high);
   }
-  const auto after = [&](double growth) {
-    Series out;
-    for (const Surroundings& around : scene.surroundings) {
-      for (const double kelvin : around.temperature) {
-        out.push_back(1.0 + growth * (kelvin - coldest) / (warmest - coldest));
-      }
-    }
-    return out;
-  };
-  const double growth =
-      solve_strength(delta, 1e-6, 1e3, [&](double g) { return swing_strength(after(g)); });
-  const Series variances = after(growth);
-  std::size_t i = 0;
-  for (Recording& recording : scene.recordings) {
-    for (double& x : recording[kSubject]) {
-      x += scene.floor() * std::sqrt(variances[i++] - 1.0) * scene.random.normal();
-    }
+  std::vector<Series> courses;
+  for (const Surroundings& around : scene.surroundings) {
+    Series course = around.temperature;
+    for (double& kelvin : course) kelvin = (kelvin - coldest) / (warmest - coldest);
+    courses.push_back(std::move(course));
   }
-  return {delta, delta, {}};
+  return add_power(scene, courses, delta);
 }
 
 // Every other replicate is noisier than its fellows: all of its noise by one factor. δ of an

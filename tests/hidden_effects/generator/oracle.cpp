@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tests/hidden_effects/generator/cosine.h"
 
@@ -64,22 +65,36 @@ Series nearest_sum(const Series& after, const std::vector<Series>& parts) {
   return sum;
 }
 
-double outlier_divergence(double share, double factor) {
-  const double wide = std::sqrt(1.0 + factor * factor);
+// The midpoint rule over u, x = sinh u: the steps grow with the tails.
+double mixture_divergence(const Series& weights, const Series& variances) {
   constexpr double kStep = 0.01;
   constexpr double kDensityAtZero = 0.3989422804014327;
+  double variance = 0.0;
+  for (std::size_t j = 0; j < weights.size(); ++j) variance += weights[j] * variances[j];
+  const double widest = *std::max_element(variances.begin(), variances.end());
+  const double end = std::asinh(8.0 * std::sqrt(widest));
   double out = 0.0;
-  for (double x = 0.5 * kStep; x < 8.0 * wide; x += kStep) {
-    const double bell = kDensityAtZero * std::exp(-0.5 * x * x);
-    const double broad = kDensityAtZero / wide * std::exp(-0.5 * x * x / (wide * wide));
-    const double exponent = 0.5 * x * x * (1.0 - 1.0 / (wide * wide));
-    const double ratio = exponent < 500.0 ? std::log1p(share * (std::exp(exponent) / wide - 1.0))
-                                          : std::log(share / wide) + exponent;
-    out += 2.0 * kStep * ((1.0 - share) * bell + share * broad) * ratio;
+  for (double u = 0.5 * kStep; u < end; u += kStep) {
+    const double x = std::sinh(u);
+    double density = 0.0;  // over that of N(0, 1) at zero
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      density += weights[j] / std::sqrt(variances[j]) * std::exp(-0.5 * x * x / variances[j]);
+    }
+    if (!(density > 0.0)) break;
+    const double ratio = std::log(density) + 0.5 * std::log(variance) + 0.5 * x * x / variance;
+    out += 2.0 * kStep * std::cosh(u) * kDensityAtZero * density * ratio;
   }
-  // So far from N(0, 1); the divergence of the normal law nearest to the mixture adds to the rest.
-  const double more = share * factor * factor;
-  return std::max(out - 0.5 * (more - std::log1p(more)), 0.0);
+  return std::max(out, 0.0);
+}
+
+double outlier_divergence(double share, double factor) {
+  return mixture_divergence({1.0 - share, share}, {1.0, 1.0 + factor * factor});
+}
+
+double swing_strength(const Series& after) {
+  const double mean =
+      std::accumulate(after.begin(), after.end(), 0.0) / static_cast<double>(after.size());
+  return strength(divergence(Series(after.size(), mean), after), 1.0);
 }
 
 double strength(double divergence, double count) { return std::sqrt(2.0 * divergence * count); }

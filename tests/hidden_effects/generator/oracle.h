@@ -34,12 +34,20 @@ Series nearest_sum(const Series& after, const std::vector<Series>& parts);
 /// alone counts for nothing.
 double shared_divergence(const Series& a, const Series& b, const Series& common);
 
+/// KL of a sample that is normal with variances[j] with probability weights[j], from the normal
+/// sample of the same variance; nats.
+double mixture_divergence(const Series& weights, const Series& variances);
+
 /// KL of a sample of N(0, 1) that with probability `share` becomes N(0, 1 + factor²), from the
 /// normal sample of the same variance; nats.
 double outlier_divergence(double share, double factor);
 
 /// δ of `count` independent repetitions.
 double strength(double divergence, double count);
+
+/// δ of white noise whose variance becomes `after`, for an observer who must fit its mean: only
+/// what swings around that is evidence.
+double swing_strength(const Series& after);
 
 /// The x in [low, high] at which the increasing strength(x) is `delta`, by bisection of ln x;
 /// high when it never is.

@@ -25,7 +25,7 @@ Series measured(const Series& truth, double noise, RandomStream& random) {
 // A part of a long swing, a slow wander and the draught of the room.
 Series draw_temperature(Weather weather, std::size_t samples, double rate_hz,
                         RandomStream& random) {
-  const bool lively = weather == Weather::kLively;
+  const bool lively = weather != Weather::kCalm;
   const double n = static_cast<double>(samples);
   Series out(samples, 298.15);
   const double swing = lively ? uniform(random, 1.5, 5.0) : 0.0;
@@ -54,7 +54,7 @@ double Scene::floor() const { return std::sqrt(spectrum.back()); }
 
 Surroundings draw_surroundings(Weather weather, std::size_t samples, double rate_hz,
                                RandomStream& random) {
-  const double much = weather == Weather::kLively ? 1.0 : 0.05;
+  const double much = weather == Weather::kCalm ? 0.05 : 1.0;
   Surroundings out;
   out.temperature = draw_temperature(weather, samples, rate_hz, random);
   out.supply = Series(samples, 5.0);
@@ -64,6 +64,12 @@ Surroundings draw_surroundings(Weather weather, std::size_t samples, double rate
   add(out.field, simulate(Markov{1e-6 * much, 10.0 * rate_hz}, random, samples));
   out.acceleration = Series(samples, 0.02);
   add(out.acceleration, simulate(Markov{0.01, 0.05 * rate_hz}, random, samples));
+  if (weather == Weather::kSlow) {
+    const double tau = uniform(random, 0.1, 0.5) * static_cast<double>(samples);
+    add(out.supply, simulate(Markov{0.1, tau}, random, samples));
+    add(out.field, simulate(Markov{5e-6, 0.7 * tau}, random, samples));
+    add(out.acceleration, simulate(Markov{0.05, 1.4 * tau}, random, samples));
+  }
   return out;
 }
 

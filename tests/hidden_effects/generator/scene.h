@@ -24,6 +24,7 @@ struct Surroundings {
 enum class Weather {
   kCalm,    ///< Temperature and supply stay put to within their sensors' noise.
   kLively,  ///< Swings of several kelvins, a wandering supply, things of iron that pass.
+  kSlow,    ///< All of these wander slowly and far: each moves a few times in a recording.
 };
 
 /// Replicates under one law.

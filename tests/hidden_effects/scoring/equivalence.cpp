@@ -24,6 +24,27 @@ std::vector<std::string> right_names(const HiddenEffect& effect, bool withheld) 
       {"tilt", {"common_vibration"}},
       // Held samples are duplicates, many in a row.
       {"stuck", {"duplicated_samples"}},
+      // Many bursts are a power that wanders fast, and one cause makes both.
+      {"bursts", {"variance_wander"}},
+      {"variance_wander/fast", {"bursts"}},
+      // A machine is at work: that its vibration is not steady is said by the other two names.
+      {"switched_line", {"line"}},
+      {"line/beating", {"switched_line", "harmonics"}},
+      {"wandering_line", {"line", "resonance"}},
+      // Slow noise by its spectrum, whose cause was not recorded.
+      {"thermal_course",
+       {"random_walk", "gauss_markov", "flicker", "second_order", "power_law", "temperature"}},
+      {"warm_up/two_times", {"common_course"}},
+      // A band of a power law is a band of flicker or of a Markov noise where it is faint.
+      {"power_law", {"flicker", "gauss_markov", "second_order"}},
+      // Behind a filter a resonance and the filter are one noise of the second order.
+      {"resonance/filtered", {"second_order"}},
+      {"gauss_markov/slow_neighbours", {"flicker", "random_walk", "second_order", "power_law"}},
+      // A packet that does not arrive holds the output.
+      {"duplicated_samples/held_packets", {"stuck", "lost_samples"}},
+      // Rounding is there, and may be said.
+      {"missing_codes", {"quantisation"}},
+      {"printed_decimals", {"quantisation"}},
   };
   if (effect.kind == Kind::kOutside || (withheld && !effect.witness.empty())) return {};
   std::vector<std::string> out = {effect.id};

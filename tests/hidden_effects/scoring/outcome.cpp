@@ -58,6 +58,23 @@ bool Outcome::named(std::size_t ranks) const {
 
 bool Outcome::confidently_wrong() const { return report.verdict() == v1::found && !named(1); }
 
+bool Outcome::wrong_cause() const {
+  const std::vector<std::string> right = right_names(spec);
+  for (const v1::IntegrityFinding& finding : report.integrity()) {
+    if (!contains(right, finding.effect())) return true;
+  }
+  return confidently_wrong() && !described();
+}
+
+bool Outcome::right_or_listed() const {
+  if (named(1)) return true;
+  if (report.verdict() != v1::one_of || report.candidates_size() == 0) return false;
+  const auto& listed = report.candidates(0).confused_with();
+  const std::vector<std::string> right = right_names(spec);
+  return std::any_of(listed.begin(), listed.end(),
+                     [&](const std::string& id) { return contains(right, id); });
+}
+
 bool Outcome::abstained() const {
   return report.verdict() == v1::unknown || report.verdict() == v1::one_of;
 }

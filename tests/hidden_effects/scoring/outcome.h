@@ -38,6 +38,13 @@ struct Outcome {
   /// Whether it says "found" and names something else.
   bool confidently_wrong() const;
 
+  /// Whether a cause is given as certain that is not the right one: by the verdict "found", unless
+  /// that describes a noise by its spectrum alone, or as a defect of the samples.
+  bool wrong_cause() const;
+
+  /// Whether the right name stands first, or among those that "one of" lists.
+  bool right_or_listed() const;
+
   /// Whether it says that something is missing without naming one cause.
   bool abstained() const;
 
