@@ -11,7 +11,7 @@
 namespace imunoise {
 namespace {
 
-constexpr std::size_t kSamples = 8192;
+constexpr std::size_t kAveragedSamples = 8192;
 
 // Four replicates of white noise averaged over a window of `windows[k]` sampling intervals, at
 // least one and at most two: neighbours correlate by 1 - 1/window, others not at all.
@@ -22,10 +22,10 @@ std::shared_ptr<const Subject> averaged(const std::vector<double>& windows, std:
     const double theta = rho > 0.0 ? (1.0 - std::sqrt(1.0 - 4.0 * rho * rho)) / (2.0 * rho) : 0.0;
     const MovingAverage process{1.0 / (1.0 + theta * theta), {theta}};
     noise.push_back(
-        simulate(Model{{Term(process)}}, kSamples, seed, static_cast<std::uint32_t>(k)));
+        simulate(Model{{Term(process)}}, kAveragedSamples, seed, static_cast<std::uint32_t>(k)));
   }
   return subject_of({.model = "RW(gamma2=1e-5)",
-                     .samples = kSamples,
+                     .samples = kAveragedSamples,
                      .replicates = windows.size(),
                      .seed = seed + 1000,
                      .added = [&](std::size_t k, double seconds) {
