@@ -199,6 +199,7 @@ void add_free_filter(const Current& current, std::size_t place, double before, S
       found.model.terms.begin(), found.model.terms.end(),
       [](const Term& term) { return std::holds_alternative<MovingAverage>(term.process); });
   const Process added = filter->process;
+  if (!(std::get<MovingAverage>(added).theta[0] > 0.0)) return;  // quantisation takes power away
   out.push_back({.cause = "low_pass",
                  .added = NoiseChange{std::move(found.model), added},
                  .score_nats = gain});

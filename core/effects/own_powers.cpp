@@ -108,12 +108,13 @@ FreeNumbers free_numbers(const Model& noise) {
   return out;
 }
 
-// What a spectrum that all replicates share could still gain at most, nats.
+// What a spectrum that all replicates share could still gain at most, nats, less what it would gain
+// by chance.
 double common_misfit(const Current& current) {
   double out = 0.0;
   for (const BandedPower& bands : current.pooled) {
     const Eigen::ArrayXd ratio = bands.power / spectrum(current.fit.model.noise, bands.frequency);
-    out += (0.5 * bands.count * (ratio - 1.0 - ratio.log())).sum();
+    out += (0.5 * bands.count * (ratio - 1.0 - ratio.log()) - 0.5).sum();
   }
   return out;
 }
