@@ -60,7 +60,7 @@ void as_fast_as_possible(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     const auto device = file.replay("0");
-    drivers::Block block = device->make_block(4096);
+    drivers::SampleBlock block = device->make_block(4096);
     state.ResumeTiming();
     while (*device->read(1s, block) == drivers::ReadOutcome::kSamples) {
       benchmark::DoNotOptimize(block.column<std::int16_t>(0).data());
@@ -79,7 +79,7 @@ void sixty_four_at_real_time(benchmark::State& state) {
   for (auto _ : state) {
     std::vector<std::unique_ptr<drivers::Device>> devices;
     for (int i = 0; i < 64; ++i) devices.push_back(file.replay("1"));
-    std::vector<drivers::Block> blocks;
+    std::vector<drivers::SampleBlock> blocks;
     for (const auto& device : devices) blocks.push_back(device->make_block(1024));
     for (std::size_t over = 0; over < devices.size();) {
       over = 0;

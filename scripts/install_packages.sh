@@ -31,6 +31,7 @@ test_packages=(
   umockdev libumockdev-dev       # USB devices that are not there
   python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
   postgresql                     # the catalogue of several benches
+  zsh                            # its completion
 )
 bench_packages=(libbenchmark-dev time jq)
 package_packages=(dpkg-dev file lintian)

@@ -5,8 +5,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "drivers/adis16405/codec/decoder.h"
 #include "drivers/adis16405/codec/registers.h"
 #include "drivers/can/codec/dbc.h"
+#include "drivers/can/codec/dbc_file.h"
 #include "drivers/can/codec/decoder.h"
 #include "drivers/can/codec/presets.h"
 #include "drivers/xsens/codec/decoder.h"
@@ -41,10 +40,9 @@ Result<drivers::CanChannels> can_channels(const DecodeArguments& arguments) {
     }
     return drivers::make_preset(arguments.preset);
   }
-  std::ifstream file(*arguments.dbc, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) return fail(arguments.dbc->string() + ": cannot be read");
-  Result<drivers::CanDatabase> database = drivers::parse_dbc(text, arguments.dbc->string());
+  const auto text = drivers::read_dbc_text(*arguments.dbc);
+  if (!text) return tl::unexpected(text.error());
+  Result<drivers::CanDatabase> database = drivers::parse_dbc(*text, arguments.dbc->string());
   if (!database) return tl::unexpected(database.error());
   return drivers::CanChannels::make(std::move(*database), {});
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/commands/commands.h"
 #include "cli/output.h"
 #include "recording/store/verify/verify.h"
@@ -60,9 +62,10 @@ void describe_stream(const v1::StreamIntegrity& stream, std::string& out) {
   describe_gaps(stream, out);
   if (stream.has_rate_hz()) {
     const double off = 1e6 * (stream.rate_hz() / stream.nominal_rate_hz() - 1.0);
+    const double whole = std::round(off) + 0.0;  // no "-0"
     out += fmt::format(
         "  rate       {:.6g} Hz by the host's clock, {:+.0f} ppm of {:g} Hz; jitter {} s\n",
-        stream.rate_hz(), off, stream.nominal_rate_hz(), number(stream.jitter_s()));
+        stream.rate_hz(), whole, stream.nominal_rate_hz(), number(stream.jitter_s()));
   }
   describe_channels(stream, out);
 }

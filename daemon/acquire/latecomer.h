@@ -23,7 +23,7 @@ class Latecomer {
   Latecomer(const Latecomer&) = delete;
   Latecomer& operator=(const Latecomer&) = delete;
 
-  /// Nobody waits any more; returns at once.
+  /// The replicate ends; returns at once.
   void request_stop() { thread_.request_stop(); }
   /// Hands it over once it has come; null before and after that. From any thread.
   std::unique_ptr<drivers::Device> take();

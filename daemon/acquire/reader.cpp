@@ -47,7 +47,7 @@ void Reader::stop() {
 
 void Reader::run() {
   do {
-    drivers::Block block = device_->make_block(kBlockRows);
+    drivers::SampleBlock block = device_->make_block(kBlockRows);
     while (step(block)) {
     }
   } while (failure_ && plan_.open && open_again());
@@ -55,7 +55,7 @@ void Reader::run() {
 }
 
 // False when there is nothing more to read.
-bool Reader::step(drivers::Block& block) {
+bool Reader::step(drivers::SampleBlock& block) {
   const auto outcome = device_->read(kPatience, block);
   if (!outcome) {
     failure_ = outcome.error();
@@ -81,7 +81,7 @@ bool Reader::step(drivers::Block& block) {
 }
 
 // False when the block does not fit the device's description, for which no disk is to blame.
-bool Reader::push(const drivers::Block& block) {
+bool Reader::push(const drivers::SampleBlock& block) {
   recording::Block taken = recorded_block(block);
   if (auto good = recording::check_block(plan_.device, taken); !good) {
     failure_ = Error{fmt::format(

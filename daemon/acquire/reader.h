@@ -78,8 +78,8 @@ class Reader {
 
  private:
   void run();
-  bool step(drivers::Block& block);
-  bool push(const drivers::Block& block);
+  bool step(drivers::SampleBlock& block);
+  bool push(const drivers::SampleBlock& block);
   bool deliver(const recording::Block& block);
   Result<bool> push_patiently(const recording::Block& block);
   bool open_again();

@@ -55,7 +55,7 @@ recording::Refused reason_of(std::size_t reason) {
 
 // Every refused sample has one reason in every channel, or one in the channels to blame and
 // IMUNOISE_REFUSED_SIBLING in the others.
-std::vector<recording::Refusal> refusals_of(const drivers::Block& block) {
+std::vector<recording::Refusal> refusals_of(const drivers::SampleBlock& block) {
   const std::vector<drivers::Channel>& channels = block.stream().channels;
   std::uint64_t left = 0;  // samples not yet counted
   for (std::size_t k = 0; k < IMUNOISE_REFUSED_REASONS; ++k) left += block.refused(k, 0);
@@ -112,7 +112,7 @@ v1::RecordedDevice recorded_device(const std::string& name, const std::string& d
   return out;
 }
 
-recording::Block recorded_block(const drivers::Block& block) {
+recording::Block recorded_block(const drivers::SampleBlock& block) {
   recording::Block out{block.stream_index(), {}};
   recording::Rows& rows = out.rows;
   const auto times = block.host_time_ns();

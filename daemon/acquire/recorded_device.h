@@ -18,6 +18,6 @@ v1::RecordedDevice recorded_device(const std::string& name, const std::string& d
 /// driver refused samples since the last block or says that samples were lost; the driver's other
 /// flags keep their bits. A refused sample is counted once, under the channel that was to blame
 /// where there is just one.
-recording::Block recorded_block(const drivers::Block& block);
+recording::Block recorded_block(const drivers::SampleBlock& block);
 
 }  // namespace imunoise::acquire

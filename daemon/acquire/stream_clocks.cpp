@@ -20,7 +20,7 @@ std::uint64_t steps(std::uint64_t from, std::uint64_t to, std::uint64_t modulus,
 
 }  // namespace
 
-void StreamClocks::take(const drivers::Block& block) {
+void StreamClocks::take(const drivers::SampleBlock& block) {
   const drivers::Stream& stream = block.stream();
   const bool has_time = stream.device_time_tick_s > 0.0;
   const bool has_counter = stream.counter_maximum > 0 && stream.nominal_rate_hz > 0.0;
@@ -41,7 +41,7 @@ void StreamClocks::take(const drivers::Block& block) {
   }
 }
 
-void StreamClocks::take_counters(const drivers::Block& block, One& to) {
+void StreamClocks::take_counters(const drivers::SampleBlock& block, One& to) {
   const auto host = block.host_time_ns();
   const auto counter = block.counter();
   const double rate = block.stream().nominal_rate_hz;

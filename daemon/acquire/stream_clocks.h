@@ -15,7 +15,7 @@ namespace imunoise::acquire {
 /// rate; streams without either are not compared. Not thread-safe.
 class StreamClocks {
  public:
-  void take(const drivers::Block& block);
+  void take(const drivers::SampleBlock& block);
   /// Of the streams that were compared, in the name of this device.
   std::vector<v1::ClockComparison> comparisons(const std::string& device) const;
 
@@ -29,7 +29,7 @@ class StreamClocks {
     std::uint64_t count = 0;  // samples since the clock began, lost ones too
     bool begun = false;
   };
-  void take_counters(const drivers::Block& block, One& to);
+  void take_counters(const drivers::SampleBlock& block, One& to);
 
   std::vector<One> streams_;  // by their index
 };

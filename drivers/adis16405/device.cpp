@@ -38,7 +38,7 @@ usb::Duration most_silence(const Settings& settings) {
 
 }  // namespace
 
-Adis16405Device::Connection::Connection(std::unique_ptr<usb::Device> usb, usb::Id id,
+Adis16405Device::Connection::Connection(std::unique_ptr<usb::Handle> usb, usb::Id id,
                                         const Choice& choice, const Note& note,
                                         const plugin::WireTap& wire)
     : bus(std::move(usb), make_bridge(id)),

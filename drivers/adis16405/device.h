@@ -35,7 +35,7 @@ class Adis16405Device final : public plugin::Device {
  private:
   // All that ends with the cable.
   struct Connection {
-    Connection(std::unique_ptr<usb::Device> usb, usb::Id id, const Choice& choice, const Note& note,
+    Connection(std::unique_ptr<usb::Handle> usb, usb::Id id, const Choice& choice, const Note& note,
                const plugin::WireTap& wire);
     SpiBus bus;
     BurstReader reader;

@@ -1,13 +1,12 @@
 #include "drivers/can/channel_options.h"
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "drivers/can/channel_option.h"
 #include "drivers/can/codec/dbc.h"
+#include "drivers/can/codec/dbc_file.h"
 #include "drivers/can/codec/presets.h"
 #include "drivers/plugin/or_throw.h"
 
@@ -19,13 +18,9 @@ namespace {
 }
 
 drivers::CanDatabase read_database(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad()) {
-    throw plugin::DeviceError(IMUNOISE_NOT_FOUND,
-                              path + ": cannot be read; check the path and its permissions");
-  }
-  return plugin::or_throw(drivers::parse_dbc(text, path));
+  const auto text = drivers::read_dbc_text(path);
+  if (!text) throw plugin::DeviceError(IMUNOISE_NOT_FOUND, text.error().message);
+  return plugin::or_throw(drivers::parse_dbc(*text, path));
 }
 
 }  // namespace

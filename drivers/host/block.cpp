@@ -14,7 +14,7 @@ std::size_t widest(const DeviceInfo& device) {
 
 }  // namespace
 
-Block::Block(std::shared_ptr<const DeviceInfo> device, std::size_t rows)
+SampleBlock::SampleBlock(std::shared_ptr<const DeviceInfo> device, std::size_t rows)
     : device_(std::move(device)),
       host_time_ns_(rows),
       device_time_ns_(rows),
@@ -40,14 +40,14 @@ Block::Block(std::shared_ptr<const DeviceInfo> device, std::size_t rows)
              0};
 }
 
-imunoise_block& Block::prepare() {
+imunoise_block& SampleBlock::prepare() {
   std::fill(refused_.begin(), refused_.end(), 0);
   table_->stream = 0;
   table_->rows = 0;
   return *table_;
 }
 
-bool Block::any_refused() const {
+bool SampleBlock::any_refused() const {
   return std::any_of(refused_.begin(), refused_.end(), [](std::uint64_t n) { return n > 0; });
 }
 

@@ -14,12 +14,12 @@
 namespace imunoise::drivers {
 
 /// Buffers that a device fills and that are used again and again. Movable. Not thread-safe.
-class Block {
+class SampleBlock {
  public:
   /// Room for `rows` samples (at least 1) of any stream of the device.
-  Block(std::shared_ptr<const DeviceInfo> device, std::size_t rows);
-  Block(Block&&) noexcept = default;
-  Block& operator=(Block&&) noexcept = default;
+  SampleBlock(std::shared_ptr<const DeviceInfo> device, std::size_t rows);
+  SampleBlock(SampleBlock&&) noexcept = default;
+  SampleBlock& operator=(SampleBlock&&) noexcept = default;
 
   /// Samples there are; may be 0 where all were refused.
   std::size_t rows() const { return table_->rows; }

@@ -121,7 +121,7 @@ Result<void> Device::start(const OptionValues& values) {
   return {};
 }
 
-Result<ReadOutcome> Device::read(std::chrono::milliseconds timeout, Block& block) {
+Result<ReadOutcome> Device::read(std::chrono::milliseconds timeout, SampleBlock& block) {
   assert(block.device_ == info_ && "the block was made for another device");
   if (broken_) return tl::make_unexpected(*broken_);
   ErrorText error;
@@ -133,7 +133,7 @@ Result<ReadOutcome> Device::read(std::chrono::milliseconds timeout, Block& block
   return outcome(status, block, error.text());
 }
 
-Result<ReadOutcome> Device::outcome(std::int32_t status, const Block& block,
+Result<ReadOutcome> Device::outcome(std::int32_t status, const SampleBlock& block,
                                     std::string_view text) {
   const auto broken = [&](std::string_view what) {
     broken_ =
@@ -170,7 +170,7 @@ Result<ReadOutcome> Device::outcome(std::int32_t status, const Block& block,
   }
 }
 
-Result<void> Device::check_samples(const Block& block) const {
+Result<void> Device::check_samples(const SampleBlock& block) const {
   const imunoise_block& table = *block.table_;
   if (table.stream >= info_->streams.size()) {
     return fail(fmt::format("read delivered stream {} of {}", table.stream, info_->streams.size()));

@@ -46,13 +46,13 @@ class Device {
 
   const DeviceInfo& info() const { return *info_; }
   /// A block that fits this device, for `rows` samples (at least 1) of a stream. May outlive it.
-  Block make_block(std::size_t rows) const { return {info_, rows}; }
+  SampleBlock make_block(std::size_t rows) const { return {info_, rows}; }
 
   /// Waits at most `timeout` (0: does not wait) for samples of one stream. Errors: the device's
   /// failure, after which it can only be closed; and whatever the driver does against driver.h
   /// (more rows than fit, a counter beyond its maximum, a number that is not finite, an exception):
   /// after that the driver is not called again.
-  Result<ReadOutcome> read(std::chrono::milliseconds timeout, Block& block);
+  Result<ReadOutcome> read(std::chrono::milliseconds timeout, SampleBlock& block);
   /// Why the last read that said kDisconnected did so.
   const std::string& disconnection() const { return disconnection_; }
 
@@ -62,8 +62,8 @@ class Device {
  private:
   Device(Driver driver, NoteHandler note, WireHandler wire, std::stop_token stop);
   Result<void> start(const OptionValues& values);
-  Result<ReadOutcome> outcome(std::int32_t status, const Block& block, std::string_view text);
-  Result<void> check_samples(const Block& block) const;
+  Result<ReadOutcome> outcome(std::int32_t status, const SampleBlock& block, std::string_view text);
+  Result<void> check_samples(const SampleBlock& block) const;
 
   Driver driver_;
   DeviceHandlers handlers_;

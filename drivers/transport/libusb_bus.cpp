@@ -104,7 +104,7 @@ std::vector<Address> LibusbBus::find(std::span<const Id> ids) {
   return out;
 }
 
-std::unique_ptr<Device> LibusbBus::open(const Address& address) {
+std::unique_ptr<Handle> LibusbBus::open(const Address& address) {
   const DeviceList list(context_.get());
   for (libusb_device* const device : list.all()) {
     if (id_of(device) == address.id && port_of(device) == address.port) {

@@ -22,7 +22,7 @@ class LibusbBus final : public Bus {
   explicit LibusbBus(HostClock clock);
 
   std::vector<Address> find(std::span<const Id> ids) override;
-  std::unique_ptr<Device> open(const Address& address) override;
+  std::unique_ptr<Handle> open(const Address& address) override;
 
  private:
   HostClock clock_;

@@ -18,7 +18,7 @@ namespace imunoise::drivers::usb {
 using LibusbHandle = std::unique_ptr<libusb_device_handle, void (*)(libusb_device_handle*)>;
 
 /// No thread of its own: transfers complete while one of its functions waits.
-class LibusbDevice final : public Device {
+class LibusbDevice final : public Handle {
  public:
   /// Takes the first interface, from a kernel driver if need be, and starts to listen. Throws
   /// plugin::DeviceError: NO_ACCESS (in use by another program), FAILED.

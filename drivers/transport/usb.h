@@ -51,12 +51,12 @@ inline constexpr std::size_t kTransfersInFlight = 128;
 inline constexpr std::size_t kTransferBytes = 512;
 
 /// An open device; its first interface is ours until destruction. One thread at a time.
-class Device {
+class Handle {
  public:
-  Device() = default;
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-  virtual ~Device() = default;
+  Handle() = default;
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  virtual ~Handle() = default;
 
   /// Waits until the device has taken the request, at most 1 s.
   virtual void control(const Request& request) = 0;
@@ -82,7 +82,7 @@ class Bus {
   /// Devices of these kinds that are plugged in now.
   virtual std::vector<Address> find(std::span<const Id> ids) = 0;
   /// Must not outlive the bus.
-  virtual std::unique_ptr<Device> open(const Address& address) = 0;
+  virtual std::unique_ptr<Handle> open(const Address& address) = 0;
 };
 
 /// "0403:6014 at USB port 1-4.2, serial number FT1ABC", for messages.

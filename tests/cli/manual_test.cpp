@@ -177,6 +177,23 @@ TEST_F(Manual, ZshParsesItsCompletion) {
   EXPECT_EQ(shell("zsh -n manual/zsh/vendor-completions/_imunoise"), "");
 }
 
+// A real zsh, to which the words and the tabulator key are typed.
+TEST_F(Manual, ZshCompletesCommandsOptionsAndValues) {
+  if (shell("command -v zsh").empty())
+    GTEST_SKIP() << "zsh is not installed, so its completion is NOT tested: apt install zsh";
+  const auto completed = [&](const std::string& words) {
+    return shell("timeout 20 zsh " IMUNOISE_ZSH_COMPLETES " " IMUNOISE_BINARY
+                 " manual/zsh/vendor-completions '" +
+                 words + "'");
+  };
+  EXPECT_EQ(completed("fau"), "<faults>\n");
+  EXPECT_EQ(completed("--threads 2 batch sh"), "<--threads 2 batch shard>\n");
+  EXPECT_EQ(completed("verify --rep"), "<verify --repair>\n");
+  EXPECT_EQ(completed("decode --format xb"), "<decode --format xbus>\n");
+  EXPECT_EQ(completed("record x --device xs"), "<record x --device xsens>\n");
+  EXPECT_EQ(completed("frobnicate"), "<frobnicate>\n");
+}
+
 TEST_F(Manual, AFolderThatCannotBeWrittenIsAnError) {
   const Outcome outcome = run("--write-manual /proc/nowhere");
   EXPECT_EQ(outcome.status, 2);

@@ -42,6 +42,7 @@ TEST_F(Record, KeepsEverySampleOfEveryDevice) {
     EXPECT_TRUE(stream["refused"].empty());
     EXPECT_EQ(stream["failure"], "");
   }
+  EXPECT_EQ(run("verify monday").out.find("-0 ppm"), std::string::npos);
   const json verified = json_of("verify monday");
   EXPECT_TRUE(verified["sound"].get<bool>());
   EXPECT_EQ(verified["streams"][0]["stored"], "5000");

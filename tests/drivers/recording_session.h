@@ -60,7 +60,7 @@ class RecordingSession {
   template <class Done>
   bool read_until(Done&& done, std::chrono::milliseconds patience = std::chrono::seconds(20)) {
     const auto deadline = Clock::now() + patience;
-    drivers::Block block = device_->make_block(100);
+    drivers::SampleBlock block = device_->make_block(100);
     while (!done()) {
       if (Clock::now() > deadline) return false;
       const auto outcome = device_->read(std::chrono::milliseconds(20), block);
@@ -102,7 +102,7 @@ class RecordingSession {
   }
 
  private:
-  void take(const drivers::Block& block) {
+  void take(const drivers::SampleBlock& block) {
     const std::size_t s = block.stream_index();
     for (std::size_t k = 0; k < IMUNOISE_REFUSED_REASONS; ++k) {
       refused_[s][k] += block.refused(k, 0);

@@ -14,7 +14,7 @@ constexpr usb::Duration kQuiet = 20ms;
 
 }  // namespace
 
-void Cp2130Bridge::start(usb::Device& usb, Hertz clock) {
+void Cp2130Bridge::start(usb::Handle& usb, Hertz clock) {
   // Requests while a transfer runs hang the chip: first hear the answers of an earlier life.
   while (!usb.receive(kQuiet).empty()) {
   }

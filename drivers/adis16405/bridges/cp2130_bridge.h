@@ -10,7 +10,7 @@ class Cp2130Bridge final : public SpiBridge {
  public:
   std::string_view name() const override { return "CP2130"; }
   bool sees_data_ready() const override { return false; }
-  void start(usb::Device& usb, Hertz clock) override;
+  void start(usb::Handle& usb, Hertz clock) override;
   std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const override;
   std::size_t mark_bytes() const override { return 0; }
   bool is_mark(Bytes /*bytes*/) const override { return true; }

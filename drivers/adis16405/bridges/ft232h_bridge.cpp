@@ -26,7 +26,7 @@ constexpr usb::Duration kAnswerTime = 1s;
 
 }  // namespace
 
-void Ft232hBridge::start(usb::Device& usb, Hertz clock) {
+void Ft232hBridge::start(usb::Handle& usb, Hertz clock) {
   clock_ = clock;
   usb.control({kBitMode, kModeOff, kInterfaceA});  // also ends a wait for data-ready
   usb.control({kReset, kResetAll, kInterfaceA});
@@ -39,7 +39,7 @@ void Ft232hBridge::start(usb::Device& usb, Hertz clock) {
 }
 
 // The engine answers a wrong opcode; what came before the answer is of an earlier life.
-void Ft232hBridge::synchronise(usb::Device& usb) const {
+void Ft232hBridge::synchronise(usb::Handle& usb) const {
   constexpr std::array kAnswer = {kMpsseBadOpcodeAnswer, kMpsseBadOpcode};
   usb.send({kMpsseBadOpcode});
   std::vector<std::uint8_t> came;

@@ -10,14 +10,14 @@ class Ft232hBridge final : public SpiBridge {
  public:
   std::string_view name() const override { return "FT232H"; }
   bool sees_data_ready() const override { return true; }
-  void start(usb::Device& usb, Hertz clock) override;
+  void start(usb::Handle& usb, Hertz clock) override;
   std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const override;
   std::size_t mark_bytes() const override { return 1; }
   bool is_mark(Bytes bytes) const override;
   void decode(Bytes transfer, std::vector<std::uint8_t>& out) const override;
 
  private:
-  void synchronise(usb::Device& usb) const;
+  void synchronise(usb::Handle& usb) const;
 
   Hertz clock_;
 };

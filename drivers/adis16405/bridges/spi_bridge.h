@@ -37,7 +37,7 @@ class SpiBridge {
   /// From any state of the chip to idle: nothing queued in it, nothing unread, lines at rest, the
   /// SPI clock at most `clock`. Ends a wait for data-ready. Precondition: all that was sent by this
   /// `usb` is answered.
-  virtual void start(usb::Device& usb, Hertz clock) = 0;
+  virtual void start(usb::Handle& usb, Hertz clock) = 0;
   /// The OUT transfers that make the frames happen, in order.
   virtual std::vector<std::vector<std::uint8_t>> encode(std::span<const SpiFrame> frames) const = 0;
   /// Bytes behind each answer by which a loss of bytes shows.

@@ -18,7 +18,7 @@ std::unique_ptr<SpiBridge> make_bridge(usb::Id id) {
   return std::make_unique<Ft232hBridge>();
 }
 
-SpiBus::SpiBus(std::unique_ptr<usb::Device> usb, std::unique_ptr<SpiBridge> bridge)
+SpiBus::SpiBus(std::unique_ptr<usb::Handle> usb, std::unique_ptr<SpiBridge> bridge)
     : usb_(std::move(usb)), bridge_(std::move(bridge)) {}
 
 void SpiBus::start(Hertz clock) {

@@ -23,7 +23,7 @@ struct SpiAnswer {
 /// plugin::DeviceError.
 class SpiBus {
  public:
-  SpiBus(std::unique_ptr<usb::Device> usb, std::unique_ptr<SpiBridge> bridge);
+  SpiBus(std::unique_ptr<usb::Handle> usb, std::unique_ptr<SpiBridge> bridge);
 
   const SpiBridge& bridge() const { return *bridge_; }
   /// Starts the bridge, or gives it another clock. Precondition: no frame waits for its answer.
@@ -40,7 +40,7 @@ class SpiBus {
  private:
   void cut(std::int64_t host_time_ns, std::vector<SpiAnswer>& answers);
 
-  std::unique_ptr<usb::Device> usb_;
+  std::unique_ptr<usb::Handle> usb_;
   std::unique_ptr<SpiBridge> bridge_;
   std::deque<std::size_t> expected_;  // lengths of answers
   bool lost_bytes_ = false;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "core/model/grammar.h"
+#include "core/model/syntax.h"
+
 namespace imunoise::emulator {
 namespace {
 
@@ -15,6 +18,20 @@ const std::vector<std::string>& default_models() {
       "gyro: WN(sigma2=2.5e-5) + RW(gamma2=1e-13)", "acc: WN(sigma2=4e-4) + RW(gamma2=1e-11)",
       "mag: WN(sigma2=4e-14)", "temperature: WN(sigma2=1e-2)"};
   return kModels;
+}
+
+// For a model with a term that is no noise: where effects go.
+std::string effects_are_apart(std::string_view model) {
+  const auto terms = split_model(model);
+  const bool only_noise =
+      !terms || std::all_of(terms->begin(), terms->end(), [](const WrittenTerm& one) {
+        return one.name.empty() || is_process(one.name);
+      });
+  if (only_noise) return "";
+  return "; the model of an emulated device holds noise only, because effects act on several of "
+         "its "
+         "quantities: give each apart, such as --effect \"fan(frequency=23, amplitude=1e-3)\" "
+         "(imunoise emulate --help lists them)";
 }
 
 void apply(const std::vector<std::unique_ptr<Effect>>& effects, const Moment& moment,
@@ -54,8 +71,9 @@ Result<void> ModelledSource::add_model(std::string_view text, const SourceTexts&
   while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
   const auto quantities = quantities_of(name);
   if (!quantities) return tl::make_unexpected(quantities.error());
-  const auto model = parse_model(named ? text.substr(colon + 1) : text, texts.rate);
-  if (!model) return tl::make_unexpected(model.error());
+  const std::string_view noise = named ? text.substr(colon + 1) : text;
+  const auto model = parse_model(noise, texts.rate);
+  if (!model) return fail(model.error().message + effects_are_apart(noise));
   if (!complete(*model)) {
     return fail(fmt::format("model: {} leaves values open; give each, as in WN(sigma2=1e-6)",
                             print(*model)));

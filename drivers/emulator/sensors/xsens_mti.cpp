@@ -179,7 +179,7 @@ MtiMessage XsensMti::measure() {
         static_cast<std::uint32_t>((options_.first_ticks + ticks) % drivers::kXsensDayTicks);
     fill_mtdata2(sample, out);
   }
-  if (measured_++ == 0) {
+  if (measured_++ == 0 && !ordered_) {
     const auto wake_up = drivers::encode_message(XsensMessage::kWakeUp);
     out.frame.insert(out.frame.begin(), wake_up.begin(), wake_up.end());
   }

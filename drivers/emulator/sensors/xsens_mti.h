@@ -53,7 +53,7 @@ class XsensMti {
   bool ordered() const { return ordered_; }
   double rate_hz() const;
   std::uint32_t baud() const { return options_.baud; }
-  /// The next message; with a WakeUp before it where power has just come on.
+  /// The next message; with a WakeUp before the first one that no host ordered: power came on.
   MtiMessage measure();
 
   /// How often the host wrote the output configuration (the device's memory wears).

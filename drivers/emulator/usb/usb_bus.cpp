@@ -20,7 +20,7 @@ constexpr Duration kControlTime = 125us;  // a microframe of high-speed USB
 constexpr std::size_t kAnswerBytes = 4;   // shorter packets may hold none
 }  // namespace
 
-class EmulatedDevice final : public drivers::usb::Device {
+class EmulatedDevice final : public drivers::usb::Handle {
  public:
   explicit EmulatedDevice(EmulatedBus& bus) : bus_(bus), peripheral_(bus.peripheral_) {}
 
@@ -99,7 +99,7 @@ std::vector<Address> EmulatedBus::find(std::span<const drivers::usb::Id> ids) {
   return {{identity.id, "1-1", identity.serial}};
 }
 
-std::unique_ptr<drivers::usb::Device> EmulatedBus::open(const Address& address) {
+std::unique_ptr<drivers::usb::Handle> EmulatedBus::open(const Address& address) {
   if (!plugged_) throw DeviceError(IMUNOISE_NOT_FOUND, describe(address) + ": is unplugged");
   if (forbidden_) throw DeviceError(IMUNOISE_NO_ACCESS, describe(address) + ": no permission");
   return std::make_unique<EmulatedDevice>(*this);

@@ -18,7 +18,7 @@ class EmulatedBus final : public drivers::usb::Bus {
   EmulatedBus(UsbPeripheral& peripheral, std::int64_t start_ns);
 
   std::vector<drivers::usb::Address> find(std::span<const drivers::usb::Id> ids) override;
-  std::unique_ptr<drivers::usb::Device> open(const drivers::usb::Address& address) override;
+  std::unique_ptr<drivers::usb::Handle> open(const drivers::usb::Address& address) override;
 
   void unplug() { plugged_ = false; }
   /// Power comes on; the host's clock went on for so long meanwhile.

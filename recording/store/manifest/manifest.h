@@ -46,7 +46,7 @@ v1::Manifest whole_manifest(const v1::RecordingManifest& recording,
 /// Adds the device unless it is listed; what is listed stays.
 void add_device(v1::RecordingManifest& manifest, const v1::RecordedDevice& device);
 
-/// A replicate that is open while nobody records it was interrupted.
+/// A replicate that is open while no recorder holds the folder was interrupted.
 void end_open_replicate(v1::ReplicateNote& note, const std::string& reason);
 
 /// In order of their names.

@@ -11,7 +11,7 @@
 
 namespace imunoise::recording {
 
-/// Not thread-safe. Nobody else writes them: the folder is locked.
+/// Not thread-safe. No other process writes them: the folder is locked.
 class RecorderManifests {
  public:
   /// Recovers what is there and adds the plan's devices. Only what was recovered is written yet.

@@ -217,7 +217,7 @@ class TwoBridges final : public drivers::usb::Bus {
   std::vector<drivers::usb::Address> find(std::span<const drivers::usb::Id> /*ids*/) override {
     return {{kFt232hId, "1-1", "FT0001"}, {kFt232hId, "1-2", "FT0002"}};
   }
-  std::unique_ptr<drivers::usb::Device> open(const drivers::usb::Address& address) override {
+  std::unique_ptr<drivers::usb::Handle> open(const drivers::usb::Address& address) override {
     throw plugin::DeviceError(IMUNOISE_NO_ACCESS, "chose " + address.serial);
   }
 };

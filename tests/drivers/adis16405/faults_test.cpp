@@ -121,7 +121,7 @@ TEST(Adis16405Faults, UnpluggedAndPluggedIn) {
   rig.bus.unplug();
   EXPECT_EQ(rig.read(10'000), ReadOutcome::kDisconnected);
   EXPECT_NE(rig.device->disconnection().find("unplugged"), std::string::npos);
-  drivers::Block block = rig.device->make_block(10);
+  drivers::SampleBlock block = rig.device->make_block(10);
   EXPECT_EQ(*rig.device->read(10ms, block), ReadOutcome::kDisconnected) << "it is still away";
   rig.bus.plug();
   ASSERT_EQ(rig.read(before + 400), ReadOutcome::kSamples);
@@ -155,7 +155,7 @@ TEST(Adis16405Faults, PermissionThatComesLateIsWaitedFor) {
   EXPECT_EQ(rig.read(10'000), ReadOutcome::kDisconnected);
   rig.bus.plug();
   rig.bus.set_forbidden(true);
-  drivers::Block block = rig.device->make_block(10);
+  drivers::SampleBlock block = rig.device->make_block(10);
   EXPECT_EQ(*rig.device->read(10ms, block), ReadOutcome::kDisconnected);
   EXPECT_NE(rig.device->disconnection().find("permission"), std::string::npos);
   rig.bus.set_forbidden(false);
@@ -243,7 +243,7 @@ TEST(Adis16405Faults, CancelEndsAReadOfASilentSensor) {
   Running rig;
   rig.sensor.faults.stalled = true;
   rig.device->cancel();
-  drivers::Block block = rig.device->make_block(10);
+  drivers::SampleBlock block = rig.device->make_block(10);
   EXPECT_EQ(*rig.device->read(1h, block), ReadOutcome::kCancelled);
 }
 

@@ -38,7 +38,7 @@ class Libusb : public ::testing::Test {
   // Reads until there are so many samples of stream "imu", or something else comes.
   static ReadOutcome read(drivers::Device& device, std::size_t samples,
                           std::array<Received, 3>& received) {
-    drivers::Block block = device.make_block(512);
+    drivers::SampleBlock block = device.make_block(512);
     while (received[kImu].rows.size() < samples) {
       const auto outcome = device.read(20s, block);
       EXPECT_TRUE(outcome) << outcome.error().message;
@@ -85,7 +85,7 @@ TEST_F(Libusb, UnpluggedAndPluggedIn) {
   ASSERT_EQ(read(**device, 100'000, received), ReadOutcome::kDisconnected);
   EXPECT_NE((*device)->disconnection().find("FT0042"), std::string::npos)
       << (*device)->disconnection();
-  drivers::Block block = (*device)->make_block(10);
+  drivers::SampleBlock block = (*device)->make_block(10);
   EXPECT_EQ(*(*device)->read(300ms, block), ReadOutcome::kDisconnected);
   const std::size_t before = received[kImu].rows.size();
   usb_->plug();
@@ -123,7 +123,7 @@ TEST_F(Libusb, CancelEndsAWait) {
     sensor_.faults.stalled = true;
   }
   (*device)->cancel();
-  drivers::Block block = (*device)->make_block(10);
+  drivers::SampleBlock block = (*device)->make_block(10);
   EXPECT_EQ(*(*device)->read(1h, block), ReadOutcome::kCancelled);
 }
 

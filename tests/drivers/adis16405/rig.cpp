@@ -68,7 +68,7 @@ void Rig::open(const drivers::adis16405::Choice& choice) {
 }
 
 drivers::ReadOutcome Rig::read(std::size_t imu_samples) {
-  drivers::Block block = device->make_block(512);
+  drivers::SampleBlock block = device->make_block(512);
   while (received[kImu].rows.size() < imu_samples) {
     const auto outcome = device->read(10s, block);
     EXPECT_TRUE(outcome) << outcome.error().message;
@@ -94,7 +94,7 @@ bool Rig::noted(const std::string& text) const {
                      [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
 
-void append(const drivers::Block& block, std::array<Received, 3>& received) {
+void append(const drivers::SampleBlock& block, std::array<Received, 3>& received) {
   Received& to = received[block.stream_index()];
   const std::size_t channels = block.stream().channels.size();
   for (std::size_t i = 0; i < block.rows(); ++i) {

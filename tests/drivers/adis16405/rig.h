@@ -66,7 +66,7 @@ struct Rig {
 
 /// Moves what the block holds to the end of its stream's. Fails the test where channels of a stream
 /// do not account for the same number of samples.
-void append(const drivers::Block& block, std::array<Received, 3>& received);
+void append(const drivers::SampleBlock& block, std::array<Received, 3>& received);
 
 /// How many of `all` come before `part`, which must follow in it without a hole. Fails the test
 /// where it does not.

@@ -90,6 +90,8 @@ TEST(ModelledSource, SaysWhatItCannotRead) {
   refused("gyro: WN", "leaves values open");
   refused("nose: WN(sigma2=1)", "no quantity 'nose'");
   refused("gyro: PINK(b=1)", "unknown process 'PINK'");
+  refused("gyro: WN(sigma2=1) + line(f=5)", "unknown process 'line'");
+  refused("gyro: WN(sigma2=1) + line(f=5)", "give each apart, such as --effect");
 }
 
 }  // namespace

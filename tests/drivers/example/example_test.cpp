@@ -58,7 +58,7 @@ TEST_F(ExampleDriver, BuildsAgainstTheInstalledHeadersAndDelivers) {
   const Stream& stream = (*device)->info().streams[0];
   EXPECT_EQ(stream.nominal_rate_hz, 1000.0);
 
-  Block block = (*device)->make_block(64);
+  SampleBlock block = (*device)->make_block(64);
   std::uint64_t next = 0;
   std::uint64_t refused = 0;
   while (next < 300) {

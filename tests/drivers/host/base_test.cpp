@@ -17,9 +17,9 @@ namespace imunoise {
 namespace {
 
 using namespace std::chrono_literals;
-using drivers::Block;
 using drivers::NumberType;
 using drivers::ReadOutcome;
+using drivers::SampleBlock;
 using plugin::Reason;
 using plugin::Samples;
 using plugin::Wait;
@@ -93,7 +93,7 @@ TEST(DriverBase, DeliversSamplesAsTheyWereAdded) {
   }}));
   ASSERT_TRUE(device) << device.error().message;
   EXPECT_EQ((*device)->info().product, "pretend");
-  Block block = (*device)->make_block(2);
+  SampleBlock block = (*device)->make_block(2);
   ASSERT_EQ(*(*device)->read(1s, block), ReadOutcome::kSamples);
   ASSERT_EQ(block.rows(), 2U);  // as many as fit
   EXPECT_EQ(block.stream().name, "imu");
@@ -116,7 +116,7 @@ TEST(DriverBase, StreamsTakeTurns) {
     for (int i = 0; i < 4; ++i) samples.add(0, {}).set(0, i).set(1, 0).set(2, 0);
     samples.add(1, {}).set(0, 20.5);
   }}));
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   std::string order;
   while (*(*device)->read(1s, block) == ReadOutcome::kSamples) order += block.stream().name[0];
   EXPECT_EQ(order, "isiii");
@@ -135,7 +135,7 @@ TEST(DriverBase, AccountsForEverySampleOfEveryChannel) {
     samples.refuse(0, Reason::kChecksum, 5);
     samples.refuse(1, Reason::kMalformed);
   }}));
-  Block block = (*device)->make_block(16);
+  SampleBlock block = (*device)->make_block(16);
   ASSERT_EQ(*(*device)->read(1s, block), ReadOutcome::kSamples);
   ASSERT_EQ(block.stream_index(), 0U);
   ASSERT_EQ(block.rows(), 2U);
@@ -170,7 +170,7 @@ TEST(DriverBase, FillsWholeColumns) {
     }
     EXPECT_THROW(rows.column<double>(1), std::logic_error);
   }}));
-  Block block = (*device)->make_block(8);
+  SampleBlock block = (*device)->make_block(8);
   ASSERT_EQ(*(*device)->read(1s, block), ReadOutcome::kSamples);
   ASSERT_EQ(block.rows(), 4U);
   EXPECT_EQ(block.counter()[3], 102U);
@@ -190,7 +190,7 @@ TEST(DriverBase, DeliversWhatCameBeforeAnError) {
       [](Samples& samples) { samples.add(1, {}).set(1, 0.0); },  // there is no channel 1
       [](Samples&) { throw 7; },
   }));
-  Block block = (*device)->make_block(8);
+  SampleBlock block = (*device)->make_block(8);
   ASSERT_EQ(*(*device)->read(1s, block), ReadOutcome::kSamples);
   EXPECT_EQ(block.column<double>(0)[0], 1.5);
   ASSERT_EQ(*(*device)->read(1s, block), ReadOutcome::kDisconnected);
@@ -280,7 +280,7 @@ TEST(DriverBase, AnOpenDeviceCaresNoMoreForItsOpening) {
   ASSERT_TRUE(device) << device.error().message;
   stop.request_stop();
   EXPECT_FALSE(host->opening().is_set());
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   EXPECT_EQ(*(*device)->read(1s, block), ReadOutcome::kSamples);
 }
 
@@ -300,7 +300,7 @@ TEST(DriverBase, AsksOnceWhereTheHostDoesNotWait) {
                                        EXPECT_TRUE(wait.over());
                                        if (++asked == 3) samples.add(1, {}).set(0, 1.0);
                                      }});
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   EXPECT_EQ(*(*device)->read(0ms, block), ReadOutcome::kTimeout);
   EXPECT_EQ(*(*device)->read(0ms, block), ReadOutcome::kTimeout);
   EXPECT_EQ(*(*device)->read(0ms, block), ReadOutcome::kSamples);
@@ -312,7 +312,7 @@ TEST(DriverBase, WaitsUntilTheDeadlineAndNotLonger) {
                                        EXPECT_FALSE(wait.until(wait.deadline() + 1h));
                                        EXPECT_FALSE(wait.cancelled());
                                      }});
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(*(*device)->read(30ms, block), ReadOutcome::kTimeout);
   const auto took = std::chrono::steady_clock::now() - start;
@@ -326,7 +326,7 @@ TEST(DriverBase, WakesWhenADescriptorCanBeRead) {
   const auto device = testing::open({two_streams(), [&](Samples& samples, const Wait& wait) {
                                        if (wait.ready(pipe_ends[0])) samples.end();
                                      }});
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   EXPECT_EQ(*(*device)->read(1ms, block), ReadOutcome::kTimeout);
   ASSERT_EQ(::write(pipe_ends[1], "x", 1), 1);
   EXPECT_EQ(*(*device)->read(1h, block), ReadOutcome::kEnd);
@@ -341,7 +341,7 @@ TEST(DriverBase, CancelEndsAReadThatWaitsAndAllLaterOnes) {
                                        EXPECT_FALSE(wait.until(wait.deadline()));
                                        EXPECT_TRUE(wait.over());
                                      }});
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   std::jthread canceller([&] {
     while (!reading) std::this_thread::yield();
     (*device)->cancel();
@@ -374,7 +374,7 @@ TEST(DriverBase, CancelInterruptsAReadThatWaitsInItsOwnWay) {
     lock.unlock();
     (*device)->cancel();
   });
-  Block block = (*device)->make_block(1);
+  SampleBlock block = (*device)->make_block(1);
   EXPECT_EQ(*(*device)->read(1h, block), ReadOutcome::kCancelled);
 }
 

@@ -48,7 +48,7 @@ class FaultyRead : public ::testing::TestWithParam<Fault> {};
 TEST_P(FaultyRead, IsAnErrorForEver) {
   const auto device = open_faulty(GetParam().name);
   ASSERT_TRUE(device) << device.error().message;
-  Block block = (*device)->make_block(4);
+  SampleBlock block = (*device)->make_block(4);
   const auto outcome = (*device)->read(0ms, block);
   ASSERT_FALSE(outcome);
   EXPECT_NE(outcome.error().message.find(GetParam().complaint), std::string::npos)
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(FaultyDevice, ReadsAsLongAsItKeepsTheRules) {
   const auto device = open_faulty("none");
   ASSERT_TRUE(device) << device.error().message;
-  Block block = (*device)->make_block(4);
+  SampleBlock block = (*device)->make_block(4);
   const auto outcome = (*device)->read(0ms, block);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(*outcome, ReadOutcome::kSamples);
@@ -85,10 +85,10 @@ TEST(FaultyDevice, ReadsAsLongAsItKeepsTheRules) {
 
 TEST(FaultyDevice, MayFailWithoutAWordOrBeGoneForAWhile) {
   const auto failing = open_faulty("unknown_error");
-  Block block = (*failing)->make_block(1);
+  SampleBlock block = (*failing)->make_block(1);
   EXPECT_EQ((*failing)->read(0ms, block).error().message, "driver faulty: unknown error");
   const auto gone = open_faulty("gone");
-  Block other = (*gone)->make_block(1);
+  SampleBlock other = (*gone)->make_block(1);
   for (int i = 0; i < 2; ++i) {
     const auto outcome = (*gone)->read(0ms, other);
     ASSERT_TRUE(outcome) << outcome.error().message;

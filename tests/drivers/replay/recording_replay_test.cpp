@@ -136,7 +136,7 @@ TEST_F(RecordingReplay, EndsWithItsLastSample) {
   record(1, {"imu0"});
   const auto session = open({{"speed", "0"}});
   ASSERT_TRUE(session) << session.error().message;
-  drivers::Block block = (*session)->device().make_block(1000);
+  drivers::SampleBlock block = (*session)->device().make_block(1000);
   std::size_t rows = 0;
   for (;;) {
     const auto outcome = (*session)->device().read(std::chrono::milliseconds(100), block);

@@ -19,11 +19,11 @@ namespace imunoise {
 namespace {
 
 using namespace std::chrono_literals;
-using drivers::Block;
 using drivers::Device;
 using drivers::NumberType;
 using drivers::OptionText;
 using drivers::ReadOutcome;
+using drivers::SampleBlock;
 namespace fs = std::filesystem;
 
 class Replay : public ::testing::Test {
@@ -74,7 +74,7 @@ class Replay : public ::testing::Test {
 
 // Reads to the end and compares every number and every stamp with what import_files says.
 void expect_replayed(Device& device, const std::vector<recording::Replicate>& expected) {
-  Block block = device.make_block(777);
+  SampleBlock block = device.make_block(777);
   std::size_t replicate = 0;
   std::size_t row = 0;
   std::size_t total = 0;
@@ -169,7 +169,7 @@ TEST_F(Replay, KeepsTheTimeOfTheRecordingTimesTheSpeed) {
   const fs::path file = write("run.npy", 0.0, 400);  // 2 s at 200 Hz
   const auto device = open({{"file", file.string()}, {"speed", "10"}});
   ASSERT_TRUE(device) << device.error().message;
-  Block block = (*device)->make_block(1000);
+  SampleBlock block = (*device)->make_block(1000);
   const auto start = std::chrono::steady_clock::now();
   std::size_t rows = 0;
   std::size_t reads = 0;
@@ -191,7 +191,7 @@ TEST_F(Replay, TimesOutBetweenSamples) {
   const fs::path file = write("run.npy", 0.0, 16);
   const auto device = open({{"file", file.string()}, {"speed", "0.001"}});  // a sample in 5 s
   ASSERT_TRUE(device) << device.error().message;
-  Block block = (*device)->make_block(10);
+  SampleBlock block = (*device)->make_block(10);
   EXPECT_EQ(*(*device)->read(0ms, block), ReadOutcome::kTimeout);
   EXPECT_EQ(*(*device)->read(5ms, block), ReadOutcome::kTimeout);
 }
@@ -200,7 +200,7 @@ TEST_F(Replay, CancelFromAnotherThreadEndsAWait) {
   const fs::path file = write("run.npy", 0.0, 16);
   const auto device = open({{"file", file.string()}, {"speed", "1e-6"}});  // a sample in 83 min
   ASSERT_TRUE(device) << device.error().message;
-  Block block = (*device)->make_block(10);
+  SampleBlock block = (*device)->make_block(10);
   std::jthread canceller([&] {
     std::this_thread::sleep_for(20ms);
     (*device)->cancel();

@@ -84,6 +84,11 @@ TEST_F(MtiFaults, LateSamplesAreNotLostAndAreDatedBack) {
   EXPECT_GE(rows[90].host_time_ns - rows[50].host_time_ns, 10'000'000);
 }
 
+TEST_F(MtiFaults, NoRestartIsToldWhenItIsOpened) {
+  record({}, 20);
+  EXPECT_EQ(session_->notes().find("restarted"), std::string::npos) << session_->notes();
+}
+
 TEST_F(MtiFaults, UnpluggedAndBack) {
   record({{Kind::kUnplug, 40, 150, 0}, {Kind::kUnplug, 90, 100, 0}}, 150);
   EXPECT_EQ(session_->disconnections().size(), 2U);
@@ -108,7 +113,7 @@ TEST_F(MtiFaults, CancelAndCloseWhileItIsAway) {
     std::this_thread::sleep_for(50ms);
     session_->device().cancel();
   });
-  drivers::Block block = session_->device().make_block(10);
+  drivers::SampleBlock block = session_->device().make_block(10);
   const auto start = RecordingSession::Clock::now();
   EXPECT_EQ(*session_->device().read(1h, block), drivers::ReadOutcome::kCancelled);
   canceller.join();

@@ -129,7 +129,7 @@ TEST_F(Capture, BurstsEndWithTheLastWholeOne) {
   write(std::string(26 * 5 + 13, '\0'));  // nothing in them is new
   const auto session = replay({}, "adis16405");
   ASSERT_NE(session, nullptr);
-  drivers::Block block = session->device().make_block(10);
+  drivers::SampleBlock block = session->device().make_block(10);
   std::uint64_t refused = 0;
   for (;;) {
     const auto outcome = session->device().read(std::chrono::milliseconds(100), block);
