@@ -1,0 +1,61 @@
+#include "study/report/figures/error_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace imunoise::report {
+namespace {
+
+double over_floor(const v1::ErrorView& view) {
+  if (view.unit() == "dB") return std::pow(10.0, (view.value() - view.floor()) / 20.0);
+  return view.value() / view.floor();
+}
+
+// Bars of the views that `now` has, in its order.
+figure::Layer bars(const v1::Rung& of, const v1::Rung& now, figure::Role role,
+                   const std::string& key) {
+  figure::Layer out{.shape = figure::Shape::kBars, .role = role, .key = key};
+  for (int row = 0; row < now.views_size(); ++row) {
+    for (const v1::ErrorView& one : of.views()) {
+      if (one.view() != now.views(row).view() || !(over_floor(one) > 0.0)) continue;
+      const bool beyond = one.value() > one.chance_limit();
+      out.data.push_back({.x = over_floor(one),
+                          .y = static_cast<double>(row),
+                          .state = beyond ? figure::State::kOutside : figure::State::kPlain});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string view_title(const v1::ErrorView& view) {
+  std::string out = view.view();
+  std::replace(out.begin(), out.end(), '_', ' ');
+  return out;
+}
+
+std::optional<figure::Figure> error_panel(const v1::Rung* before, const v1::Rung& now) {
+  // A bar begins at the axis's edge: below the floor it is short, not absent.
+  constexpr double kEdge = 0.2;
+  figure::Panel panel{.x = {.kind = figure::AxisKind::kLogarithmic,
+                            .title = "error over its floor, 1 = what chance leaves",
+                            .short_title = "error / floor",
+                            .low = kEdge},
+                      .y = {.kind = figure::AxisKind::kCategories},
+                      .x_reference = 1.0};
+  for (const v1::ErrorView& one : now.views()) panel.y.categories.push_back(view_title(one));
+  panel.layers.push_back(bars(now, now, figure::Role::kMeasured, "now"));
+  if (before != nullptr) panel.layers.push_back(bars(*before, now, figure::Role::kGhost, "before"));
+  return figure::unless_empty(
+      {.title = "How far the model is off",
+       .caption =
+           before == nullptr
+               ? "The line is what chance alone leaves under a true model; orange bars are "
+                 "longer than chance allows."
+               : "Outlines: the first model. Bars: the last one; orange ones are longer than "
+                 "chance allows. The line is what chance alone leaves under a true model.",
+       .panels = {std::move(panel)}});
+}
+
+}  // namespace imunoise::report
