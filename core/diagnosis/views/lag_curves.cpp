@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/search/evidence.h"
 #include "core/search/lagged_witness.h"
 #include "core/support/parallel.h"
 
