@@ -23,7 +23,7 @@ struct Placed {
   double promised = 0.0;             // nats that it may still gain
 };
 
-double held_out(const v1::Rung& rung) {
+double held_out_nats(const v1::Rung& rung) {
   return std::accumulate(rung.heldout_nats().begin(), rung.heldout_nats().end(), 0.0);
 }
 
@@ -104,7 +104,7 @@ void tell(const Placed& at, const Placed& best, double promised, bool forecast) 
   v1::Rung& to = *at.rung;
   const double scores = to.heldout_scores();
   const auto error = [&](double nats) { return 1.0 + 2.0 * (nats + promised) / scores; };
-  const double short_of_best = held_out(*best.rung) - held_out(to);
+  const double short_of_best = held_out_nats(*best.rung) - held_out_nats(to);
   to.set_unexplained(error(short_of_best));
   to.set_forecast(forecast);
   to.clear_unexplained_lower();
@@ -133,11 +133,11 @@ void tell_all(std::vector<Placed> rungs, const v1::Rung* settled) {
   double highest = 0.0;
   for (const Placed& one : rungs) {
     if (!one.counts) continue;
-    if (best == nullptr || held_out(*one.rung) > held_out(*best->rung)) best = &one;
+    if (best == nullptr || held_out_nats(*one.rung) > held_out_nats(*best->rung)) best = &one;
   }
   if (best == nullptr) return;
   for (const Placed& one : rungs) {
-    const double reached = held_out(*one.rung) - held_out(*best->rung) + one.promised;
+    const double reached = held_out_nats(*one.rung) - held_out_nats(*best->rung) + one.promised;
     if (one.counts) highest = std::max(highest, reached);
   }
   for (const Placed& one : rungs) tell(one, *best, highest, best->rung != settled);

@@ -14,7 +14,7 @@ namespace imunoise {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr double kOnceInTwenty = 0.05;
+constexpr double kLimitLevel = 0.05;
 
 // The root mean square of deviations in %, from the χ² of their scores; see ErrorView.
 // `information`: Σ 1/s².
@@ -27,7 +27,7 @@ std::optional<ErrorView> mean_view(std::string_view view, const TestOutcome& tes
                    .unit = "%",
                    .value = size(test.statistic),
                    .floor = size(dof),
-                   .chance_limit = size(chi_square_quantile(1.0 - kOnceInTwenty, dof)),
+                   .chance_limit = size(chi_square_quantile(1.0 - kLimitLevel, dof)),
                    .p_value = test.p_value};
 }
 
@@ -84,7 +84,7 @@ ErrorView of_distribution(const MisfitReport& misfit) {
           .unit = "1",
           .value = value,
           .floor = error,
-          .chance_limit = error * normal_quantile(1.0 - 0.5 * kOnceInTwenty),
+          .chance_limit = error * normal_quantile(1.0 - 0.5 * kLimitLevel),
           .p_value = chi_square_tail(value * value / (error * error), 1.0),
           .worst = {.deviation = misfit.excess_within_replicates}};
 }

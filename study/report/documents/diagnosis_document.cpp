@@ -59,7 +59,7 @@ Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
 }
 
 // "0.34 %" of an error in a view.
-std::string in_unit(double value, const v1::ErrorView& view, Digits digits) {
+std::string view_value(double value, const v1::ErrorView& view, Digits digits) {
   if (view.unit() == "dB") return fmt::format("{:.1f} dB", value);
   return number(value, 2, digits) + (view.unit() == "1" ? "" : " " + view.unit());
 }
@@ -81,9 +81,9 @@ Table error_table(const v1::DiagnosisReport& report, Digits digits) {
   for (const v1::ErrorView& now : last.views()) {
     std::vector<std::string> row{view_title(now)};
     const v1::ErrorView* const before = view_of(report.ladder(0), now.view());
-    if (grown) row.push_back(before != nullptr ? in_unit(before->value(), *before, digits) : "");
-    row.push_back(in_unit(now.value(), now, digits));
-    row.push_back(in_unit(now.floor(), now, digits));
+    if (grown) row.push_back(before != nullptr ? view_value(before->value(), *before, digits) : "");
+    row.push_back(view_value(now.value(), now, digits));
+    row.push_back(view_value(now.floor(), now, digits));
     row.push_back(now.sentence());
     out.rows.push_back(std::move(row));
   }
