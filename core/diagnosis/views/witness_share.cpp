@@ -32,7 +32,7 @@ struct Tried {
   }
   // The nats that the best passes with a probability under a true model.
   double passed(double probability) const {
-    constexpr double kMost = 1e3;
+    constexpr double kMost = 300.0;  // nats: exp(-300) is still a number
     const double wanted = -std::log1p(-probability);
     if (expected(0.0) <= wanted) return 0.0;
     return root_between([&](double gained) { return std::log(expected(gained) / wanted); }, 0.0,
