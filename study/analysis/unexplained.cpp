@@ -61,7 +61,15 @@ std::string integral_name(const std::string& unit) {
   return unit == "m/s" ? "velocity" : "value";
 }
 
-// What a rung lacks against the best one: how sure that is, and what it costs.
+// "1.2 % off in the spectrum: ".
+std::string size_of(const v1::Rung& rung) {
+  for (const v1::ErrorView& one : rung.views()) {
+    if (one.view() == "spectrum") return fmt::format("{:.2g} % off in the spectrum: ", one.value());
+  }
+  return "";
+}
+
+// What a rung lacks against the best one: how large that is, how sure that is, and what it costs.
 std::string consequence_of(const v1::Rung& rung, double short_of_best) {
   constexpr double kNoConsequence = 0.05;
   const std::string sure =
@@ -74,13 +82,14 @@ std::string consequence_of(const v1::Rung& rung, double short_of_best) {
     if (one.has_best() && one.best() > 0.0 && (worst == nullptr || cost(one) > cost(*worst)))
       worst = &one;
   }
-  std::string out = fmt::format("{:.0f} nats short of the best model: {}", short_of_best, sure);
+  std::string out =
+      fmt::format("{}{:.0f} nats short of the best model, {}", size_of(rung), short_of_best, sure);
   if (worst == nullptr) return out + ".";
   const std::string name = integral_name(worst->unit());
   if (cost(*worst) < kNoConsequence)
     return fmt::format(
-        "{}, of no consequence for the integrated {}: at most {:.1f} % off up to {:g} s.", out,
-        name, 100.0 * cost(*worst), rung.drift().rbegin()->seconds());
+        "{}, of no consequence over {:g} s: the integrated {} changes by less than {:.1f} %.", out,
+        rung.drift().rbegin()->seconds(), name, 100.0 * cost(*worst) + 0.05);
   return fmt::format(
       "{}. After {:g} s the integrated {} is off by {:.2f} times that of the best "
       "model.",

@@ -35,6 +35,7 @@ TEST_F(Diagnose, NamesWhatIsMissingAndTheErrorFalls) {
   EXPECT_NE(read("out_after.svg").find("WN + RW + QN"), std::string::npos);
   EXPECT_NE(read("out_spectrum_before.svg").find("frequency, Hz"), std::string::npos);
   EXPECT_NE(read("out_spectrum_after.svg").find("WN + RW + QN"), std::string::npos);
+  EXPECT_NE(read("out_errors.svg").find("averaging times"), std::string::npos);
   const json report = json::parse(done.out);
   EXPECT_EQ(report.at("verdict"), "found");
   const json& best = report.at("candidates").at(0);

@@ -48,12 +48,20 @@ Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
   const v1::Rung& last = report.ladder(report.ladder_size() - 1);
   Table out{last.forecast() ? "The ladder: unexplained error (floor 1, a forecast)"
                             : "The ladder: unexplained error (floor 1)",
-            {"added", "unexplained", "gained", "misfit p", "against the best model"},
+            {"added", "unexplained", "gained", "misfit p"},
             {}};
   for (const v1::Rung& rung : report.ladder()) {
     out.rows.push_back({name_of(rung), unexplained_of(rung, digits),
                         nats(rung.log_likelihood(), 4, digits), p_value(rung.misfit_p(), digits),
                         rung.consequence()});
+  }
+  return out;
+}
+
+Table consequence_table(const v1::DiagnosisReport& report) {
+  Table out{"What each model lacks against the best, and what that costs", {"model", ""}, {}};
+  for (const v1::Rung& rung : report.ladder()) {
+    if (!rung.consequence().empty()) out.rows.push_back({name_of(rung), rung.consequence()});
   }
   return out;
 }
@@ -206,11 +214,6 @@ std::optional<figure::Figure> ladder_figure(const v1::DiagnosisReport& report) {
                          rows, 1.0);
 }
 
-std::optional<figure::Figure> panel_of(const v1::DiagnosisReport& report) {
-  const int count = report.ladder_size();
-  return error_panel(count > 1 ? &report.ladder(0) : nullptr, report.ladder(count - 1));
-}
-
 void add_figures(const v1::DiagnosisReport& report, Section& to) {
   if (report.ladder_size() == 0) return;
   const bool grown = report.has_compared_after();
@@ -243,7 +246,7 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   out.summary = report.summary();
   add_figures(report, out);
   if (report.ladder_size() > 0) {
-    out.panel = panel_of(report);
+    out.panel = error_panel(report);
     out.tables.push_back(error_table(report, digits));
   }
   if (report.integrity_size() > 0) out.tables.push_back(integrity_table(report));
@@ -257,6 +260,7 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
     out.tables.push_back(ladder_table(report, digits));
     const v1::Rung& last = report.ladder(report.ladder_size() - 1);
     if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
+    out.tables.push_back(consequence_table(report));
     if (report.ladder(0).drift_size() > 0) out.tables.push_back(drift_table(report, digits));
   }
   if (report.verdict() == v1::none) out.tables.push_back(limit_table(report, digits));
@@ -312,9 +316,10 @@ Document document(const v1::Study& study, Digits digits) {
     out.summary = "Run imunoise study candidates to find what this model lacks.";
     out.figures.clear();
     const v1::Rung& last = path.back()->rung();
-    out.panel = panel_of(report);
+    out.panel = error_panel(report);
     out.tables = {error_table(report, digits), ladder_table(report, digits)};
     if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
+    out.tables.push_back(consequence_table(report));
     out.tables.push_back(drift_table(report, digits));
   }
   Table attempts{"All attempts", {"", "model", "unexplained", ""}, {}};

@@ -35,7 +35,10 @@ std::string view_title(const v1::ErrorView& view) {
   return out;
 }
 
-std::optional<figure::Figure> error_panel(const v1::Rung* before, const v1::Rung& now) {
+std::optional<figure::Figure> error_panel(const v1::DiagnosisReport& report) {
+  if (report.ladder_size() == 0) return std::nullopt;
+  const v1::Rung& now = report.ladder(report.ladder_size() - 1);
+  const bool grown = report.ladder_size() > 1;
   // A bar begins at the axis's edge: below the floor it is short, not absent.
   constexpr double kEdge = 0.2;
   figure::Panel panel{.x = {.kind = figure::AxisKind::kLogarithmic,
@@ -45,16 +48,13 @@ std::optional<figure::Figure> error_panel(const v1::Rung* before, const v1::Rung
                       .y = {.kind = figure::AxisKind::kCategories},
                       .x_reference = 1.0};
   for (const v1::ErrorView& one : now.views()) panel.y.categories.push_back(view_title(one));
+  if (grown) panel.layers.push_back(bars(report.ladder(0), now, figure::Role::kGhost, "before"));
   panel.layers.push_back(bars(now, now, figure::Role::kMeasured, "now"));
-  if (before != nullptr) panel.layers.push_back(bars(*before, now, figure::Role::kGhost, "before"));
   return figure::unless_empty(
       {.title = "How far the model is off",
-       .caption =
-           before == nullptr
-               ? "The line is what chance alone leaves under a true model; orange bars are "
-                 "longer than chance allows."
-               : "Outlines: the first model. Bars: the last one; orange ones are longer than "
-                 "chance allows. The line is what chance alone leaves under a true model.",
+       .caption = std::string(grown ? "Outlines: the first model. Bars: the last one. " : "") +
+                  "The line is what chance alone leaves under a true model; orange bars are longer "
+                  "than chance allows.",
        .panels = {std::move(panel)}});
 }
 
