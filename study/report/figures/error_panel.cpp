@@ -6,6 +6,8 @@
 namespace imunoise::report {
 namespace {
 
+constexpr double kBeyond = 0.05 / 7.0;  // of any of seven views once in twenty
+
 double over_floor(const v1::ErrorView& view) {
   if (view.unit() == "dB") return std::pow(10.0, (view.value() - view.floor()) / 20.0);
   return view.value() / view.floor();
@@ -18,7 +20,7 @@ figure::Layer bars(const v1::Rung& of, const v1::Rung& now, figure::Role role,
   for (int row = 0; row < now.views_size(); ++row) {
     for (const v1::ErrorView& one : of.views()) {
       if (one.view() != now.views(row).view() || !(over_floor(one) > 0.0)) continue;
-      const bool beyond = one.value() > one.chance_limit();
+      const bool beyond = one.p() < kBeyond;
       out.data.push_back({.x = over_floor(one),
                           .y = static_cast<double>(row),
                           .state = beyond ? figure::State::kOutside : figure::State::kPlain});
@@ -54,7 +56,7 @@ std::optional<figure::Figure> error_panel(const v1::DiagnosisReport& report) {
       {.title = "How far the model is off",
        .caption = std::string(grown ? "Outlines: the first model. Bars: the last one. " : "") +
                   "The line is what chance alone leaves under a true model; orange bars are longer "
-                  "than chance allows.",
+                  "than chance makes any of them once in twenty.",
        .panels = {std::move(panel)}});
 }
 
