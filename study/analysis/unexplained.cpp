@@ -48,7 +48,7 @@ double reach_of_sum(const std::vector<double>& each) {
 // A gain that one replicate has nearly alone says nothing about the next recording: no spread over
 // replicates is its interval.
 bool in_one_replicate(const std::vector<double>& each) {
-  constexpr double kNearlyAll = 0.9;
+  constexpr double kNearlyAll = 0.8;     // the others gain as their noise is estimated better
   constexpr double kWorthTelling = 5.0;  // nats
   double all = 0.0;
   for (const double one : each) all += std::abs(one);
@@ -182,7 +182,8 @@ void tell_unexplained(v1::DiagnosisReport& report, std::optional<int> settled) {
     rungs.push_back({&rung, i > 0 ? &report.ladder(i - 1) : nullptr, true, rung.promised_nats()});
   }
   if (rungs.empty()) return;
-  rungs.front().promised = std::max(rungs.front().promised, promised_by_candidates(report));
+  if (!settled)
+    rungs.front().promised = std::max(rungs.front().promised, promised_by_candidates(report));
   tell_all(rungs, settled ? &report.ladder(*settled) : nullptr);
   tell_candidates(report.ladder(0), report);
 }
