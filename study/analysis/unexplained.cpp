@@ -20,7 +20,7 @@ struct Placed {
   v1::Rung* rung;
   const v1::Rung* parent = nullptr;  // what it was added to
   bool counts = true;                // a preview counts where its candidate is significant
-  double promised = 0.0;             // nats that it may still gain
+  double promised = 0.0;             // nats that its candidates gain
 };
 
 double held_out_nats(const v1::Rung& rung) {
@@ -139,12 +139,12 @@ void tell(const Placed& at, const Placed& best, double promised, bool forecast) 
 void tell_all(std::vector<Placed> rungs, const v1::Rung* settled) {
   std::erase_if(rungs, [](const Placed& one) { return one.rung->heldout_nats_size() == 0; });
   const Placed* best = nullptr;
-  double highest = 0.0;
   for (const Placed& one : rungs) {
     if (!one.counts) continue;
     if (best == nullptr || held_out_nats(*one.rung) > held_out_nats(*best->rung)) best = &one;
   }
   if (best == nullptr) return;
+  double highest = best->rung->promised_nats();
   for (const Placed& one : rungs) {
     const double reached = held_out_nats(*one.rung) - held_out_nats(*best->rung) + one.promised;
     if (one.counts) highest = std::max(highest, reached);
@@ -179,11 +179,10 @@ void tell_unexplained(v1::DiagnosisReport& report, std::optional<int> settled) {
   std::vector<Placed> rungs;
   for (int i = 0; i < report.ladder_size(); ++i) {
     v1::Rung& rung = *report.mutable_ladder(i);
-    rungs.push_back({&rung, i > 0 ? &report.ladder(i - 1) : nullptr, true, rung.promised_nats()});
+    rungs.push_back({&rung, i > 0 ? &report.ladder(i - 1) : nullptr});
   }
   if (rungs.empty()) return;
-  if (!settled)
-    rungs.front().promised = std::max(rungs.front().promised, promised_by_candidates(report));
+  if (!settled) rungs.front().promised = promised_by_candidates(report);
   tell_all(rungs, settled ? &report.ladder(*settled) : nullptr);
   tell_candidates(report.ladder(0), report);
 }
@@ -195,8 +194,7 @@ void tell_unexplained(v1::Study& study) {
   std::vector<Placed> rungs;
   for (const v1::StudyAttempt& one : study.attempts()) {
     v1::Rung* const rung = attempt(static_cast<std::uint32_t>(rungs.size()));
-    rungs.push_back(
-        {rung, one.has_parent() ? attempt(one.parent()) : nullptr, true, rung->promised_nats()});
+    rungs.push_back({rung, one.has_parent() ? attempt(one.parent()) : nullptr});
   }
   v1::Rung* const current = attempt(study.current());
   if (!study.has_diagnosis()) {
@@ -207,10 +205,10 @@ void tell_unexplained(v1::Study& study) {
   for (v1::EffectCandidate& one : *diagnosis.mutable_candidates()) {
     if (!one.has_next()) continue;
     v1::Rung& next = *one.mutable_next();
-    rungs.push_back({&next, current, one.familywise_p() < kSignificant, next.promised_nats()});
+    rungs.push_back({&next, current, one.familywise_p() < kSignificant});
   }
   // Copies of an attempt and of a preview.
-  for (v1::Rung& one : *diagnosis.mutable_ladder()) rungs.push_back({&one, nullptr, false, 0.0});
+  for (v1::Rung& one : *diagnosis.mutable_ladder()) rungs.push_back({&one, nullptr, false});
   const bool settled = diagnosis.ladder_size() == 1;
   tell_all(rungs, settled ? current : nullptr);
   tell_candidates(*current, diagnosis);

@@ -14,8 +14,8 @@ namespace imunoise::study {
 /// `settled`: the rung on which a diagnosis found nothing more, if there is one.
 ///
 /// unexplained = 1 + 2·(N* - N)/(scales × replicates), N the held-out log-likelihood of a rung and
-/// N* the highest that any rung reaches or promises: 1 is the floor. A rung promises what its
-/// significant candidates gain on held-out data and what its misfits stand for (promised_nats).
+/// N* the highest that any rung reaches, that its significant candidates promise on held-out data,
+/// or that the misfits of the best rung stand for (promised_nats): 1 is the floor.
 /// Rungs without held-out likelihoods are left as they are.
 void tell_unexplained(v1::DiagnosisReport& report, std::optional<int> settled);
 

@@ -173,7 +173,7 @@ double promised_nats(const MisfitReport& misfit) {
   constexpr double kOnceInAHundred = 0.01;
   if (!(misfit_p_value(misfit) < kOnceInAHundred)) return 0.0;
   double out = 0.0;
-  for (const TestOutcome& one : {misfit.spectrum, misfit.time, misfit.kurtosis})
+  for (const TestOutcome& one : {misfit.spectrum, misfit.time})
     out = std::max(out, 0.5 * one.statistic - static_cast<double>(one.degrees_of_freedom));
   return out;
 }

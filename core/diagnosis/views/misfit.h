@@ -54,9 +54,9 @@ std::vector<TimeMisfit> time_misfits(const VectorRef& white, std::size_t replica
 /// Chance that a true model fits as badly as the worst of the three.
 double misfit_p_value(const MisfitReport& misfit);
 
-/// Nats that a model without the worst of the three misfits gains on data it was not fitted to:
-/// half of χ² less twice its degrees of freedom (Akaike 1974), 0 where a true model fits as badly
-/// once in a hundred.
+/// Nats that a model without the misfit of the spectrum, or over time, gains on data it was not
+/// fitted to: half of χ² less twice its degrees of freedom (Akaike 1974), 0 where a true model fits
+/// as badly once in a hundred. A kurtosis is no likelihood ratio, and promises nothing in nats.
 double promised_nats(const MisfitReport& misfit);
 
 }  // namespace imunoise
