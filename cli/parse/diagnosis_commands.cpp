@@ -41,8 +41,8 @@ ParsedCommand diagnose_command(CLI::App& program) {
   diagnose
       ->add_option(
           "--svg", *svg,
-          "SVG pictures of noise budget and spectrum to write, for papers: OUT_before.svg, "
-          "OUT_after.svg, OUT_spectrum_before.svg, OUT_spectrum_after.svg")
+          "SVG pictures of noise budget, spectrum and errors to write, for papers: OUT_before.svg, "
+          "OUT_after.svg, OUT_spectrum_before.svg, OUT_spectrum_after.svg, OUT_errors.svg")
       ->type_name("OUT.svg");
   diagnose->add_flag("--auto", options->automatic,
                      "Add the best effect to the model and repeat until none is missing");

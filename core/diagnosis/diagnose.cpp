@@ -61,9 +61,8 @@ void fill_confusions(std::vector<RankedTerm>& effects, const Subject& subject, d
   }
 }
 
-// Replicates that were not used must become more likely. The error is told but does not judge:
-// where it is at its floor already, chance moves it either way.
-bool proven(const RankedTerm& effect, const std::optional<Errors>& before) {
+// Replicates that were not used must become more likely.
+bool proven(const RankedTerm& effect, const std::optional<HeldOut>& before) {
   if (!effect.heldout || !before) return true;
   return effect.heldout->total_likelihood() > before->total_likelihood();
 }
@@ -76,7 +75,7 @@ void prove(Diagnosis& out, double level, const Progress& progress) {
   for (; tried < out.effects.size() && passed < kProven && tried < kMostTried; ++tried) {
     RankedTerm& one = out.effects[tried];
     if (progress.stopped() || (tried >= kProven && !(one.familywise_p < level))) break;
-    if (can_hold_out(one.tried.fitted)) one.heldout = heldout_errors(one.tried.fitted);
+    if (can_hold_out(one.tried.fitted)) one.heldout = held_out(one.tried.fitted);
     if (proven(one, out.heldout)) ++passed;
   }
   const auto end = out.effects.begin() + static_cast<std::ptrdiff_t>(tried);
@@ -138,7 +137,7 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);
   if (can_hold_out(model)) {
-    out.heldout = heldout_errors(model);
+    out.heldout = held_out(model);
     prove(out, level, progress);
     if (progress.stopped()) return {};
   }

@@ -17,7 +17,7 @@ enum class DiagnosisVerdict {
 struct RankedTerm {
   TriedTerm tried;
   double familywise_p = 1.0;
-  std::optional<Errors> heldout;           ///< absent where nothing can be held out
+  std::optional<HeldOut> heldout;          ///< absent where nothing can be held out
   std::vector<std::string> confused_with;  ///< ids of effects that these data cannot exclude
 };
 
@@ -36,7 +36,7 @@ struct Diagnosis {
   std::vector<RankedTerm> effects;  ///< best first
   MisfitReport misfit;              ///< of the model as it is
   double misfit_p = 1.0;
-  std::optional<Errors> heldout;  ///< of the model as it is
+  std::optional<HeldOut> heldout;  ///< of the model as it is
   std::vector<DetectionLimit> limits;
 };
 

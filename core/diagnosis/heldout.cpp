@@ -1,9 +1,9 @@
 #include "core/diagnosis/heldout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "core/effects/own_powers.h"
 #include "core/inference/normal_scores.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
@@ -58,32 +58,38 @@ double modulation_gain(const Regression& one, const JointFit& fit,
   return out;
 }
 
+// What noise of its own gains on the quarters of a replicate, each by a fit to the other three.
+double own_noise_gain(const EffectTerm& term, const Model& noise, const Eigen::VectorXd& left,
+                      const Subject& subject) {
+  const std::size_t length = quick_length(static_cast<std::size_t>(left.size()) / kBlocks);
+  std::vector<BandedPower> quarters;
+  for (std::size_t b = 0; b < kBlocks; ++b) {
+    const std::span<const double> samples(left.data() + b * length, length);
+    quarters.push_back(banded_power(Signal(samples, subject.rate, subject.quantity)));
+  }
+  double out = 0.0;
+  for (std::size_t b = 0; b < kBlocks; ++b) {
+    std::vector<BandedPower> others = quarters;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(b));
+    const std::span<const BandedPower> held(&quarters[b], 1);
+    out += whittle_objective(noise, held) -
+           whittle_objective(effects::own_noise_of(term, noise, pooled(others)).model, held);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool can_hold_out(const FittedModel& fitted) {
-  const auto& effects = fitted.regression.effects();
   const Subject& subject = fitted.regression.subject();
-  return (subject.replicates() > 1 || subject.length(0) >= kShortestCut) &&
-         std::none_of(effects.begin(), effects.end(),
-                      [](const EffectTerm& term) { return term.effect->own_noise != nullptr; });
+  if (subject.replicates() > 1 && fitted.fit.own_noise.empty()) return true;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    if (subject.length(k) < kShortestCut) return false;
+  }
+  return true;
 }
 
-double Errors::mean_error() const {
-  return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());
-}
-
-double Errors::error_of_mean() const {
-  if (error.size() < 2) return 0.0;
-  const double mean = mean_error();
-  double squares = 0.0;
-  for (const double one : error) squares += (one - mean) * (one - mean);
-  const auto n = static_cast<double>(error.size());
-  return std::sqrt(squares / (n * (n - 1.0)));
-}
-
-double Errors::total_likelihood() const {
-  return std::accumulate(log_likelihood.begin(), log_likelihood.end(), 0.0);
-}
+double HeldOut::total_likelihood() const { return std::accumulate(nats.begin(), nats.end(), 0.0); }
 
 LeftOver left_over(const FittedModel& fitted) {
   const Subject& subject = fitted.regression.subject();
@@ -100,29 +106,27 @@ LeftOver left_over(const FittedModel& fitted) {
   return out;
 }
 
-Errors training_errors(const FittedModel& fitted, const LeftOver& left) {
-  const std::size_t count = fitted.regression.subject().replicates();
+double training_error(const FittedModel& fitted, const LeftOver& left) {
   const std::vector<Model>& own = fitted.fit.own_noise;
-  Errors out{std::vector<double>(count), std::vector<double>(count)};
-  if (own.empty()) out.error = wavelet_errors(left.variances, fitted.fit.model.noise);
-  for_each_index(count, [&](std::size_t k) {
-    const Model& noise = own.empty() ? fitted.fit.model.noise : own[k];
-    if (!own.empty()) out.error[k] = wavelet_errors({left.variances[k]}, noise).front();
-    out.log_likelihood[k] =
-        log_likelihood_of(fitted.regression.of({k}), fitted.fit.effects.value, noise);
-  });
-  return out;
+  std::vector<double> errors;
+  if (own.empty()) errors = wavelet_errors(left.variances, fitted.fit.model.noise);
+  for (std::size_t k = 0; k < own.size(); ++k)
+    errors.push_back(wavelet_errors({left.variances[k]}, own[k]).front());
+  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 
-Errors heldout_errors(const FittedModel& fitted) {
-  const bool single = fitted.regression.subject().replicates() == 1;
+HeldOut held_out(const FittedModel& fitted) {
+  const Subject& subject = fitted.regression.subject();
+  const bool single = subject.replicates() == 1;
+  const auto& effects = fitted.regression.effects();
+  const auto own_noise = std::find_if(effects.begin(), effects.end(), [](const EffectTerm& term) {
+    return term.effect->own_noise != nullptr;
+  });
   const Regression all = single ? fitted.regression.in_blocks(kBlocks) : fitted.regression;
-  const auto left_in = [&](const Eigen::VectorXd& coefficients, std::size_t k) -> Eigen::VectorXd {
-    if (single) return inverse_cosine_transform(all.residual_cosines(coefficients, k));
-    return all.residual_samples(coefficients, k);
-  };
   const std::size_t count = all.subject().replicates();
-  Errors out{std::vector<double>(count), std::vector<double>(count)};
+  HeldOut out{std::vector<double>(count), 0};
+  for (const SharedVector& one : subject.samples)
+    out.scores += static_cast<Eigen::Index>(scales_of(one).size());
   for_each_index(count, [&](std::size_t k) {
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < count; ++i) {
@@ -136,10 +140,9 @@ Errors heldout_errors(const FittedModel& fitted) {
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
     for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
-    const Eigen::VectorXd left = left_in(at, k);
-    out.error[k] =
-        wavelet_errors({variance_of(left, all.subject(), scales_of(left))}, noise).front();
-    out.log_likelihood[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
+    out.nats[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
+    if (!single && own_noise != effects.end())
+      out.nats[k] += own_noise_gain(*own_noise, noise, all.residual_samples(at, k), subject);
   });
   return out;
 }

@@ -7,16 +7,13 @@
 
 namespace imunoise {
 
-/// How a model does on replicates, one number a replicate.
-struct Errors {
-  /// Mean square of the whitened normal scores of the wavelet variance, with the effects taken out:
-  /// 1.0 is the noise floor.
-  std::vector<double> error;
-  std::vector<double> log_likelihood;  ///< nats, less what does not depend on the model
+/// Log-likelihood of data that a model was not fitted to.
+struct HeldOut {
+  /// Of a replicate each, or of a block of a single one; less what does not depend on the model.
+  std::vector<double> nats;
+  /// Averaging times × replicates: how many scores of the wavelet variance there are.
+  Eigen::Index scores = 0;
 
-  double mean_error() const;
-  /// Standard error of the mean; 0 with one replicate.
-  double error_of_mean() const;
   double total_likelihood() const;
 };
 
@@ -28,16 +25,19 @@ struct LeftOver {
 LeftOver left_over(const FittedModel& fitted);
 
 /// True where something can be held out: replicates, or blocks of a single one that is long enough;
-/// and no parameters of their own.
+/// with powers of its own, blocks of each.
 bool can_hold_out(const FittedModel& fitted);
 
-/// On the replicates that the model was fitted to. `left`: left_over() of it.
-Errors training_errors(const FittedModel& fitted, const LeftOver& left);
+/// Mean square of the whitened normal scores of the wavelet variance on the replicates that the
+/// model was fitted to, with the effects taken out: 1.0 is the noise floor. `left`: left_over() of
+/// it.
+double training_error(const FittedModel& fitted, const LeftOver& left);
 
-/// On each replicate by a fit to the others; of a single replicate on each of four blocks, which is
+/// Each replicate by a fit to the others; of a single replicate each of four blocks, which is
 /// weaker: what holds throughout that hour is not seen to hold in another. Coefficients that belong
 /// to the held-out replicate alone (phases, steps) are estimated there, and each costs a nat.
-/// Precondition: can_hold_out().
-Errors heldout_errors(const FittedModel& fitted);
+/// Powers that a replicate has of its own must prove themselves on each of its quarters, by a fit
+/// to the other three. Precondition: can_hold_out().
+HeldOut held_out(const FittedModel& fitted);
 
 }  // namespace imunoise

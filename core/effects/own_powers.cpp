@@ -1,5 +1,7 @@
 // own_powers: every replicate has noise powers of its own, or a whole spectrum of its own.
 
+#include "core/effects/own_powers.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -27,11 +29,11 @@ Model powers_only(Model model) {
 }
 
 void fit_own_powers(const EffectTerm& term, const Regression& regression, JointFit& fit) {
-  const Model start = with_shapes(term) ? fit.model.noise : powers_only(fit.model.noise);
   const std::vector<BandedPower> residual = regression.residual(fit.effects.value);
   std::vector<WhittleEstimate> found(residual.size());
-  for_each_index(residual.size(),
-                 [&](std::size_t k) { found[k] = whittle(start, std::span(&residual[k], 1)); });
+  for_each_index(residual.size(), [&](std::size_t k) {
+    found[k] = own_noise_of(term, fit.model.noise, std::span(&residual[k], 1));
+  });
   fit.log_likelihood = 0.0;
   for (const WhittleEstimate& one : found) {
     fit.log_likelihood -= one.objective;
@@ -164,6 +166,11 @@ void review_own_powers(const Current& current, TriedTerm& tried) {
 }
 
 }  // namespace
+
+WhittleEstimate own_noise_of(const EffectTerm& term, const Model& noise,
+                             std::span<const BandedPower> measured) {
+  return whittle(with_shapes(term) ? noise : powers_only(noise), measured);
+}
 
 const Effect& own_powers() {
   static const Effect kOwnPowers{

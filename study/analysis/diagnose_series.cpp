@@ -17,6 +17,7 @@
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/series.h"
+#include "study/analysis/unexplained.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
@@ -146,7 +147,8 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     Diagnosis diagnosis =
         diagnose(model, {options.level}, progress.part(begin, begin + 0.7 / most));
     if (progress.stopped()) return fail("stopped");
-    *out.add_ladder() = rung_of(model, left, step, first, diagnosis.misfit_p, diagnosis.heldout);
+    *out.add_ladder() =
+        rung_of({model, left, diagnosis.misfit, diagnosis.heldout}, step, first, seen.replicates);
     // The verdict is about the model that was asked for; later rounds only climb.
     if (rung == 0) {
       add_diagnosis(diagnosis, *subject, out);
@@ -173,14 +175,15 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     model = std::move(grown);
     left = left_over(model);
     if (rung + 1 < most) continue;
-    if (!step.dropped.empty()) best.heldout = errors_held_out(model);
+    if (!step.dropped.empty()) best.heldout = held_out_of(model);
     *out.add_ladder() =
-        rung_of(model, left, step, first, misfit_p_value(misfit_of(model)), best.heldout);
+        rung_of({model, left, misfit_of(model), best.heldout}, step, first, seen.replicates);
   }
   if (options.automatic && out.ladder_size() > 1) {
     add_findings(model, out);
     add_remaining(remaining, out);
   }
+  tell_unexplained(out, remaining ? std::optional(out.ladder_size() - 1) : std::nullopt);
   *out.mutable_after() = budget_of(model, left);
   if (out.ladder_size() > 1)
     *out.mutable_compared_after() = comparison_of(model, left, seen.name, seen.replicates);

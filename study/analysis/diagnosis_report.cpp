@@ -9,8 +9,8 @@
 #include "core/diagnosis/views/run_off.h"
 #include "core/effects/couplings.h"
 #include "core/inference/normal_scores.h"
-#include "core/support/distributions.h"
 #include "study/analysis/effect_parameters.h"
+#include "study/analysis/error_sentences.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
@@ -62,7 +62,7 @@ const Cause& info_of(const TriedTerm& tried, const Subject& subject) {
   return cause_info(tried.cause, term == nullptr ? nullptr : subject.find(term->witness));
 }
 
-v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Errors>& before,
+v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<HeldOut>& before,
                                  const Subject& subject) {
   const TriedTerm& tried = from.tried;
   const Cause& about = info_of(tried, subject);
@@ -76,8 +76,6 @@ v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Err
   to.set_gain_nats(tried.gain);
   to.set_likelihood_gain_nats(tried.likelihood_gain);
   if (from.heldout && before) {
-    to.set_heldout_error_before(before->mean_error());
-    to.set_heldout_error_after(from.heldout->mean_error());
     to.set_heldout_gain_nats(from.heldout->total_likelihood() - before->total_likelihood());
   }
   const std::vector<v1::EffectParameter> parameters = effect_parameters(tried, subject);
@@ -89,10 +87,8 @@ v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Err
   const std::string told = numbers(parameters);
   std::string sentence = fmt::format("{}{}{}{}: explains {:.1f} nats", about.title, with,
                                      told.empty() ? "" : ", ", told, tried.likelihood_gain);
-  if (to.has_heldout_error_after()) {
-    sentence += fmt::format(", and lowers the held-out error from {:.3g} to {:.3g}",
-                            to.heldout_error_before(), to.heldout_error_after());
-  }
+  if (to.has_heldout_gain_nats())
+    sentence += fmt::format(", {:.1f} of them on held-out data", to.heldout_gain_nats());
   to.set_sentence(sentence + fmt::format(" ({}).", chance_words(from.familywise_p)));
   return to;
 }
@@ -199,30 +195,31 @@ void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport&
   to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));
 }
 
-v1::Rung rung_of(const FittedModel& trial, const LeftOver& left, const Step& step, double first,
-                 double misfit_p, const std::optional<Errors>& heldout) {
+v1::Rung rung_of(const Judged& judged, const Step& step, double first,
+                 const std::vector<std::string>& replicates) {
+  const FittedModel& trial = judged.trial;
   v1::Rung out;
   out.set_model(print(trial.fit.model));
   out.set_added(step.added);
   out.set_effect(step.effect);
   for (const std::string& term : step.dropped) out.add_dropped(term);
-  out.set_training_error(training_errors(trial, left).mean_error());
-  if (heldout) {
-    out.set_heldout_error(heldout->mean_error());
-    const double dof = static_cast<double>(heldout->error.size()) - 1.0;
-    const double reach = student_quantile(0.975, dof) * heldout->error_of_mean();
-    out.set_heldout_lower(std::max(0.0, heldout->mean_error() - reach));
-    out.set_heldout_upper(heldout->mean_error() + reach);
+  out.set_training_error(training_error(trial, judged.left));
+  if (judged.heldout) {
+    for (const double nats : judged.heldout->nats) out.add_heldout_nats(nats);
+    out.set_heldout_scores(static_cast<std::uint32_t>(judged.heldout->scores));
   }
+  out.set_promised_nats(promised_nats(judged.misfit));
+  for (v1::ErrorView& one : views_of(trial, judged.left, judged.misfit, replicates))
+    *out.add_views() = std::move(one);
   out.set_fitted_model(print_with_values(FullModel{trial.fit.model.noise, sized_effects(trial)}));
   out.set_estimator(
       likelihood_estimator(moments_estimator(trial.regression.subject().replicates())));
   for (v1::FittedEffect& one : fitted_effects(trial)) *out.add_effects() = std::move(one);
   out.set_log_likelihood(trial.fit.log_likelihood - first);
-  out.set_misfit_p(misfit_p);
+  out.set_misfit_p(misfit_p_value(judged.misfit));
   out.set_why(step.why);
   const std::string unit = integral_unit(trial.regression.subject().quantity);
-  for (const RunOff& from : left.run_off) {
+  for (const RunOff& from : judged.left.run_off) {
     v1::Drift& drift = *out.add_drift();
     drift.set_seconds(from.seconds);
     drift.set_predicted(from.predicted);

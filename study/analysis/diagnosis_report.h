@@ -23,9 +23,19 @@ struct Step {
   std::string why;
 };
 
-/// A model that was tried, for the ladder. `first` is the likelihood of the lowest rung.
-v1::Rung rung_of(const FittedModel& trial, const LeftOver& left, const Step& step, double first,
-                 double misfit_p, const std::optional<Errors>& heldout);
+/// A model that was tried, and all that a look at it showed.
+struct Judged {
+  const FittedModel& trial;
+  const LeftOver& left;  ///< left_over() of it
+  const MisfitReport& misfit;
+  const std::optional<HeldOut>& heldout;
+};
+
+/// The same for the ladder, without what only a look at the whole ladder shows
+/// (tell_unexplained()). `first` is the likelihood of the lowest rung; `replicates` are the names
+/// of all.
+v1::Rung rung_of(const Judged& judged, const Step& step, double first,
+                 const std::vector<std::string>& replicates);
 
 /// The measured wavelet variance, with the effects taken out, against the noise of a fit.
 v1::NoiseBudget budget_of(const FittedModel& trial, const LeftOver& left);

@@ -16,9 +16,9 @@ Result<FullModel> started(const std::string& model, const SeenChannel& seen,
   return start_of(std::move(*out), *seen.subject, seen.moments, progress);
 }
 
-std::optional<Errors> errors_held_out(const FittedModel& model) {
+std::optional<HeldOut> held_out_of(const FittedModel& model) {
   if (!can_hold_out(model)) return std::nullopt;
-  return heldout_errors(model);
+  return held_out(model);
 }
 
 Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const Step& step,
@@ -26,11 +26,11 @@ Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const 
   const Result<FullModel> start = started(model, seen, progress.part(0.0, 0.1));
   if (!start) return tl::unexpected(start.error());
   const FittedModel trial = fit_full_model(seen.subject, *start, progress.part(0.1, 0.3));
-  const std::optional<Errors> heldout = errors_held_out(trial);
+  const std::optional<HeldOut> heldout = held_out_of(trial);
   progress.report(0.7);
-  const double misfit_p = misfit_p_value(misfit_of(trial));
+  const MisfitReport misfit = misfit_of(trial);
   if (progress.stopped()) return fail("stopped");
-  return rung_of(trial, left_over(trial), step, 0.0, misfit_p, heldout);
+  return rung_of({trial, left_over(trial), misfit, heldout}, step, 0.0, seen.replicates);
 }
 
 }  // namespace imunoise::study

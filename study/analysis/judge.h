@@ -20,7 +20,7 @@ Result<FullModel> started(const std::string& model, const SeenChannel& seen,
 Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const Step& step,
                        const Progress& progress = {});
 
-/// Error on replicates that the model was not fitted to; none where nothing can be held out.
-std::optional<Errors> errors_held_out(const FittedModel& model);
+/// Likelihood of data that the model was not fitted to; none where nothing can be held out.
+std::optional<HeldOut> held_out_of(const FittedModel& model);
 
 }  // namespace imunoise::study

@@ -67,12 +67,14 @@ void put_interval(Row& row, const Scale& x, const Datum& one) {
   row.put(at, "●", "o", one.state == State::kOutside ? Ink::kAlarm : Ink::kMeasured);
 }
 
-void put_bar(Row& row, const Scale& x, const Datum& one) {
+void put_bar(Row& row, const Scale& x, Role role, const Datum& one) {
   if (!has_place(x.kind(), one.x)) return;
   const std::size_t zero = row.column(place_or(x, 0.0, 0.0));
   const std::size_t at = row.column(x(one.x));
+  const bool ghost = role == Role::kGhost;
+  const Ink ink = ghost ? Ink::kQuiet : one.state == State::kOutside ? Ink::kAlarm : Ink::kMeasured;
   for (std::size_t c = std::min(zero, at); c <= std::max(zero, at); ++c)
-    row.put(c, "█", "#", one.state == State::kOutside ? Ink::kAlarm : Ink::kMeasured);
+    row.put(c, ghost ? "░" : "█", ghost ? ":" : "#", ink);
 }
 
 // A sign and a digit where they have room.
@@ -123,7 +125,7 @@ std::string category_row(const Panel& panel, const Scale& x, std::size_t row, in
     for (const Datum& one : layer.data) {
       if (one.y != static_cast<double>(row)) continue;
       if (layer.shape == Shape::kIntervals) put_interval(out, x, one);
-      if (layer.shape == Shape::kBars) put_bar(out, x, one);
+      if (layer.shape == Shape::kBars) put_bar(out, x, layer.role, one);
       if (layer.shape == Shape::kCells) put_cell(out, x, one);
     }
   }

@@ -10,6 +10,7 @@
 #include "study/analysis/judge.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/series.h"
+#include "study/analysis/unexplained.h"
 
 namespace imunoise::study {
 namespace {
@@ -275,6 +276,7 @@ Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
       return fail("the request names no operation on the study");
   }
   if (!done) return tl::unexpected(done.error());
+  tell_unexplained(out);
   return out;
 }
 

@@ -35,17 +35,24 @@ TEST_F(Diagnose, NamesWhatIsMissingAndTheErrorFalls) {
   EXPECT_NE(read("out_after.svg").find("WN + RW + QN"), std::string::npos);
   EXPECT_NE(read("out_spectrum_before.svg").find("frequency, Hz"), std::string::npos);
   EXPECT_NE(read("out_spectrum_after.svg").find("WN + RW + QN"), std::string::npos);
+  EXPECT_NE(read("out_errors.svg").find("averaging times"), std::string::npos);
   const json report = json::parse(done.out);
   EXPECT_EQ(report.at("verdict"), "found");
   const json& best = report.at("candidates").at(0);
   EXPECT_EQ(best.at("effect"), "quantisation");
   EXPECT_EQ(best.at("term"), "QN");
   EXPECT_LT(best.at("familywise_p"), 1e-6);
-  EXPECT_LT(best.at("heldout_error_after"), best.at("heldout_error_before"));
+  EXPECT_LT(best.at("unexplained_after"), best.at("unexplained_before"));
   for (const char* field : {"gain_nats", "parameters", "confused_with", "record_next", "sentence"})
     EXPECT_TRUE(best.contains(field)) << field;
   ASSERT_GE(report.at("ladder").size(), 2U);
   EXPECT_EQ(report.at("ladder").at(1).at("added"), "QN");
+  EXPECT_EQ(report.at("ladder").at(1).at("unexplained"), 1.0);
+  EXPECT_GT(report.at("ladder").at(0).at("unexplained"), 1.5);
+  for (const json& view : report.at("ladder").at(1).at("views")) {
+    for (const char* field : {"view", "value", "floor", "chance_limit", "unit", "p", "sentence"})
+      EXPECT_TRUE(view.contains(field)) << field;
+  }
   EXPECT_GT(report.at("ladder").at(1).at("misfit_p"), 1e-3);
 }
 

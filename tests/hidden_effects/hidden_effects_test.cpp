@@ -19,9 +19,14 @@ Outcome of(std::vector<std::string> effects, double delta, bool withhold = false
   return diagnose(spec);
 }
 
+// Named first; once added, the error falls and the view that failed no longer does.
 void expect_named(const char* effect, double delta) {
   const Outcome outcome = of({effect}, delta);
   EXPECT_TRUE(outcome.named(1)) << outcome.describe();
+  const auto fall = outcome.error_fall();
+  ASSERT_TRUE(fall) << outcome.describe();
+  EXPECT_GT(fall->share, 0.6) << outcome.describe();
+  EXPECT_TRUE(fall->at_floor || fall->failing.empty()) << fall->failing;
 }
 
 // One null in twenty may raise an alarm, and which one says little; that it is sure of it may not

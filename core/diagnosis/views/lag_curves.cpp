@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/search/evidence.h"
 #include "core/search/lagged_witness.h"
 #include "core/support/parallel.h"
 
@@ -35,7 +36,8 @@ std::vector<LagCurve> lag_curves(const Current& current) {
       curve.nats.push_back(view.gain(scores.col(column), false));
       ++column;
     }
-    curve.chance = gain_needed(kOnceInTwenty, 1.0, false, {path_length(scores), 0.0});
+    curve.path = path_length(scores);
+    curve.chance = gain_needed(kOnceInTwenty, 1.0, false, {curve.path, 0.0});
   });
   std::erase_if(out, [](const LagCurve& one) { return one.seconds.empty(); });
   return out;

@@ -13,6 +13,7 @@ struct LagCurve {
   std::vector<double> seconds;  ///< rising; negative: the witness comes after its effect
   std::vector<double> nats;     ///< log-likelihood gained there, to first order
   double chance = 0.0;          ///< nats that the best lag gains by chance once in twenty
+  double path = 0.0;            ///< length of the search, rad: Search::path
 };
 
 /// A curve for each witness of a subject long enough for lags.

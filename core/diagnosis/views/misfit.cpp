@@ -58,7 +58,8 @@ void add_bands(const std::vector<Measured>& all, std::vector<BandMisfit>& out,
       ++end;
     }
     if (freedom >= kFewestFreedom) {
-      BandMisfit one{all[begin].frequency, all[end - 1].frequency, relative / freedom, 0.0, 0};
+      BandMisfit one{
+          all[begin].frequency, all[end - 1].frequency, relative / freedom, 0.0, 0, freedom};
       one.sigma = normal_score(one.ratio, freedom);
       out.push_back(one);
       directions.push_back(direction / std::sqrt(0.5 * freedom));
@@ -126,7 +127,12 @@ MisfitReport misfit_of(const FittedModel& fitted) {
   double squares = 0.0;
   double fourth = 0.0;
   double samples = 0.0;
-  for (const Seen& one : each) {
+  double within = 0.0;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    const Seen& one = each[i];
+    const double power = one.squares / one.samples;
+    out.powers.push_back({replicates[i], power, one.samples});
+    if (power > 0.0) within += one.fourth / (power * power);
     for (const TimeMisfit& stretch : one.times) chi += stretch.sigma * stretch.sigma;
     out.times.insert(out.times.end(), one.times.begin(), one.times.end());
     squares += one.squares;
@@ -135,6 +141,7 @@ MisfitReport misfit_of(const FittedModel& fitted) {
   }
   out.time = chi_square_test(chi, static_cast<Index>(out.times.size() - each.size()));
   out.excess_kurtosis = fourth * samples / (squares * squares) - 3.0;
+  out.excess_within_replicates = within / samples - 3.0;
   out.kurtosis = chi_square_test(out.excess_kurtosis * out.excess_kurtosis * samples / 24.0, 1);
   return out;
 }
@@ -160,6 +167,15 @@ double misfit_p_value(const MisfitReport& misfit) {
   const double least =
       std::min({misfit.spectrum.p_value, misfit.time.p_value, misfit.kurtosis.p_value});
   return 1.0 - std::pow(1.0 - least, 3.0);
+}
+
+double promised_nats(const MisfitReport& misfit) {
+  constexpr double kOnceInAHundred = 0.01;
+  if (!(misfit_p_value(misfit) < kOnceInAHundred)) return 0.0;
+  double out = 0.0;
+  for (const TestOutcome& one : {misfit.spectrum, misfit.time})
+    out = std::max(out, 0.5 * one.statistic - static_cast<double>(one.degrees_of_freedom));
+  return out;
 }
 
 }  // namespace imunoise

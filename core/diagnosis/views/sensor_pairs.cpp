@@ -87,14 +87,13 @@ SensorPair strongest(const std::vector<Products>& at, const std::vector<double>&
   return out;
 }
 
-}  // namespace
-
-std::vector<SensorPair> sensor_pairs(const Current& current) {
+// Of the channel under study with each witness, or of every two.
+std::vector<SensorPair> pairs_of(const Current& current, bool all) {
   const Subject& subject = current.subject();
   std::vector<const Cosines*> channels{&current.cosines};
   for (const Witness& one : subject.witnesses) channels.push_back(&one.cosines);
   std::vector<SensorPair> out;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+  for (std::size_t i = 0; i < (all ? channels.size() : 1); ++i) {
     for (std::size_t j = i + 1; j < channels.size(); ++j) out.push_back({.first = i, .second = j});
   }
   const std::vector<double> edges = half_octaves(subject.length(current.longest()));
@@ -104,11 +103,18 @@ std::vector<SensorPair> sensor_pairs(const Current& current) {
         products_of(*channels[out[p].first], *channels[out[p].second], edges), edges, subject.rate);
     found.first = out[p].first;
     found.second = out[p].second;
+    found.places = edges.size() - 1;
     out[p] = found;
   });
   const double looked = static_cast<double>(out.size() * (edges.size() - 1));
   for (SensorPair& one : out) one.p_value = std::min(1.0, looked * one.p_value);
   return out;
 }
+
+}  // namespace
+
+std::vector<SensorPair> sensor_pairs(const Current& current) { return pairs_of(current, true); }
+
+std::vector<SensorPair> witness_pairs(const Current& current) { return pairs_of(current, false); }
 
 }  // namespace imunoise

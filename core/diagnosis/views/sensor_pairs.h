@@ -15,11 +15,15 @@ struct SensorPair {
   double correlation = 0.0;  ///< in step there, all replicates together
   double sigma = 0.0;        ///< normal score of that (Fisher's z)
   double p_value = 1.0;      ///< that any half octave of any pair looks so much alike by chance
+  std::size_t places = 0;    ///< half octaves that were looked at
 };
 
 /// What every two channels share that the model does not explain, a pair each. Correlation is
 /// sought in half octaves, each channel against its own power there; neighbours that agree are one
 /// stretch.
 std::vector<SensorPair> sensor_pairs(const Current& current);
+
+/// The pairs of the channel under study with each witness.
+std::vector<SensorPair> witness_pairs(const Current& current);
 
 }  // namespace imunoise

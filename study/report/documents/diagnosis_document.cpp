@@ -8,6 +8,7 @@
 #include "study/report/documents/inference_documents.h"
 #include "study/report/figures/comparison_figures.h"
 #include "study/report/figures/diagnosis_pictures.h"
+#include "study/report/figures/error_panel.h"
 #include "study/report/figures/interval_figure.h"
 #include "study/report/view/verdict.h"
 
@@ -31,18 +32,68 @@ std::string nats(double value, int significant, Digits digits) {
   return std::abs(value) < kNothing ? "" : number(value, significant, digits) + " nats";
 }
 
+std::string unexplained_of(const v1::Rung& rung, Digits digits) {
+  if (!rung.has_unexplained()) return "-";
+  std::string out = rung.has_unexplained_lower()
+                        ? with_interval(rung.unexplained(), rung.unexplained_lower(),
+                                        rung.unexplained_upper(), digits)
+                        : number(rung.unexplained(), 3, digits);
+  if (rung.has_single_replicate_nats())
+    out +=
+        fmt::format(", {} nats in one replicate", number(rung.single_replicate_nats(), 3, digits));
+  return out;
+}
+
 Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"The ladder: held-out error (noise floor = 1)",
-            {"added", "held-out error", "training error", "gained", "misfit p"},
+  const v1::Rung& last = report.ladder(report.ladder_size() - 1);
+  Table out{last.forecast() ? "The ladder: unexplained error (floor 1, a forecast)"
+                            : "The ladder: unexplained error (floor 1)",
+            {"added", "unexplained", "gained", "misfit p"},
             {}};
   for (const v1::Rung& rung : report.ladder()) {
-    out.rows.push_back({name_of(rung),
-                        rung.has_heldout_error()
-                            ? with_interval(rung.heldout_error(), rung.heldout_lower(),
-                                            rung.heldout_upper(), digits)
-                            : "-",
-                        number(rung.training_error(), 3, digits),
-                        nats(rung.log_likelihood(), 4, digits), p_value(rung.misfit_p(), digits)});
+    out.rows.push_back({name_of(rung), unexplained_of(rung, digits),
+                        nats(rung.log_likelihood(), 4, digits), p_value(rung.misfit_p(), digits),
+                        rung.consequence()});
+  }
+  return out;
+}
+
+Table consequence_table(const v1::DiagnosisReport& report) {
+  Table out{"What each model lacks against the best, and what that costs", {"model", ""}, {}};
+  for (const v1::Rung& rung : report.ladder()) {
+    if (!rung.consequence().empty()) out.rows.push_back({name_of(rung), rung.consequence()});
+  }
+  return out;
+}
+
+// "0.34 %" of an error in a view.
+std::string view_value(double value, const v1::ErrorView& view, Digits digits) {
+  if (view.unit() == "dB") return fmt::format("{:.1f} dB", value);
+  return number(value, 2, digits) + (view.unit() == "1" ? "" : " " + view.unit());
+}
+
+const v1::ErrorView* view_of(const v1::Rung& rung, const std::string& name) {
+  for (const v1::ErrorView& one : rung.views()) {
+    if (one.view() == name) return &one;
+  }
+  return nullptr;
+}
+
+// Each view of the last rung, beside that of the first where there are two.
+Table error_table(const v1::DiagnosisReport& report, Digits digits) {
+  const v1::Rung& last = report.ladder(report.ladder_size() - 1);
+  const bool grown = report.ladder_size() > 1;
+  Table out{"How far the model is off, view by view", {"view"}, {}};
+  if (grown) out.head.emplace_back("before");
+  for (const char* const word : {"now", "floor", "where"}) out.head.emplace_back(word);
+  for (const v1::ErrorView& now : last.views()) {
+    std::vector<std::string> row{view_title(now)};
+    const v1::ErrorView* const before = view_of(report.ladder(0), now.view());
+    if (grown) row.push_back(before != nullptr ? view_value(before->value(), *before, digits) : "");
+    row.push_back(view_value(now.value(), now, digits));
+    row.push_back(view_value(now.floor(), now, digits));
+    row.push_back(now.sentence());
+    out.rows.push_back(std::move(row));
   }
   return out;
 }
@@ -56,7 +107,7 @@ std::string confusions(const v1::EffectCandidate& one) {
 Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
   Table out{report.verdict() == v1::none ? "Candidates tried, best first"
                                          : "Effects that may be missing, best first",
-            {"effect", "term", "gain", "p", "held-out error", "looks like"},
+            {"effect", "term", "gain", "p", "unexplained", "looks like"},
             {}};
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
     const v1::EffectCandidate& one = report.candidates(i);
@@ -64,9 +115,9 @@ Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
     const std::string gain = nats(one.gain_nats(), 3, digits);
     if (gain.empty() && !one.term().empty()) continue;  // a defect of the samples has no gain
     out.rows.push_back({one.effect(), one.term(), gain, p_value(one.familywise_p(), digits),
-                        one.has_heldout_error_after()
-                            ? fmt::format("{} → {}", number(one.heldout_error_before(), 3, digits),
-                                          number(one.heldout_error_after(), 3, digits))
+                        one.has_unexplained_after()
+                            ? fmt::format("{} → {}", number(one.unexplained_before(), 3, digits),
+                                          number(one.unexplained_after(), 3, digits))
                             : "",
                         confusions(one)});
   }
@@ -95,16 +146,21 @@ Table misfit_table(const v1::DiagnosisReport& report) {
 }
 
 Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{"Integrated error after averaging the bias for the same time: predicted / measured",
-            {"model"},
-            {}};
+  Table out{
+      "Integrated error after averaging the bias for the same time: predicted / measured, × best "
+      "model",
+      {"model"},
+      {}};
   for (const v1::Drift& one : report.ladder(0).drift())
     out.head.push_back(fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
     std::vector<std::string> row{name_of(rung)};
     for (const v1::Drift& one : rung.drift()) {
-      row.push_back(fmt::format("{} / {} {}", number(one.predicted(), 3, digits),
-                                number(one.measured(), 3, digits), one.unit()));
+      row.push_back(fmt::format("{} / {} {}{}", number(one.predicted(), 3, digits),
+                                number(one.measured(), 3, digits), one.unit(),
+                                one.has_best() && one.best() > 0.0
+                                    ? fmt::format(", × {:.2f}", one.measured() / one.best())
+                                    : ""));
     }
     out.rows.push_back(std::move(row));
   }
@@ -146,13 +202,15 @@ void add_spectrum(const v1::DiagnosisReport& report, const v1::Comparison& compa
 std::optional<figure::Figure> ladder_figure(const v1::DiagnosisReport& report) {
   std::vector<IntervalRow> rows;
   for (const v1::Rung& rung : report.ladder()) {
-    if (!rung.has_heldout_error()) continue;
-    rows.push_back({name_of(rung), rung.heldout_error(), rung.heldout_lower(), rung.heldout_upper(),
-                    rung.misfit_p() < 0.01});
+    if (!rung.has_unexplained()) continue;
+    const bool known = rung.has_unexplained_lower();
+    rows.push_back({name_of(rung), rung.unexplained(),
+                    known ? rung.unexplained_lower() : rung.unexplained(),
+                    known ? rung.unexplained_upper() : rung.unexplained(), rung.misfit_p() < 0.01});
   }
-  return interval_figure("How the error falls", "held-out error, 1 = noise floor",
-                         "Each model was fitted without the held-out replicates. The line at 1 is "
-                         "the noise floor; orange models do not fit.",
+  return interval_figure("How the error falls", "unexplained error, 1 = floor",
+                         "Distance to the best model on held-out data, with its interval over "
+                         "replicates. The line at 1 is the floor; orange models do not fit.",
                          rows, 1.0);
 }
 
@@ -187,6 +245,10 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   out.mood = diagnosis_words(report).mood;
   out.summary = report.summary();
   add_figures(report, out);
+  if (report.ladder_size() > 0) {
+    out.panel = error_panel(report);
+    out.tables.push_back(error_table(report, digits));
+  }
   if (report.integrity_size() > 0) out.tables.push_back(integrity_table(report));
   if (report.misfits_size() > 0) out.tables.push_back(misfit_table(report));
   if (report.candidates_size() > 0) {
@@ -198,6 +260,7 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
     out.tables.push_back(ladder_table(report, digits));
     const v1::Rung& last = report.ladder(report.ladder_size() - 1);
     if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
+    out.tables.push_back(consequence_table(report));
     if (report.ladder(0).drift_size() > 0) out.tables.push_back(drift_table(report, digits));
   }
   if (report.verdict() == v1::none) out.tables.push_back(limit_table(report, digits));
@@ -253,17 +316,19 @@ Document document(const v1::Study& study, Digits digits) {
     out.summary = "Run imunoise study candidates to find what this model lacks.";
     out.figures.clear();
     const v1::Rung& last = path.back()->rung();
-    out.tables = {ladder_table(report, digits)};
+    out.panel = error_panel(report);
+    out.tables = {error_table(report, digits), ladder_table(report, digits)};
     if (last.effects_size() > 0) out.tables.push_back(effect_table(last, digits));
+    out.tables.push_back(consequence_table(report));
     out.tables.push_back(drift_table(report, digits));
   }
-  Table attempts{"All attempts", {"", "model", "held-out error", ""}, {}};
+  Table attempts{"All attempts", {"", "model", "unexplained", ""}, {}};
   for (int i = 0; i < study.attempts_size(); ++i) {
     const v1::StudyAttempt& one = study.attempts(i);
     const bool current = i == static_cast<int>(study.current());
     attempts.rows.push_back(
         {std::to_string(i), one.rung().model(),
-         one.rung().has_heldout_error() ? number(one.rung().heldout_error(), 3, digits) : "-",
+         one.rung().has_unexplained() ? number(one.rung().unexplained(), 3, digits) : "-",
          current        ? "current"
          : one.undone() ? "undone"
                         : ""});

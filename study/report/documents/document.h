@@ -3,6 +3,7 @@
 // A report as words, tables and figures, apart from where it is shown: the page and the terminal
 // both draw it. The code that makes the document decides what it says.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Section {
   Mood mood = Mood::kNeutral;
   std::string facts;  ///< one line: what it was made from
   std::string summary;
+  std::optional<figure::Figure> panel;  ///< rows of bars, for the page and the terminal
   std::vector<figure::Figure> figures;  ///< for the page; the terminal shows the tables
   std::vector<Table> tables;
   std::vector<std::string> notes;

@@ -4,6 +4,7 @@
 
 #include "study/report/figures/budget_figure.h"
 #include "study/report/figures/comparison_figures.h"
+#include "study/report/figures/error_panel.h"
 #include "study/report/view/verdict.h"
 
 namespace imunoise::report {
@@ -47,6 +48,7 @@ std::vector<Picture> pictures(const v1::DiagnosisReport& report) {
   if (report.has_compared_after() && report.ladder_size() > 0)
     add_spectrum("spectrum_after", report.compared_after(),
                  report.ladder(report.ladder_size() - 1).model());
+  if (auto panel = error_panel(report)) out.push_back({"errors", std::move(*panel)});
   return out;
 }
 

@@ -21,7 +21,8 @@ struct Picture {
 };
 
 /// Noise budget and spectrum, before and after: "before", "after", "spectrum_before",
-/// "spectrum_after". Where nothing was added there is no spectrum after.
+/// "spectrum_after". Where nothing was added there is no spectrum after. Then error_panel():
+/// "errors".
 std::vector<Picture> pictures(const v1::DiagnosisReport& report);
 
 }  // namespace imunoise::report

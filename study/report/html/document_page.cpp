@@ -55,6 +55,7 @@ std::string section(const Section& from, std::size_t index) {
   }
   out += fmt::format("</div>\n<p class=\"facts\">{}</p>\n<p class=\"summary\">{}</p>\n",
                      escape_markup(from.facts), escape_markup(from.summary));
+  if (from.panel) out += shown(*from.panel);
   for (const figure::Figure& one : from.figures) out += shown(one);
   for (const Table& one : from.tables) out += table(one);
   if (!from.notes.empty()) {

@@ -1,3 +1,4 @@
+#include "study/figure/characters.h"
 #include "study/report/documents/document.h"
 #include "study/report/terminal/lines.h"
 #include "study/report/terminal/table.h"
@@ -23,6 +24,10 @@ std::string section(const Section& from, const TerminalStyle& style) {
   if (!from.badge.empty()) title += ": " + from.badge;
   std::string out = title_line(title, style) + paragraph(from.facts, Ink::kQuiet, style) + "\n";
   out += paragraph(from.summary, ink_of(from.mood), style);
+  if (from.panel)
+    out += "\n" + paragraph(from.panel->title, Ink::kStrong, style) +
+           figure::characters(*from.panel, style) +
+           paragraph(from.panel->caption, Ink::kQuiet, style);
   for (const Table& table : from.tables) {
     if (table.rows.empty()) continue;
     out += "\n" + paragraph(table.title, Ink::kStrong, style) +

@@ -320,7 +320,7 @@ TEST(Diagnose, OneReplicateIsProvenOnItsQuarters) {
             return 0.1 * wave(7.123, s);
           }});
   expect_found(wavy, "line");
-  EXPECT_EQ(wavy.heldout->error.size(), 4U);
+  EXPECT_EQ(wavy.heldout->nats.size(), 4U);
   const Diagnosis still = of({.samples = 32768, .replicates = 1, .seed = 16});
   EXPECT_EQ(still.verdict, DiagnosisVerdict::kNone);
   EXPECT_TRUE(still.heldout);
@@ -330,12 +330,12 @@ TEST(Diagnose, NoiseThatFollowsAWitnessIsJudgedOnTheQuartersOfOneReplicate) {
   const auto subject = subject_of({.replicates = 1, .seed = 18, .temperature = temperature});
   const FittedModel trial = fitted(subject, "WN + RW + modulated(temperature)");
   ASSERT_TRUE(can_hold_out(trial));
-  const Errors errors = heldout_errors(trial);
-  ASSERT_EQ(errors.error.size(), 4U);
-  EXPECT_TRUE(std::isfinite(errors.total_likelihood()));
+  const HeldOut out = held_out(trial);
+  ASSERT_EQ(out.nats.size(), 4U);
+  EXPECT_TRUE(std::isfinite(out.total_likelihood()));
   // A slope that is not there costs what one number costs, and no more.
-  const Errors plain = heldout_errors(fitted(subject));
-  EXPECT_LT(std::abs(errors.total_likelihood() - plain.total_likelihood()), 10.0);
+  const HeldOut plain = held_out(fitted(subject));
+  EXPECT_LT(std::abs(out.total_likelihood() - plain.total_likelihood()), 10.0);
 }
 
 TEST(UselessTerm, GoesAndWhatIsNeededStays) {

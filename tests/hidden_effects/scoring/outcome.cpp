@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 
 #include "study/analysis/diagnose_series.h"
 #include "tests/hidden_effects/scoring/equivalence.h"
@@ -35,6 +36,19 @@ Result<v1::DiagnosisReport> ask(const std::vector<Recording>& recordings, const 
                                     [](const auto& channel) { return channel.name == kSubject; });
   return study::diagnose_series(replicates, static_cast<std::size_t>(subject - channels.begin()),
                                 options);
+}
+
+double nats_of(const v1::Rung& rung) {
+  return std::accumulate(rung.heldout_nats().begin(), rung.heldout_nats().end(), 0.0);
+}
+
+// Whether an effect adds a course that is the same in all its likelihoods: without it the data are
+// what a perfect fit of it leaves. Others change spectra or variances.
+bool shifts_the_mean(const std::string& name) {
+  static const std::vector<std::string> kShifts = {
+      "line",        "harmonics",      "mains_alias", "rate_ramp",     "warm_up",    "step",
+      "temperature", "supply_voltage", "magnetic",    "g_sensitivity", "cross_axis", "tilt"};
+  return contains(kShifts, find_effect(name)->id);
 }
 
 }  // namespace
@@ -86,13 +100,36 @@ bool Outcome::described() const {
          contains(kNoises, report.candidates(0).effect());
 }
 
-std::optional<double> Outcome::error_reduction() const {
-  if (!oracle_error || !named(1) || report.candidates_size() == 0) return std::nullopt;
-  const v1::EffectCandidate& first = report.candidates(0);
-  if (!first.has_heldout_error_before() || !first.has_heldout_error_after()) return std::nullopt;
-  const double whole = first.heldout_error_before() - *oracle_error;
-  if (whole < 0.01) return std::nullopt;
-  return (first.heldout_error_before() - first.heldout_error_after()) / whole;
+double Outcome::oracle_gain() const {
+  if (!clean_nats) return 0.5 * spec.delta * spec.delta;
+  return *clean_nats - nats_of(report.ladder(0));
+}
+
+std::optional<ErrorFall> Outcome::error_fall() const {
+  if (!named(1) || report.ladder_size() < 2) return std::nullopt;
+  const v1::Rung& before = report.ladder(0);
+  const v1::Rung& after = report.ladder(1);
+  if (before.heldout_nats_size() == 0 || after.heldout_nats_size() == 0) return std::nullopt;
+  ErrorFall out;
+  out.share = (nats_of(after) - nats_of(before)) / oracle_gain();
+  const v1::ErrorView* failing = nullptr;
+  const auto excess = [](const v1::ErrorView& one) { return one.value() / one.chance_limit(); };
+  for (const v1::ErrorView& one : before.views()) {
+    constexpr double kFails = 1e-3;
+    if (one.p() < kFails && (failing == nullptr || excess(one) > excess(*failing))) failing = &one;
+  }
+  for (const v1::ErrorView& now : after.views()) {
+    const auto was = std::find_if(before.views().begin(), before.views().end(),
+                                  [&](const auto& one) { return one.view() == now.view(); });
+    if (failing != nullptr && failing->view() == now.view()) {
+      out.failing = now.view();
+      out.at_floor = now.value() <= now.chance_limit();
+    } else if (was != before.views().end() && now.value() > now.chance_limit()) {
+      constexpr double kNoise = 1.1;  // a limit is crossed by a hair
+      if (now.value() > kNoise * std::max(was->value(), now.chance_limit())) out.risen = now.view();
+    }
+  }
+  return out;
 }
 
 std::vector<Covered> Outcome::intervals() const {
@@ -143,10 +180,11 @@ Outcome diagnose(const CaseSpec& spec, const Questions& questions) {
     return out;
   }
   out.report = *report;
-  if (questions.oracle_at == spec.delta) {
+  const bool shift = std::all_of(spec.effects.begin(), spec.effects.end(), shifts_the_mean);
+  if (questions.oracle_from <= spec.delta && shift) {
     const auto clean = ask(made.clean, made, false);
-    if (clean && clean->ladder_size() > 0 && clean->ladder(0).has_heldout_error()) {
-      out.oracle_error = clean->ladder(0).heldout_error();
+    if (clean && clean->ladder_size() > 0 && clean->ladder(0).heldout_nats_size() > 0) {
+      out.clean_nats = nats_of(clean->ladder(0));
     }
   }
   return out;

@@ -1,0 +1,96 @@
+#include "core/diagnosis/views/averaging_times.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/views/normal_power.h"
+#include "core/estimate/estimators.h"
+#include "core/inference/parameter_covariance.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double kFewestDegrees = 5.0;
+
+// The scales of the longest replicate: octaves, so that all others have the first of them.
+const Scales& longest_scales(const std::vector<WaveletVariance>& replicates) {
+  return std::max_element(
+             replicates.begin(), replicates.end(),
+             [](const auto& a, const auto& b) { return a.scales.size() < b.scales.size(); })
+      ->scales;
+}
+
+// Mean of the replicates' variances over the model's, weighted by their coefficients, with its
+// covariance.
+struct PooledRatio {
+  Eigen::ArrayXd ratio;
+  Eigen::MatrixXd covariance;
+};
+
+PooledRatio pooled_ratio(const Model& noise, const std::vector<WaveletVariance>& replicates,
+                         const Eigen::ArrayXd& expected) {
+  const Index n = expected.size();
+  Eigen::ArrayXd weights = Eigen::ArrayXd::Zero(n);
+  PooledRatio out{Eigen::ArrayXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+  const MomentCovariances covariances = moment_covariances(noise, replicates);
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const WaveletVariance& own = replicates[k];
+    const auto size = static_cast<Index>(own.scales.size());
+    const Eigen::ArrayXd weight =
+        static_cast<double>(own.samples) + 1.0 - 2.0 * own.scales.half_widths();
+    const Eigen::ArrayXd relative = weight / expected.head(size);
+    weights.head(size) += weight;
+    out.ratio.head(size) += relative * own.variance;
+    out.covariance.topLeftCorner(size, size) +=
+        relative.matrix().asDiagonal() * covariances[k] * relative.matrix().asDiagonal();
+  }
+  out.ratio /= weights;
+  const Eigen::VectorXd inverse = weights.inverse().matrix();
+  out.covariance = inverse.asDiagonal() * out.covariance * inverse.asDiagonal();
+  return out;
+}
+
+}  // namespace
+
+AveragingTimes averaging_times(const Model& noise, const std::vector<WaveletVariance>& replicates) {
+  const Scales& scales = longest_scales(replicates);
+  const Eigen::ArrayXd m = scales.half_widths();
+  const Eigen::ArrayXd expected = variance(noise, m);
+  const PooledRatio pooled = pooled_ratio(noise, replicates, expected);
+  std::vector<Index> used;
+  for (Index i = 0; i < m.size(); ++i) {
+    if (2.0 / pooled.covariance(i, i) >= kFewestDegrees) used.push_back(i);
+  }
+  const auto n = static_cast<Index>(used.size());
+  const Eigen::MatrixXd slopes = pick_columns(jacobian(noise, m), parameter_sets(noise).interior);
+  AveragingTimes out{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n), {}};
+  Eigen::VectorXd z(n);
+  Eigen::MatrixXd a(n, slopes.cols());
+  Eigen::MatrixXd correlation(n, n);
+  for (Index i = 0; i < n; ++i) {
+    const Index at = used[static_cast<std::size_t>(i)];
+    const double spread = std::sqrt(pooled.covariance(at, at));
+    out.seconds(i) = 2.0 * m(at) / replicates.front().rate.value;
+    out.ratio(i) = pooled.ratio(at);
+    out.relative(i) = 0.5 * spread;
+    z(i) = normal_score(pooled.ratio(at), 2.0 / (spread * spread));
+    a.row(i) = slopes.row(at) / (spread * expected(at));
+    for (Index j = 0; j < n; ++j) {
+      const Index other = used[static_cast<std::size_t>(j)];
+      correlation(i, j) =
+          pooled.covariance(at, other) / (spread * std::sqrt(pooled.covariance(other, other)));
+    }
+  }
+  if (n == 0) return out;
+  const Eigen::MatrixXd whitening = whiten(correlation).matrix;
+  z = whitening * z;
+  a = whitening * a;
+  const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
+  const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
+  out.test = chi_square_test(left.squaredNorm(), std::max<Index>(0, z.size() - inverse.rank));
+  return out;
+}
+
+}  // namespace imunoise

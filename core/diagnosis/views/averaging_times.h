@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/inference/goodness.h"
+#include "core/wavelet/wavelet_variance.h"
+
+namespace imunoise {
+
+/// The Allan deviation of all replicates together against a model's.
+struct AveragingTimes {
+  Eigen::ArrayXd seconds;   ///< averaging times with at least 5 degrees of freedom
+  Eigen::ArrayXd ratio;     ///< measured variance over the model's
+  Eigen::ArrayXd relative;  ///< standard error of the Allan deviation over the model's
+  TestOutcome test;         ///< of all, orthogonal to what the model's parameters can explain
+};
+
+/// Replicates may differ in length: a scale counts those that have it.
+AveragingTimes averaging_times(const Model& noise, const std::vector<WaveletVariance>& replicates);
+
+}  // namespace imunoise

@@ -1,0 +1,129 @@
+// The ladder's one number, from held-out likelihoods alone.
+
+#include "study/analysis/unexplained.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace imunoise::study {
+namespace {
+
+constexpr std::uint32_t kScores = 40;  // 10 averaging times, 4 replicates
+
+v1::Rung rung(const std::vector<double>& nats, double measured = 1.0) {
+  v1::Rung out;
+  for (const double one : nats) out.add_heldout_nats(one);
+  out.set_heldout_scores(kScores);
+  v1::Drift& drift = *out.add_drift();
+  drift.set_seconds(100.0);
+  drift.set_measured(measured);
+  drift.set_unit("rad");
+  return out;
+}
+
+v1::DiagnosisReport ladder(const std::vector<v1::Rung>& rungs) {
+  v1::DiagnosisReport out;
+  for (const v1::Rung& one : rungs) *out.add_ladder() = one;
+  return out;
+}
+
+TEST(Unexplained, IsOneAtTheBestModelAndCountsNatsBelowIt) {
+  v1::DiagnosisReport report =
+      ladder({rung({-100, -90, -110, -80}, 2.5), rung({-90, -82, -98, -70}, 1.0)});
+  tell_unexplained(report, 1);
+  const v1::Rung& first = report.ladder(0);
+  EXPECT_DOUBLE_EQ(report.ladder(1).unexplained(), 1.0);
+  EXPECT_DOUBLE_EQ(first.unexplained(), 1.0 + 2.0 * 40.0 / kScores);
+  EXPECT_FALSE(first.forecast());
+  // The replicates' likelihoods differ by 30 nats, their distances (10, 8, 12, 10) by 4: a sum with
+  // a standard error of √(4·8/3), Student's t with 3 degrees of freedom 3.182.
+  const double reach = 3.182446 * std::sqrt(4.0 * 8.0 / 3.0);
+  EXPECT_NEAR(first.unexplained_lower(), 1.0 + 2.0 * (40.0 - reach) / kScores, 1e-4);
+  EXPECT_NEAR(first.unexplained_upper(), 1.0 + 2.0 * (40.0 + reach) / kScores, 1e-4);
+  EXPECT_FALSE(report.ladder(1).has_unexplained_lower());
+  EXPECT_DOUBLE_EQ(first.drift(0).best(), 1.0);
+  EXPECT_NE(first.consequence().find("2.50 times"), std::string::npos) << first.consequence();
+}
+
+TEST(Unexplained, AWorseRungLiesAboveTheFloorAgain) {
+  v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}), rung({5, 5, 5, 5}), rung({4, 5, 4, 5})});
+  tell_unexplained(report, std::nullopt);
+  EXPECT_DOUBLE_EQ(report.ladder(1).unexplained(), 1.0);
+  EXPECT_DOUBLE_EQ(report.ladder(2).unexplained(), 1.0 + 2.0 * 2.0 / kScores);
+  EXPECT_TRUE(report.ladder(1).forecast());
+}
+
+TEST(Unexplained, SizeAndSignificanceAreToldApart) {
+  v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}, 1.001), rung({20, 20, 20, 20}, 1.0)});
+  tell_unexplained(report, 1);
+  const std::string& words = report.ladder(0).consequence();
+  EXPECT_NE(words.find("far beyond chance"), std::string::npos) << words;
+  EXPECT_NE(words.find("of no consequence"), std::string::npos) << words;
+}
+
+TEST(Unexplained, WhatOneReplicateAloneShowsIsToldInNats) {
+  v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}), rung({0.1, 60, -0.2, 0.1})});
+  tell_unexplained(report, 1);
+  EXPECT_NEAR(report.ladder(1).single_replicate_nats(), 60.0, 1e-9);
+  EXPECT_FALSE(report.ladder(0).has_unexplained_lower());
+}
+
+TEST(Unexplained, SignificantCandidatesStandInForTheBestModel) {
+  v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0})});
+  v1::EffectCandidate& sure = *report.add_candidates();
+  sure.set_familywise_p(1e-9);
+  sure.set_heldout_gain_nats(40.0);
+  v1::EffectCandidate& chance = *report.add_candidates();
+  chance.set_familywise_p(0.7);
+  chance.set_heldout_gain_nats(90.0);
+  tell_unexplained(report, std::nullopt);
+  EXPECT_DOUBLE_EQ(report.ladder(0).unexplained(), 3.0);
+  EXPECT_TRUE(report.ladder(0).forecast());
+  EXPECT_DOUBLE_EQ(report.candidates(0).unexplained_before(), 3.0);
+  EXPECT_DOUBLE_EQ(report.candidates(0).unexplained_after(), 1.0);
+}
+
+TEST(Unexplained, AMisfitThatNothingExplainsKeepsTheBestModelAboveTheFloor) {
+  v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0})});
+  report.mutable_ladder(0)->set_promised_nats(100.0);
+  tell_unexplained(report, 0);
+  EXPECT_DOUBLE_EQ(report.ladder(0).unexplained(), 6.0);
+  EXPECT_NE(report.ladder(0).consequence().find("100 nats"), std::string::npos);
+}
+
+TEST(Unexplained, RungsOfOldFilesStayAsTheyAre) {
+  v1::Rung old;
+  old.set_heldout_error(1.3);
+  v1::DiagnosisReport report = ladder({old});
+  tell_unexplained(report, std::nullopt);
+  EXPECT_FALSE(report.ladder(0).has_unexplained());
+  v1::DiagnosisReport none;
+  tell_unexplained(none, std::nullopt);
+  EXPECT_EQ(none.ladder_size(), 0);
+}
+
+// All attempts and previews are measured against one best model.
+TEST(Unexplained, AttemptsAndPreviewsShareOneFloor) {
+  v1::Study study;
+  *study.add_attempts()->mutable_rung() = rung({0, 0, 0, 0});
+  v1::StudyAttempt& second = *study.add_attempts();
+  second.set_parent(0);
+  *second.mutable_rung() = rung({5, 5, 5, 5});
+  study.set_current(1);
+  tell_unexplained(study);
+  EXPECT_FALSE(study.has_diagnosis());
+  EXPECT_DOUBLE_EQ(study.attempts(1).rung().unexplained(), 1.0);
+  v1::EffectCandidate& next = *study.mutable_diagnosis()->add_candidates();
+  next.set_familywise_p(1e-6);
+  *next.mutable_next() = rung({15, 15, 15, 15});
+  tell_unexplained(study);
+  EXPECT_DOUBLE_EQ(next.next().unexplained(), 1.0);
+  EXPECT_DOUBLE_EQ(study.attempts(1).rung().unexplained(), 3.0);
+  EXPECT_DOUBLE_EQ(study.attempts(0).rung().unexplained(), 4.0);
+  EXPECT_TRUE(study.attempts(0).rung().forecast());
+}
+
+}  // namespace
+}  // namespace imunoise::study
