@@ -1,0 +1,35 @@
+// node build.mjs FOLDER: the page as three compressed files. Fails beyond 80 kB.
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
+
+const most = 80_000; // bytes, compressed
+const folder = fileURLToPath(new URL(".", import.meta.url));
+const out = process.argv[2] ?? join(folder, "dist");
+
+const bundled = await build({
+  absWorkingDir: folder,
+  entryPoints: { app: "src/main.tsx" },
+  bundle: true,
+  minify: true,
+  write: false,
+  outdir: out,
+  target: "es2022",
+  jsx: "automatic",
+  jsxImportSource: "preact",
+  legalComments: "none",
+});
+const files = bundled.outputFiles.map((file) => [file.path.split("/").at(-1), file.text]);
+files.push(["index.html", readFileSync(join(folder, "src/index.html"), "utf8")]);
+
+mkdirSync(out, { recursive: true });
+let total = 0;
+for (const [name, text] of files) {
+  const bytes = gzipSync(text, { level: 9 });
+  total += bytes.length;
+  writeFileSync(join(out, `${name}.gz`), bytes);
+}
+console.log(`the page: ${total} bytes compressed, at most ${most}`);
+if (total > most) process.exit(1);
