@@ -1,8 +1,8 @@
-// Writes src/api/schema.ts: the messages of openapi.json as TypeScript types.
+// node types.mjs OPENAPI.json: writes its messages as TypeScript types, src/api/schema.ts.
 import { readFileSync, writeFileSync } from "node:fs";
 
 const folder = new URL(".", import.meta.url);
-const document = JSON.parse(readFileSync(new URL("openapi.json", folder), "utf8"));
+const document = JSON.parse(readFileSync(process.argv[2], "utf8"));
 
 const named = (name) => name.replaceAll(".", "");
 
@@ -43,7 +43,7 @@ for (const [path, verbs] of Object.entries(document.paths)) {
 }
 
 writeFileSync(new URL("src/api/schema.ts", folder), [
-  "// Made by types.mjs from openapi.json.",
+  "// Made by types.mjs.",
   ...messages,
   `export interface Gets {\n${gets.join("\n")}\n}`,
   `export interface Posts {\n${requests.join("\n")}\n}`,

@@ -129,6 +129,7 @@ v1::Session ApiHandler::session_of(std::optional<v1::Role> role) const {
 
 Answer<Response> ApiHandler::open_session(const Request& request,
                                           const v1::OpenSessionRequest& opening) {
+  if (opening.token().empty()) return service::refuse(400, "token: missing");
   auto role = sessions_.redeem(opening.token());
   if (!role && options_.tokens) role = options_.tokens->role_of(opening.token());
   if (!role)

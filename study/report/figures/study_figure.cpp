@@ -53,6 +53,7 @@ Figure averaging_times(const v1::Study& study, const v1::Rung& rung,
 std::optional<Figure> spectrum(const v1::Study& study, const v1::RungPicture& picture,
                                const v1::RungPicture* preview) {
   auto out = spectrum_figure(about(study), picture.compared(), "Spectrum of " + study.channel());
+  if (out) out->cursor = true;
   if (!out || preview == nullptr) return out;
   figure::Layer ghost{
       .shape = figure::Shape::kLine, .role = figure::Role::kGhost, .key = "with the change"};
@@ -89,7 +90,11 @@ std::optional<Figure> study_figure(const v1::Study& study, const StudyFigureOpti
   if (options.view == "averaging_times") return averaging_times(study, rung, options);
   if (options.view == "spectrum") return spectrum(study, rung.picture(), options.preview);
   if (options.view == "time") return times_figure(compared);
-  if (options.view == "distribution") return kurtosis_figure(compared);
+  if (options.view == "distribution") {
+    auto out = kurtosis_figure(compared);
+    if (out) out->cursor = true;
+    return out;
+  }
   if (options.view == "witnesses") return joined(witness_figures(compared));
   return deviations_figure(about(study), compared);
 }
