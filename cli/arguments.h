@@ -116,6 +116,16 @@ struct StudyArguments {
   ShowArguments show;
 };
 
+/// The page, on files or a study.
+struct OpenArguments {
+  v1::StudyInput input;  ///< what studies can be made of; no files: only look at studies
+  std::vector<std::string> channels;  ///< to be shown; empty: all
+  std::string study;                  ///< the name of the one to begin with; empty: none
+  std::filesystem::path studies;      ///< their folder; empty: the user's
+  std::uint16_t port = 0;             ///< 0: one that is free
+  bool browser = true;
+};
+
 struct FaultsArguments {
   InputArguments input;
   InputArguments training;  ///< read like the input; no files: the model is fitted to the input
@@ -235,12 +245,12 @@ struct Arguments {
   using Command =
       std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
                    MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
-                   StudyArguments, SimulateArguments, RecordArguments, VerifyArguments,
-                   EmulateArguments, DriversArguments, DecodeArguments, CalibrateArguments,
-                   RecordingsArguments, CalibrationsArguments, HistoryArguments, DevicesArguments,
-                   CampaignsArguments, StatusArguments, StartArguments, StopArguments,
-                   BatchNewArguments, BatchRunArguments, BatchShardArguments, BatchStatusArguments,
-                   BatchMergeArguments>;
+                   StudyArguments, OpenArguments, SimulateArguments, RecordArguments,
+                   VerifyArguments, EmulateArguments, DriversArguments, DecodeArguments,
+                   CalibrateArguments, RecordingsArguments, CalibrationsArguments, HistoryArguments,
+                   DevicesArguments, CampaignsArguments, StatusArguments, StartArguments,
+                   StopArguments, BatchNewArguments, BatchRunArguments, BatchShardArguments,
+                   BatchStatusArguments, BatchMergeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

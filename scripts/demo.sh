@@ -56,3 +56,7 @@ bash scripts/hide_effect.sh "$imunoise" "$out" "$hide"
 
 echo
 bash scripts/record_campaign.sh build/demo "$out"
+
+echo
+echo "Find the hidden effect yourself, in the browser:"
+echo "  $imunoise open $out/hidden --channel emulated/imu/gyro_x"

@@ -24,6 +24,9 @@ build_packages=(
   libserialport-dev  # the driver xsens
   libsoci-dev        # the catalogue of recordings
 )
+# The page is built with npm, and tested in a browser; those of other sources do as well.
+command -v npm > /dev/null || build_packages+=(nodejs npm)
+
 test_packages=(
   libgtest-dev nlohmann-json3-dev
   clang libclang-rt-14-dev       # fuzzing
@@ -33,6 +36,7 @@ test_packages=(
   postgresql                     # the catalogue of several benches
   zsh                            # its completion
 )
+command -v chromium > /dev/null || test_packages+=(chromium)
 bench_packages=(libbenchmark-dev time jq)
 package_packages=(dpkg-dev file lintian)
 slow_packages=(

@@ -18,6 +18,7 @@ int run(const DynamicArguments& arguments);
 int run(const DecodeArguments& arguments);
 int run(const DiagnoseArguments& arguments);
 int run(const StudyArguments& arguments);
+int run(const OpenArguments& arguments);
 int run(const EmulateArguments& arguments);
 int run(const RecordArguments& arguments);
 int run(const VerifyArguments& arguments);

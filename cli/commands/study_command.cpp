@@ -1,32 +1,12 @@
 #include "cli/commands/commands.h"
-#include "cli/input.h"
-#include "cli/parse/input_options.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "cli/study_input.h"
 #include "study/ladder/study.h"
 #include "study/ladder/study_file.h"
 
 namespace imunoise::cli {
 namespace {
-
-Result<std::vector<recording::Replicate>> read(const v1::StudyInput& input,
-                                               const std::string& channel,
-                                               const std::vector<std::string>& witnesses) {
-  for (const std::string& file : input.files()) {
-    if (!std::filesystem::exists(file))
-      return fail(file + ": not found; this study needs it. Restore it, or start a new study");
-  }
-  RawInput raw;
-  raw.files.assign(input.files().begin(), input.files().end());
-  raw.rate = input.rate_hz();
-  raw.unit = input.unit();
-  raw.delimiter = input.delimiter();
-  raw.header = input.header();
-  raw.no_header = input.no_header();
-  if (input.split_into() > 1) raw.split_into = input.split_into();
-  if (!channel.empty()) raw.channels = {channel};
-  return read_with_witnesses(input_from(raw), witnesses);
-}
 
 bool changed_since(const v1::Study& known, const std::filesystem::path& file) {
   const auto now = study::read_study(file);
@@ -49,7 +29,7 @@ int run(const StudyArguments& arguments) {
     const auto& named = opens ? arguments.request.open().witnesses() : study.witnesses();
     const std::vector<std::string> witnesses(named.begin(), named.end());
     const auto read_them = [&](const v1::StudyInput& input, const std::string& channel) {
-      return read(input, channel, witnesses);
+      return read_study_input(input, channel, witnesses);
     };
     ProgressLine line("study");
     auto done = study::apply(study, arguments.request, read_them, line.progress(),

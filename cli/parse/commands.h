@@ -19,6 +19,7 @@ std::vector<ParsedCommand> analysis_commands(
     CLI::App& program);                                        ///< wv, fit, test, select, dynamic
 std::vector<ParsedCommand> array_commands(CLI::App& program);  ///< array, mixed, faults
 std::vector<ParsedCommand> diagnosis_commands(CLI::App& program);  ///< diagnose, study
+std::vector<ParsedCommand> open_commands(CLI::App& program);       ///< open
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate

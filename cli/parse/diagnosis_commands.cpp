@@ -81,18 +81,10 @@ struct RawStudy {
 v1::StudyRequest open_request(const RawStudy& typed) {
   if (typed.raw.input.channels.size() > 1)
     refuse("--channel", "give one channel; a study has only one");
-  static_cast<void>(input_from(typed.raw.input));  // refuses what cannot be read
   v1::StudyRequest out;
   v1::StudyRequest::Open& open = *out.mutable_open();
   const RawInput& raw = typed.raw.input;
-  for (const std::string& file : raw.files)
-    open.mutable_input()->add_files(std::filesystem::absolute(file).string());
-  open.mutable_input()->set_rate_hz(raw.rate);
-  open.mutable_input()->set_unit(raw.unit);
-  open.mutable_input()->set_delimiter(raw.delimiter);
-  open.mutable_input()->set_header(raw.header);
-  open.mutable_input()->set_no_header(raw.no_header);
-  open.mutable_input()->set_split_into(static_cast<std::uint32_t>(raw.split_into));
+  *open.mutable_input() = study_input_from(raw);
   if (!raw.channels.empty()) open.set_channel(raw.channels.front());
   for (const std::string& one : typed.witnesses) open.add_witnesses(one);
   open.set_model(typed.raw.model);
@@ -162,6 +154,22 @@ std::vector<ParsedCommand> study_commands(CLI::App& program) {
       [](const RawStudy&) {
         v1::StudyRequest request;
         request.mutable_undo();
+        return request;
+      });
+  add("redo", "Take the last undo back", "redo gyro.study", no_options, [](const RawStudy&) {
+    v1::StudyRequest request;
+    request.mutable_redo();
+    return request;
+  });
+  add(
+      "try", "Try another model beside the current one", "try gyro.study \"WN + RW + QN\"",
+      [](CLI::App& part, RawStudy& typed) {
+        part.add_option("MODEL", typed.term, "Model with its effects, such as \"WN + RW\"")
+            ->required();
+      },
+      [](const RawStudy& typed) {
+        v1::StudyRequest request;
+        request.mutable_try_model()->set_model(typed.term);
         return request;
       });
   add(

@@ -87,6 +87,19 @@ Unit unit_from(const std::string& text) {
   return *unit;
 }
 
+v1::StudyInput study_input_from(const RawInput& raw) {
+  static_cast<void>(input_from(raw));  // refuses what cannot be read
+  v1::StudyInput out;
+  for (const std::string& file : raw.files) out.add_files(std::filesystem::absolute(file).string());
+  out.set_rate_hz(raw.rate);
+  out.set_unit(raw.unit);
+  out.set_delimiter(raw.delimiter);
+  out.set_header(raw.header);
+  out.set_no_header(raw.no_header);
+  out.set_split_into(static_cast<std::uint32_t>(raw.split_into));
+  return out;
+}
+
 InputArguments input_from(const RawInput& raw) {
   InputArguments out;
   out.files.assign(raw.files.begin(), raw.files.end());

@@ -35,6 +35,8 @@ void add_measure(CLI::App& command, RawInput& raw);
 
 // What was typed, looked up. They throw CLI::ValidationError.
 InputArguments input_from(const RawInput& raw);
+/// As a study keeps it: absolute paths, whatever folder is the current one later.
+v1::StudyInput study_input_from(const RawInput& raw);
 study::MeasureOptions measure_from(const RawInput& raw);
 Unit unit_from(const std::string& text);
 [[noreturn]] void refuse(const std::string& option, const std::string& why);

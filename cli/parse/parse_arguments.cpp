@@ -13,6 +13,7 @@ Examples:
   imunoise fit run?.h5 --model "2*AR1 + WN + RW" --report gyro.html
   imunoise test run?.h5 --model "AR1 + WN + RW"          check the fit and compare replicates
   imunoise diagnose run?.h5 --model "WN + RW" --auto     add the physical effects that it lacks
+  imunoise open run?.h5                                  see it in the browser
   imunoise record monday --device "xsens port=/dev/ttyUSB0" --duration 3600 --replicates 6
   imunoise calibrate monday                              fit all channels of a recording
   imunoise history recordings --device 0042              compare calibrations over months
@@ -33,7 +34,8 @@ struct Group {
 
 const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
-      {"Analyse recordings", {analysis_commands, diagnosis_commands, array_commands}},
+      {"Analyse recordings",
+       {analysis_commands, diagnosis_commands, open_commands, array_commands}},
       {"Record, replay and simulate",
        {recording_commands, replay_commands, device_commands, emulation_commands}},
       {"Manage many recordings", {catalogue_commands, batch_commands}},

@@ -27,11 +27,13 @@ Result<ApiHandlerOptions> handler_options(const ServiceOptions& options) {
   out.hosts = options.hosts;
   out.requests_per_second = options.requests_per_second;
   out.burst = options.burst;
+  out.version = options.version;
+  out.bench = options.bench;
   if (options.tokens) {
     auto tokens = Tokens::read(*options.tokens);
     if (!tokens) return tl::unexpected(tokens.error());
     out.tokens = std::move(*tokens);
-  } else if (options.listen.address) {
+  } else if (options.listen.address && !options.by_invitation) {
     return fail(
         "TCP needs a file of tokens: every user of this machine can reach it (--tokens FILE)");
   }
@@ -59,7 +61,8 @@ class Service::Implementation {
         jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }) {
     add_campaign_methods(methods_, control_, subjects.drivers);
     add_record_methods(methods_, *records_);
-    add_study_methods(methods_, jobs_, studies_, *records_, options.largest_study, options.compute);
+    add_study_methods(methods_, {jobs_, studies_, *records_, options_.inputs},
+                      options.largest_study, options.compute);
     add_own_methods();
     handler_.emplace(routes_, methods_, std::move(how));
   }
@@ -83,6 +86,8 @@ class Service::Implementation {
   }
 
   std::uint16_t port() const { return server_->port(); }
+  std::string invite() { return handler_->invite(); }
+  std::uint64_t listeners() const { return server_->counters().streams; }
 
  private:
   void add_own_methods() {
@@ -223,5 +228,7 @@ Result<std::unique_ptr<Service>> Service::start(const ServiceOptions& options,
 }
 
 std::uint16_t Service::port() const { return implementation_->port(); }
+std::string Service::invite() { return implementation_->invite(); }
+std::uint64_t Service::listeners() const { return implementation_->listeners(); }
 
 }  // namespace imunoise::service

@@ -17,6 +17,7 @@
 #include "daemon/service/studies/study_computation.h"
 #include "drivers/host/load.h"
 #include "imunoise/v1/campaign.pb.h"
+#include "imunoise/v1/service.pb.h"
 #include "recording/store/disk/disk_calls.h"
 
 namespace imunoise::service {
@@ -27,6 +28,9 @@ struct ServiceOptions {
   std::vector<std::string> hosts = {};               ///< Names of this machine beside localhost.
   std::filesystem::path studies = "studies";         ///< Folder; made with the first study.
   std::string version = {};
+  bool by_invitation = false;  ///< TCP without a file of tokens: for those whom invite() lets in.
+  bool bench = true;           ///< It records; false: it shows files.
+  std::vector<v1::NamedInput> inputs = {};  ///< Files that studies may be made of.
   /// Largest recording that is studied here, bytes of its chunks: what is read of it takes several
   /// times as much memory.
   std::uint64_t largest_study = std::uint64_t{256} << 20U;
@@ -58,6 +62,10 @@ class Service {
   Service& operator=(const Service&) = delete;
 
   std::uint16_t port() const;  ///< Of TCP; 0 without it.
+  /// A token that opens one session of an operator, once.
+  std::string invite();
+  /// Clients that listen to events now.
+  std::uint64_t listeners() const;
 
  private:
   class Implementation;

@@ -25,30 +25,16 @@ v1::Observability observability(Observability from) {
   return v1::given;
 }
 
-// N, B, K, R and Q are known by themselves; what describes a correlated noise needs the noise's
-// name.
-bool stands_alone(Coefficient coefficient) {
-  return coefficient == Coefficient::kQuantisation || coefficient == Coefficient::kRandomWalk ||
-         coefficient == Coefficient::kBiasInstability ||
-         coefficient == Coefficient::kRateRandomWalk || coefficient == Coefficient::kRamp;
-}
-
-void add_coefficient(const DerivedEstimate& quantity, Quantity measures, const std::string& label,
-                     v1::Term& to) {
-  const CoefficientUnits units = coefficient_units(quantity.coefficient, measures);
-  v1::Coefficient& out = *to.add_coefficients();
-  out.set_symbol(std::string(units.symbol));
-  out.set_title(stands_alone(quantity.coefficient) ? std::string(units.title)
-                                                   : fmt::format("{} of {}", units.title, label));
-  out.set_value(quantity.value);
-  out.set_lower(quantity.lower);
-  out.set_upper(quantity.upper);
-  out.set_unit(units.si);
-  if (units.datasheet.empty()) return;
-  out.set_datasheet_value(quantity.value * units.to_datasheet);
-  out.set_datasheet_lower(quantity.lower * units.to_datasheet);
-  out.set_datasheet_upper(quantity.upper * units.to_datasheet);
-  out.set_datasheet_unit(units.datasheet);
+v1::Coefficient coefficient_of(const DerivedEstimate& from, Quantity measures,
+                               const std::string& label) {
+  v1::Coefficient out = coefficient_message(from.coefficient, from.value, label, measures);
+  out.set_lower(from.lower);
+  out.set_upper(from.upper);
+  if (out.datasheet_unit().empty()) return out;
+  const double to_datasheet = coefficient_units(from.coefficient, measures).to_datasheet;
+  out.set_datasheet_lower(from.lower * to_datasheet);
+  out.set_datasheet_upper(from.upper * to_datasheet);
+  return out;
 }
 
 void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured,
@@ -56,30 +42,24 @@ void add_terms(const Fit& fit, const std::vector<WaveletVariance>& measured,
   const Model& model = fit.estimate.model;
   const Quantity quantity = measured.front().quantity;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    const Process& process = model.terms[t].process;
     v1::Term& term = *out.add_terms();
-    term.set_name(std::string(info(process).name));
-    term.set_title(std::string(info(process).title));
-    term.set_meaning(std::string(info(process).meaning));
-    const std::vector<ParameterInfo> about = parameters(process);
-    for (std::size_t p = 0; p < about.size(); ++p) {
-      const ParameterEstimate& estimate = fit.parameters[t][p];
-      v1::Parameter& parameter = *term.add_parameters();
-      parameter.set_name(about[p].name);
+    term = term_message(model, t, quantity, measured.front().rate, m);
+    for (int p = 0; p < term.parameters_size(); ++p) {
+      const auto at = static_cast<std::size_t>(p);
+      const ParameterEstimate& estimate = fit.parameters[t][at];
+      v1::Parameter& parameter = *term.mutable_parameters(p);
       parameter.set_value(estimate.value);
       parameter.set_lower(estimate.lower);
       parameter.set_upper(estimate.upper);
-      parameter.set_unit(unit_of(about[p].dimension, quantity));
-      parameter.set_meaning(std::string(about[p].meaning));
       parameter.set_observability(observability(estimate.observability));
       if (estimate.observability == Observability::kUpperBound) {
-        parameter.set_record_longer(record_longer(fit, measured, t, p));
+        parameter.set_record_longer(record_longer(fit, measured, t, at));
       }
     }
+    term.clear_coefficients();
     for (const DerivedEstimate& derived : fit.derived[t]) {
-      add_coefficient(derived, quantity, label_of(model, t), term);
+      *term.add_coefficients() = coefficient_of(derived, quantity, label_of(model, t));
     }
-    for (const double value : variance(process, m)) term.add_variance(value);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/less_effects.h"
+#include "study/analysis/rung_picture.h"
 
 namespace imunoise::study {
 
@@ -30,7 +31,10 @@ Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const 
   progress.report(0.7);
   const MisfitReport misfit = misfit_of(trial);
   if (progress.stopped()) return fail("stopped");
-  return rung_of({trial, left_over(trial), misfit, heldout}, step, 0.0, seen.replicates);
+  const LeftOver left = left_over(trial);
+  v1::Rung out = rung_of({trial, left, misfit, heldout}, step, 0.0, seen.replicates);
+  *out.mutable_picture() = picture_of(trial, left, seen.name, seen.replicates);
+  return out;
 }
 
 }  // namespace imunoise::study

@@ -16,7 +16,8 @@ namespace imunoise::study {
 Result<FullModel> started(const std::string& model, const SeenChannel& seen,
                           const Progress& progress = {});
 
-/// Fits a model and judges it. Error: as started(), or the caller stopped it.
+/// Fits a model and judges it, with what its figures are drawn from. Error: as started(), or the
+/// caller stopped it.
 Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const Step& step,
                        const Progress& progress = {});
 

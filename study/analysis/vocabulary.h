@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/model/model.h"
+#include "imunoise/v1/noise.pb.h"
 
 namespace imunoise::study {
 
@@ -20,6 +21,13 @@ std::string unit_of(Dimension dimension, Quantity quantity);
 
 /// "AR1", or "AR1 (2)" when the model has several.
 std::string label_of(const Model& model, std::size_t term);
+
+/// A coefficient of a term of this label, in SI and in the units of data sheets, without interval.
+v1::Coefficient coefficient_message(Coefficient which, double value, const std::string& label,
+                                    Quantity measures);
+/// A term with its values, and its wavelet variance at the half-widths `m`; without intervals.
+v1::Term term_message(const Model& model, std::size_t term, Quantity measures, Hertz rate,
+                      const Eigen::ArrayXd& m);
 
 /// What estimated the numbers of a report, as every report names it. From moments: "GMWM" of one
 /// replicate, "MuGMWM" of several. Moments, then the maximum of the likelihood: "MuGMWM + Whittle".

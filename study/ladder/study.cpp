@@ -11,6 +11,7 @@
 #include "study/analysis/less_effects.h"
 #include "study/analysis/series.h"
 #include "study/analysis/unexplained.h"
+#include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
@@ -59,6 +60,8 @@ class Operation {
   Result<void> seek();
   Result<void> add(const v1::StudyRequest::Add& request);
   Result<void> undo();
+  Result<void> redo();
+  Result<void> try_model(const v1::StudyRequest::TryModel& request);
 
  private:
   WitnessNames allowed() const {
@@ -158,6 +161,8 @@ Result<v1::Rung> Operation::climbed(const std::string& model, const std::string&
   auto rung = judge(model, *seen, {.added = added, .why = ""}, progress);
   if (!rung) return rung;
   if (folder_) folder_->keep(*seen);
+  study_.set_unit(std::string(si_symbol(seen->subject->quantity)));
+  study_.set_rate_hz(seen->subject->rate.value);
   if (study_.attempts_size() == 0) study_.set_first_log_likelihood(rung->log_likelihood());
   count_from_first(study_, *rung);
   return rung;
@@ -235,6 +240,26 @@ Result<void> Operation::undo() {
   return {};
 }
 
+Result<void> Operation::redo() {
+  for (int i = study_.attempts_size() - 1; i >= 0; --i) {
+    v1::StudyAttempt& attempt = *study_.mutable_attempts(i);
+    if (!attempt.undone() || !attempt.has_parent() || attempt.parent() != study_.current())
+      continue;
+    attempt.clear_undone();
+    study_.set_current(static_cast<std::uint32_t>(i));
+    study_.clear_diagnosis();
+    return {};
+  }
+  return fail("nothing to redo: no model that extends the current one was undone");
+}
+
+Result<void> Operation::try_model(const v1::StudyRequest::TryModel& request) {
+  auto rung = climbed(request.model(), "", std::nullopt, progress_.part(0.1, 1.0));
+  if (!rung) return tl::unexpected(rung.error());
+  append(study_, study_.current(), std::move(*rung));
+  return {};
+}
+
 Result<void> Operation::seek() {
   const auto look = looked(std::nullopt);
   if (!look) return tl::unexpected(look.error());
@@ -271,6 +296,12 @@ Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
       break;
     case v1::StudyRequest::kUndo:
       done = operation.undo();
+      break;
+    case v1::StudyRequest::kRedo:
+      done = operation.redo();
+      break;
+    case v1::StudyRequest::kTryModel:
+      done = operation.try_model(request.try_model());
       break;
     case v1::StudyRequest::OPERATION_NOT_SET:
       return fail("the request names no operation on the study");

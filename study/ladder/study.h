@@ -19,9 +19,9 @@ using ReadInput = std::function<Result<std::vector<recording::Replicate>>(
     const v1::StudyInput& input, const std::string& channel)>;
 
 /// Does what a request asks of a study; `study` is empty for an Open. Nothing changes on an error:
-/// a file, channel or model that cannot be read, a term that does not fit, nothing to undo, an
-/// attempt that does not exist, or the caller stopped it. What was worked out of the recordings is
-/// kept where `keep` says; unset: nowhere.
+/// a file, channel or model that cannot be read, a term that does not fit, nothing to undo or redo,
+/// an attempt that does not exist, or the caller stopped it. What was worked out of the recordings
+/// is kept where `keep` says; unset: nowhere.
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                         const ReadInput& read, const Progress& progress = {},
                         const std::optional<SeenPlace>& keep = std::nullopt);

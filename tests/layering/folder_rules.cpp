@@ -44,7 +44,8 @@ std::set<std::string> read_maps(const std::string& project_root) {
   for (auto at = fs::recursive_directory_iterator(project_root);
        at != fs::recursive_directory_iterator(); ++at) {
     const std::string name = at->path().filename().string();
-    if (at->is_directory() && (name == "build" || name.starts_with("."))) {
+    if (at->is_directory() &&
+        (name == "build" || name == "node_modules" || name.starts_with("."))) {
       at.disable_recursion_pending();
     } else if (name == "README.md") {
       out.insert(fs::relative(at->path(), project_root).generic_string());

@@ -79,7 +79,8 @@ Tree read_prose(const std::string& project_root) {
   }
   for (fs::recursive_directory_iterator entry(project_root), end; entry != end; ++entry) {
     const std::string name = entry->path().filename().string();
-    if (entry->is_directory() && (name == "build" || name.starts_with('.'))) {
+    if (entry->is_directory() &&
+        (name == "build" || name == "node_modules" || name.starts_with('.'))) {
       entry.disable_recursion_pending();
       continue;
     }

@@ -90,6 +90,61 @@ TEST(Study, WhatIsAddedMakesTheErrorFallAndCanBeTakenBack) {
 
 // One story of estimation: a study reports the likelihood's estimate, the one of fit --estimator
 // whittle, and fit's own default agrees with it within its interval.
+v1::StudyRequest redoing() {
+  v1::StudyRequest request;
+  request.mutable_redo();
+  return request;
+}
+
+TEST(Study, WhatWasTakenBackComesAgainInItsOrder) {
+  const v1::Study first = opened();
+  EXPECT_FALSE(apply(first, redoing(), read)) << "nothing was undone";
+  v1::Study study = *apply(first, adding("QN"), read);
+  study = *apply(study, adding("ramp"), read);
+  const std::string top = current_model(study);
+  study = *apply(*apply(study, undoing(), read), undoing(), read);
+  EXPECT_EQ(current_model(study), "WN + RW");
+
+  study = *apply(study, redoing(), read);
+  EXPECT_EQ(study.current(), 1U);
+  EXPECT_FALSE(study.attempts(1).undone());
+  EXPECT_TRUE(study.attempts(2).undone());
+  study = *apply(study, redoing(), read);
+  EXPECT_EQ(current_model(study), top);
+  EXPECT_FALSE(apply(study, redoing(), read)) << "that was the last";
+}
+
+TEST(Study, AnotherModelIsTriedBesideTheCurrentOne) {
+  v1::StudyRequest request;
+  request.mutable_try_model()->set_model("WN");
+  const auto study = apply(opened(), request, read);
+  ASSERT_TRUE(study) << study.error().message;
+  EXPECT_EQ(current_model(*study), "WN");
+  EXPECT_EQ(study->attempts(1).parent(), 0U);
+  EXPECT_GT(study->attempts(1).rung().heldout_error(), study->attempts(0).rung().heldout_error());
+  request.mutable_try_model()->set_model("WM");
+  EXPECT_FALSE(apply(*study, request, read));
+}
+
+TEST(Study, AnAttemptKeepsWhatItsFiguresAreDrawnFrom) {
+  const v1::Study study = opened();
+  const v1::RungPicture& picture = study.attempts(0).rung().picture();
+  const v1::NoiseBudget& budget = picture.budget();
+  ASSERT_EQ(picture.terms_size(), 2);
+  EXPECT_EQ(study.unit(), "rad/s");
+  EXPECT_EQ(study.rate_hz(), 50.0);
+  for (int i = 0; i < budget.model_size(); ++i) {
+    EXPECT_NEAR(picture.terms(0).variance(i) + picture.terms(1).variance(i), budget.model(i),
+                1e-12 * budget.model(i));
+  }
+  const v1::Coefficient& walk = picture.terms(0).coefficients(0);
+  EXPECT_EQ(walk.symbol(), "N");
+  EXPECT_NEAR(walk.value(), std::sqrt(picture.terms(0).parameters(0).value() / 50.0),
+              1e-12 * walk.value());
+  EXPECT_NEAR(walk.datasheet_value(), walk.value() * 180.0 / M_PI * 60.0,
+              1e-9 * walk.datasheet_value());
+}
+
 TEST(Study, ItsNumbersAreThoseOfAFitByLikelihood) {
   const v1::Rung rung = opened().attempts(0).rung();
   const std::vector<recording::Replicate> replicates = *read({}, "");

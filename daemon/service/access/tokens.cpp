@@ -23,8 +23,9 @@ bool well_formed(std::string_view token) {
   });
 }
 
-// Looks at every byte, whatever the first ones say.
-bool same(std::string_view a, std::string_view b) {
+}  // namespace
+
+bool same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned differences = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -32,8 +33,6 @@ bool same(std::string_view a, std::string_view b) {
   }
   return differences == 0;
 }
-
-}  // namespace
 
 Result<Tokens> Tokens::parse(std::string_view text) {
   Tokens out;
@@ -77,7 +76,7 @@ Result<Tokens> Tokens::read(const std::filesystem::path& file) {
 std::optional<v1::Role> Tokens::role_of(std::string_view token) const {
   std::optional<v1::Role> out;
   for (const Token& one : tokens_) {
-    if (same(one.text, token)) out = one.role;
+    if (same_secret(one.text, token)) out = one.role;
   }
   return out;
 }

@@ -35,6 +35,9 @@ class Tokens {
   std::vector<Token> tokens_;
 };
 
+/// Whether two texts are equal; looks at every byte, whatever the first ones say.
+bool same_secret(std::string_view a, std::string_view b);
+
 /// The token of "Bearer TOKEN"; nothing where the header says something else.
 std::optional<std::string_view> bearer_token(std::string_view authorization);
 

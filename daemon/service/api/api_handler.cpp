@@ -28,6 +28,12 @@ bool goes_on(const Route& route, const google::protobuf::Message& message) {
          (job->state() == v1::queued || job->state() == v1::working);
 }
 
+// Which methods this object answers itself: they are about who asks.
+bool is_session(const google::protobuf::Descriptor* request) {
+  return request == v1::OpenSessionRequest::descriptor() ||
+         request == v1::GetSessionRequest::descriptor();
+}
+
 Response response_of(const Route& route, const Reply& reply) {
   if (reply.events) return {kDone, "text/event-stream", "", {}, reply.events};
   if (!route.http.produces().empty()) {
@@ -45,14 +51,15 @@ ApiHandler::ApiHandler(Routes routes, const Methods& methods, ApiHandlerOptions 
       options_(std::move(options)),
       rate_(options_.requests_per_second, options_.burst) {
   for ([[maybe_unused]] const Route& route : routes_.all()) {
-    assert(methods_.has(route.method->input_type()));
+    assert(is_session(route.method->input_type()) || methods_.has(route.method->input_type()));
   }
 }
 
 std::optional<v1::Role> ApiHandler::role_of(const RequestHead& head) const {
   if (head.peer.local) return v1::operator_;
   const auto token = bearer_token(head.authorization);
-  return token && options_.tokens ? options_.tokens->role_of(*token) : std::nullopt;
+  if (token) return options_.tokens ? options_.tokens->role_of(*token) : std::nullopt;
+  return sessions_.role_of(cookie_value(head.cookie, cookie_name(head.host)));
 }
 
 bool ApiHandler::knows(const RequestHead& head) { return role_of(head).has_value(); }
@@ -73,6 +80,10 @@ Answer<ApiHandler::Asked> ApiHandler::understand(const RequestHead& head) const 
   auto target = parse_target(head.target);
   if (!target) return service::refuse(400, target.error().message);
   Found found = routes_.find(head.method, *target);
+  if (found.allowed.empty() && head.method == "GET") {
+    if (const Asset* const asset = find_asset(options_.page, target->segments))
+      return Asked{std::move(*target), {}, asset};
+  }
   if (found.allowed.empty())
     return service::refuse(404, "there is no such path; /openapi.json lists all");
   if (found.route == nullptr)
@@ -93,6 +104,7 @@ std::optional<Response> ApiHandler::refuse(const RequestHead& head) {
   if (auto good = check_sender(head); !good) return refusal(good.error());
   const auto asked = understand(head);
   if (!asked) return refusal(asked.error());
+  if (asked->asset != nullptr) return std::nullopt;  // holds nothing that is secret
   if (auto good = check_role(head, asked->found.route->http.role()); !good)
     return refusal(good.error());
   if (head.method == "POST" && !is_json(head.content_type))
@@ -102,15 +114,43 @@ std::optional<Response> ApiHandler::refuse(const RequestHead& head) {
 
 bool ApiHandler::waits(const RequestHead& head) {
   const auto asked = understand(head);
-  return asked && methods_.waits(asked->found.route->method->input_type());
+  if (!asked || asked->asset != nullptr) return false;
+  const auto* const request = asked->found.route->method->input_type();
+  return !is_session(request) && methods_.waits(request);
 }
 
-Answer<Response> ApiHandler::call(const Request& request) const {
+v1::Session ApiHandler::session_of(std::optional<v1::Role> role) const {
+  v1::Session out;
+  out.set_role(role.value_or(v1::role_unspecified));
+  out.set_version(options_.version);
+  out.set_bench(options_.bench);
+  return out;
+}
+
+Answer<Response> ApiHandler::open_session(const Request& request,
+                                          const v1::OpenSessionRequest& opening) {
+  if (opening.token().empty()) return service::refuse(400, "token: missing");
+  auto role = sessions_.redeem(opening.token());
+  if (!role && options_.tokens) role = options_.tokens->role_of(opening.token());
+  if (!role)
+    return service::refuse(401, "unknown token, or one that was used; ask for another token");
+  Response out{kDone, "application/json", response_text(session_of(role))};
+  out.headers.emplace_back("Set-Cookie", cookie_name(request.host) + "=" + sessions_.open(*role) +
+                                             "; HttpOnly; SameSite=Strict; Path=/");
+  return out;
+}
+
+Answer<Response> ApiHandler::call(const Request& request) {
   const auto asked = understand(request);
   if (!asked) return tl::unexpected(asked.error());
+  if (asked->asset != nullptr) return asset_response(*asked->asset, request);
   const Route& route = *asked->found.route;
   const auto message = request_of(route, asked->found.fields, asked->target.query, request.body);
   if (!message) return service::refuse(400, message.error().message);
+  if (const auto* opening = dynamic_cast<const v1::OpenSessionRequest*>(message->get()))
+    return open_session(request, *opening);
+  if (route.method->input_type() == v1::GetSessionRequest::descriptor())
+    return Response{kDone, "application/json", response_text(session_of(role_of(request)))};
   const auto reply = methods_.call(**message);
   if (!reply) return tl::unexpected(reply.error());
   return response_of(route, *reply);

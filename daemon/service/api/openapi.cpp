@@ -88,8 +88,34 @@ class Schemas {
     return out.text();
   }
 
-  // An object of all fields of a message but these.
-  std::string object(const Descriptor& message, const std::set<std::string>& without = {}) {
+  // The body of a request: an object of all fields of a message but these, each of which may be
+  // left out.
+  std::string body(const Descriptor& message, const std::set<std::string>& without) {
+    return object(message, without).text();
+  }
+
+  // All that were referred to, and what they refer to. Responses print every field that is no
+  // message and not optional.
+  std::string components() {
+    std::map<std::string, std::string> out;
+    while (!wanted_.empty()) {
+      const Descriptor& next = *wanted_.back();
+      wanted_.pop_back();
+      JsonObject schema = object(next, {});
+      std::vector<std::string> printed;
+      for (int i = 0; i < next.field_count(); ++i) {
+        if (!next.field(i)->has_presence()) printed.push_back(json_string(next.field(i)->name()));
+      }
+      if (!printed.empty()) schema.add("required", json_array(printed));
+      out[short_name(next)] = schema.text();
+    }
+    JsonObject text;
+    for (const auto& [name, schema] : out) text.add(name, schema);
+    return text.text();
+  }
+
+ private:
+  JsonObject object(const Descriptor& message, const std::set<std::string>& without) {
     JsonObject properties;
     for (int i = 0; i < message.field_count(); ++i) {
       const FieldDescriptor& one = *message.field(i);
@@ -99,23 +125,9 @@ class Schemas {
     out.add_text("type", "object").add("properties", properties.text());
     if (const std::string comment = comments_.of(message); !comment.empty())
       out.add_text("description", comment);
-    return out.text();
+    return out;
   }
 
-  // All that were referred to, and what they refer to.
-  std::string components() {
-    std::map<std::string, std::string> out;
-    while (!wanted_.empty()) {
-      const Descriptor& next = *wanted_.back();
-      wanted_.pop_back();
-      out[short_name(next)] = object(next);
-    }
-    JsonObject text;
-    for (const auto& [name, schema] : out) text.add(name, schema);
-    return text.text();
-  }
-
- private:
   static std::string simple(std::string_view type, std::string_view format = "") {
     JsonObject out;
     out.add_text("type", type);
@@ -230,7 +242,7 @@ std::string operation(const Route& route, Schemas& schemas) {
   if (route.http.role() == v1::anyone) out.add("security", "[]");
   out.add("parameters", parameters(route, schemas));
   if (route.verb == "POST") {
-    const std::string body = schemas.object(*route.method->input_type(), path_fields(route));
+    const std::string body = schemas.body(*route.method->input_type(), path_fields(route));
     out.add("requestBody", JsonObject().add("content", content("application/json", body)).text());
   }
   return out.add("responses", responses(route, schemas)).text();

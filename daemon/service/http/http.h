@@ -27,6 +27,9 @@ struct RequestHead {
   std::string origin;
   std::string authorization;
   std::string content_type;
+  std::string cookie;
+  std::string accept_encoding;
+  std::string if_none_match;
   Peer peer;
 };
 

@@ -154,8 +154,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void take_head() {
     const auto& fields = parser_->get();
-    for (const http::field one : {http::field::host, http::field::origin,
-                                  http::field::authorization, http::field::content_type}) {
+    for (const http::field one :
+         {http::field::host, http::field::origin, http::field::authorization,
+          http::field::content_type, http::field::cookie}) {
       if (fields.count(one) > 1) {
         ++shared_.counts.malformed;
         return send(shared_.handler.trouble(400, "a header comes twice"), false);
@@ -169,6 +170,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     request_.origin = text(http::field::origin);
     request_.authorization = text(http::field::authorization);
     request_.content_type = text(http::field::content_type);
+    request_.cookie = text(http::field::cookie);
+    request_.accept_encoding = text(http::field::accept_encoding);
+    request_.if_none_match = text(http::field::if_none_match);
     request_.peer = peer_;
     known_ = known_ || shared_.handler.knows(request_);
     if (std::exchange(first_, false)) stream_.expires_after(shared_.limits.request);

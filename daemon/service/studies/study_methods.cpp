@@ -6,6 +6,7 @@
 #include <semaphore>
 
 #include "daemon/config/quantity_text.h"
+#include "daemon/service/studies/study_pictures.h"
 
 namespace imunoise::service {
 namespace {
@@ -15,22 +16,21 @@ constexpr double kLongestWait = 8.0;        // s
 
 class StudyMethods {
  public:
-  StudyMethods(Jobs& jobs, StudyStore& studies, const Records& records,
-               std::uint64_t largest_recording, ComputeStudy compute)
-      : jobs_(jobs),
-        studies_(studies),
-        records_(records),
+  StudyMethods(const StudySubjects& subjects, std::uint64_t largest_recording, ComputeStudy compute)
+      : jobs_(subjects.jobs),
+        studies_(subjects.studies),
+        records_(subjects.records),
+        inputs_(subjects.inputs),
         largest_(largest_recording),
         compute_(std::move(compute)) {}
 
   Answer<v1::Job> open(const v1::OpenStudyRequest& request) {
     if (auto good = check_new(request.study()); !good) return tl::unexpected(good.error());
-    const auto path = path_to_study(request.campaign(), request.folder());
-    if (!path) return tl::unexpected(path.error());
+    auto input = input_of(request);
+    if (!input) return tl::unexpected(input.error());
     v1::StudyRequest asked;
     v1::StudyRequest::Open& open = *asked.mutable_open();
-    open.mutable_input()->add_files(path->string());
-    open.mutable_input()->set_split_into(request.split_into());
+    *open.mutable_input() = std::move(*input);
     open.set_channel(request.channel());
     *open.mutable_witnesses() = request.witnesses();
     open.set_model(request.model());
@@ -48,7 +48,9 @@ class StudyMethods {
       auto study = studies_.read(name);
       if (!study) return fail(study.error().sentence);
       auto out = compute(std::move(*study), asked, progress);
-      return keep ? kept(name, std::move(out), &StudyStore::replace) : out;
+      if (keep || !out) return kept(name, std::move(out), &StudyStore::replace);
+      pictures_.keep_preview(name, *out);
+      return without_pictures(std::move(*out));
     };
     return begun(operation, name, work, wait_s);
   }
@@ -70,12 +72,37 @@ class StudyMethods {
     return begun("branch", request.study(), work, request.wait_s());
   }
 
+  Answer<v1::Text> figure(const v1::GetFigureRequest& request) const {
+    const auto study = studies_.read(request.study());
+    if (!study) return tl::unexpected(study.error());
+    return pictures_.draw(*study, request);
+  }
+
  private:
   Answer<void> check_new(const std::string& name) const {
     if (auto good = check_study_name(name); !good) return good;
     if (studies_.contains(name))
       return refuse(409, fmt::format("study '{}' exists; choose another name", name));
     return {};
+  }
+
+  Answer<v1::StudyInput> input_of(const v1::OpenStudyRequest& request) const {
+    v1::StudyInput out;
+    if (request.input().empty()) {
+      const auto path = path_to_study(request.campaign(), request.folder());
+      if (!path) return tl::unexpected(path.error());
+      out.add_files(path->string());
+    } else {
+      const auto named = std::find_if(inputs_.begin(), inputs_.end(), [&](const auto& one) {
+        return one.name() == request.input();
+      });
+      if (named == inputs_.end())
+        return refuse(
+            404, fmt::format("there is no input '{}'; GET /v1/inputs lists all", request.input()));
+      out = named->input();
+    }
+    if (request.split_into() > 1) out.set_split_into(request.split_into());
+    return out;
   }
 
   Answer<std::filesystem::path> path_to_study(const std::string& campaign,
@@ -107,7 +134,7 @@ class StudyMethods {
   Result<v1::Study> kept(const std::string& name, Result<v1::Study> study, Keep keep) {
     if (!study) return study;
     if (auto done = (studies_.*keep)(name, *study); !done) return tl::unexpected(done.error());
-    return study;
+    return without_pictures(std::move(*study));
   }
 
   // The job, or what became of it while the response waited.
@@ -125,6 +152,8 @@ class StudyMethods {
   Jobs& jobs_;
   StudyStore& studies_;
   const Records& records_;
+  const std::vector<v1::NamedInput>& inputs_;
+  StudyPictures pictures_;
   const std::uint64_t largest_;
   const ComputeStudy compute_;
   std::counting_semaphore<> waiting_{kMostWaiting};
@@ -156,20 +185,44 @@ void add_steps(Methods& methods, const std::shared_ptr<StudyMethods>& steps) {
     asked.mutable_undo();
     return steps->change("undo", request.study(), asked, true, request.wait_s());
   });
+  methods.on_waiting<v1::RedoTermRequest>([steps](const v1::RedoTermRequest& request) {
+    v1::StudyRequest asked;
+    asked.mutable_redo();
+    return steps->change("redo", request.study(), asked, true, request.wait_s());
+  });
+  methods.on_waiting<v1::TryModelRequest>([steps](const v1::TryModelRequest& request) {
+    v1::StudyRequest asked;
+    asked.mutable_try_model()->set_model(request.model());
+    return steps->change("try", request.study(), asked, true, request.wait_s());
+  });
+  methods.on_waiting<v1::GetFigureRequest>(
+      [steps](const v1::GetFigureRequest& request) { return steps->figure(request); });
   methods.on_waiting<v1::BranchStudyRequest>(
       [steps](const v1::BranchStudyRequest& request) { return steps->branch(request); });
 }
 
 }  // namespace
 
-void add_study_methods(Methods& methods, Jobs& jobs, StudyStore& studies, const Records& records,
+void add_study_methods(Methods& methods, const StudySubjects& subjects,
                        std::uint64_t largest_recording, ComputeStudy compute) {
-  add_steps(methods, std::make_shared<StudyMethods>(jobs, studies, records, largest_recording,
-                                                    std::move(compute)));
+  StudyStore& studies = subjects.studies;
+  Jobs& jobs = subjects.jobs;
+  add_steps(methods,
+            std::make_shared<StudyMethods>(subjects, largest_recording, std::move(compute)));
+  methods.on<v1::ListInputsRequest>(
+      [&inputs = subjects.inputs](const v1::ListInputsRequest&) -> Answer<v1::InputList> {
+        v1::InputList out;
+        *out.mutable_inputs() = {inputs.begin(), inputs.end()};
+        return out;
+      });
   methods.on_waiting<v1::ListStudiesRequest>(
       [&studies](const v1::ListStudiesRequest&) { return studies.list(); });
   methods.on_waiting<v1::GetStudyRequest>(
-      [&studies](const v1::GetStudyRequest& request) { return studies.read(request.study()); });
+      [&studies](const v1::GetStudyRequest& request) -> Answer<v1::Study> {
+        auto study = studies.read(request.study());
+        if (!study) return study;
+        return without_pictures(std::move(*study));
+      });
   methods.on_waiting<v1::DeleteStudyRequest>(
       [&studies](const v1::DeleteStudyRequest& request) -> Answer<v1::DeletedStudy> {
         if (auto done = studies.remove(request.study()); !done) return tl::unexpected(done.error());

@@ -98,11 +98,16 @@ Panel budget_panel(const BudgetView& view, const BudgetWords& words) {
             .y = {.kind = AxisKind::kLogarithmic,
                   .title = "wavelet variance ν, " + squared(words.unit),
                   .short_title = "ν, " + squared(words.unit)},
-            .right = {{.title = "Allan deviation √(2ν), " + allan.unit,
-                       .short_title = "Allan dev., " + allan.unit,
-                       .factor = std::numbers::sqrt2 * allan.factor,
-                       .exponent = 0.5}},
             .height = 400.0};
+  if (words.allan) {
+    out.y.title = "Allan deviation, " + allan.unit;
+    out.y.short_title = "Allan dev., " + allan.unit;
+  } else {
+    out.right = {{.title = "Allan deviation √(2ν), " + allan.unit,
+                  .short_title = "Allan dev., " + allan.unit,
+                  .factor = std::numbers::sqrt2 * allan.factor,
+                  .exponent = 0.5}};
+  }
   add_replicates(view, out);
   add_terms(view, out);
   Layer ghost = line(Role::kGhost, view.scales, [](const ScaleView& s) { return s.ghost; });
@@ -144,13 +149,14 @@ Panel residual_panel(const BudgetView& view) {
           .layers = {std::move(chance), std::move(untested), std::move(bars)}};
 }
 
-std::string budget_caption(const BudgetView& view, double confidence) {
+std::string budget_caption(const BudgetView& view, const BudgetWords& words) {
   std::string out =
-      "Haar wavelet variance ν against its averaging time 2m/f. The right-hand scale reads the "
-      "same "
-      "points as Allan deviation √(2ν), whose own averaging time m/f is half of the one below. ";
-  if (std::isfinite(confidence) && confidence > 0.0) {
-    out += "Shaded: " + percent(confidence) + " confidence. ";
+      words.allan ? "Allan deviation against its averaging time m/f. "
+                  : "Haar wavelet variance ν against its averaging time 2m/f. The right-hand scale "
+                    "reads the same points as Allan deviation √(2ν), whose own averaging time m/f "
+                    "is half of the one below. ";
+  if (std::isfinite(words.confidence) && words.confidence > 0.0) {
+    out += "Shaded: " + percent(words.confidence) + " confidence. ";
   }
   out += "Residual: measured minus model in standard deviations under the model; grey band ±2 σ.";
   const auto untested = [](const ScaleView& scale) { return !scale.tested; };
@@ -165,7 +171,7 @@ std::string budget_caption(const BudgetView& view, double confidence) {
 figure::Figure budget_figure(const BudgetView& view, const BudgetWords& words) {
   figure::Figure out{.title = channel_name(words.channel),
                      .subtitle = words.subtitle,
-                     .caption = budget_caption(view, words.confidence),
+                     .caption = budget_caption(view, words),
                      .sentence = "Noise budget of " + channel_name(words.channel),
                      .panels = {budget_panel(view, words)},
                      .cursor = true};

@@ -12,11 +12,12 @@ struct BudgetWords {
   std::string subtitle{};
   double confidence = 0.0;    ///< of the intervals; 0 where it is not known
   bool mark_misfits = false;  ///< a test says that the model fails: mark where
+  bool allan = false;         ///< the view holds Allan deviations (as_allan())
 };
 
 /// Wavelet variance over averaging time: measured with intervals, model, its terms, replicates and
 /// a ghost; below it the residuals in standard deviations, where there are any. The right-hand axis
-/// reads Allan deviation.
+/// reads Allan deviation. Of Allan deviations: the same, without a right-hand axis.
 figure::Figure budget_figure(const BudgetView& view, const BudgetWords& words);
 figure::Figure budget_figure(const v1::FitReport& report);
 

@@ -53,53 +53,6 @@ Layer tested_waves(const v1::DiagnosisReport& report) {
   return out;
 }
 
-std::optional<Figure> kurtosis_figure(const v1::Comparison& compared) {
-  Layer band{.shape = Shape::kBand, .role = Role::kChance};
-  Layer dots{.shape = Shape::kPoints, .role = Role::kMeasured};
-  for (const v1::ScaleKurtosis& one : compared.kurtosis()) {
-    const double reach = 2.0 * one.error();
-    band.data.push_back({.x = one.seconds(), .lower = -reach, .upper = reach});
-    dots.data.push_back({.x = one.seconds(),
-                         .y = one.excess(),
-                         .state = outside_if(std::abs(one.excess()) > kSigmaOutside * one.error()),
-                         .sigma = one.excess() / one.error()});
-  }
-  return figure::unless_empty(
-      {.title = "Is the noise normal at every averaging time?",
-       .caption = "Excess kurtosis of the whitened noise. Band: where 19 of 20 values "
-                  "lie if it is normal. Outliers show at short averaging times "
-                  "and fade; bursts and jumps reach longer ones.",
-       .panels = {{.x = {.kind = AxisKind::kLogarithmic, .title = "averaging time, s"},
-                   .y = {.title = "excess kurtosis"},
-                   .y_reference = 0.0,
-                   .layers = {std::move(band), std::move(dots)}}}});
-}
-
-std::optional<Figure> times_figure(const v1::Comparison& compared) {
-  Panel panel{.x = {.kind = AxisKind::kDuration, .title = "time since the start of the replicate"},
-              .y = {.kind = AxisKind::kCategories}};
-  Layer cells{.shape = Shape::kCells, .role = Role::kMeasured};
-  for (const v1::TimeStretch& one : compared.times()) {
-    std::vector<std::string>& rows = panel.y.categories;
-    if (rows.empty() || rows.back() != one.replicate()) rows.push_back(one.replicate());
-    const bool outside = std::abs(one.sigma()) > kSigmaOutside;
-    cells.data.push_back({.x = 0.5 * (one.from() + one.to()),
-                          .y = static_cast<double>(rows.size() - 1),
-                          .lower = one.from(),
-                          .upper = one.to(),
-                          .state = outside_if(outside),
-                          .sigma = one.sigma(),
-                          .words = outside ? signed_sigma(one.sigma(), Digits::kTypeset) : ""});
-  }
-  panel.layers = {std::move(cells)};
-  return figure::unless_empty(
-      {.title = "When does the noise change?",
-       .caption = "Variance of the whitened noise in stretches of each replicate against "
-                  "the whole of it: red is more, blue is less, full colour at six "
-                  "standard deviations.",
-       .panels = {std::move(panel)}});
-}
-
 // The channels of all pairs, in the order of their first mention.
 std::vector<std::string> channels_of(const v1::Comparison& compared) {
   std::vector<std::string> out;
@@ -184,6 +137,55 @@ std::optional<Figure> lag_figure(const v1::LagCurve& curve) {
                    .layers = {std::move(early), std::move(late)}}}});
 }
 
+}  // namespace
+
+std::optional<Figure> kurtosis_figure(const v1::Comparison& compared) {
+  Layer band{.shape = Shape::kBand, .role = Role::kChance};
+  Layer dots{.shape = Shape::kPoints, .role = Role::kMeasured};
+  for (const v1::ScaleKurtosis& one : compared.kurtosis()) {
+    const double reach = 2.0 * one.error();
+    band.data.push_back({.x = one.seconds(), .lower = -reach, .upper = reach});
+    dots.data.push_back({.x = one.seconds(),
+                         .y = one.excess(),
+                         .state = outside_if(std::abs(one.excess()) > kSigmaOutside * one.error()),
+                         .sigma = one.excess() / one.error()});
+  }
+  return figure::unless_empty(
+      {.title = "Is the noise normal at every averaging time?",
+       .caption = "Excess kurtosis of the whitened noise. Band: where 19 of 20 values "
+                  "lie if it is normal. Outliers show at short averaging times "
+                  "and fade; bursts and jumps reach longer ones.",
+       .panels = {{.x = {.kind = AxisKind::kLogarithmic, .title = "averaging time, s"},
+                   .y = {.title = "excess kurtosis"},
+                   .y_reference = 0.0,
+                   .layers = {std::move(band), std::move(dots)}}}});
+}
+
+std::optional<Figure> times_figure(const v1::Comparison& compared) {
+  Panel panel{.x = {.kind = AxisKind::kDuration, .title = "time since the start of the replicate"},
+              .y = {.kind = AxisKind::kCategories}};
+  Layer cells{.shape = Shape::kCells, .role = Role::kMeasured};
+  for (const v1::TimeStretch& one : compared.times()) {
+    std::vector<std::string>& rows = panel.y.categories;
+    if (rows.empty() || rows.back() != one.replicate()) rows.push_back(one.replicate());
+    const bool outside = std::abs(one.sigma()) > kSigmaOutside;
+    cells.data.push_back({.x = 0.5 * (one.from() + one.to()),
+                          .y = static_cast<double>(rows.size() - 1),
+                          .lower = one.from(),
+                          .upper = one.to(),
+                          .state = outside_if(outside),
+                          .sigma = one.sigma(),
+                          .words = outside ? signed_sigma(one.sigma(), Digits::kTypeset) : ""});
+  }
+  panel.layers = {std::move(cells)};
+  return figure::unless_empty(
+      {.title = "When does the noise change?",
+       .caption = "Variance of the whitened noise in stretches of each replicate against "
+                  "the whole of it: red is more, blue is less, full colour at six "
+                  "standard deviations.",
+       .panels = {std::move(panel)}});
+}
+
 std::optional<Figure> deviations_figure(const v1::DiagnosisReport& report,
                                         const v1::Comparison& compared) {
   auto out = replicates_figure(replicate_views(compared.replicates()), report.channel());
@@ -192,8 +194,6 @@ std::optional<Figure> deviations_figure(const v1::DiagnosisReport& report,
   out->caption = "Wavelet variance of each replicate against the model, in standard deviations.";
   return out;
 }
-
-}  // namespace
 
 std::optional<Figure> spectrum_figure(const v1::DiagnosisReport& report,
                                       const v1::Comparison& compared, const std::string& title) {
@@ -221,6 +221,18 @@ std::optional<Figure> spectrum_figure(const v1::DiagnosisReport& report,
                               std::move(model), tested_waves(report)}}}});
 }
 
+std::vector<Figure> witness_figures(const v1::Comparison& compared) {
+  std::vector<Figure> out;
+  if (auto pairs = pairs_figure(compared)) out.push_back(std::move(*pairs));
+  for (const v1::LagCurve& one : compared.lags()) {
+    const bool telling = std::any_of(one.nats().begin(), one.nats().end(),
+                                     [&](double nats) { return nats > one.chance_nats(); });
+    if (!telling) continue;
+    if (auto lags = lag_figure(one)) out.push_back(std::move(*lags));
+  }
+  return out;
+}
+
 std::vector<Figure> comparison_figures(const v1::DiagnosisReport& report,
                                        const v1::Comparison& compared) {
   std::vector<Figure> out;
@@ -230,12 +242,7 @@ std::vector<Figure> comparison_figures(const v1::DiagnosisReport& report,
   add(deviations_figure(report, compared));
   add(times_figure(compared));
   add(kurtosis_figure(compared));
-  add(pairs_figure(compared));
-  for (const v1::LagCurve& one : compared.lags()) {
-    const bool telling = std::any_of(one.nats().begin(), one.nats().end(),
-                                     [&](double nats) { return nats > one.chance_nats(); });
-    if (telling) add(lag_figure(one));
-  }
+  for (Figure& one : witness_figures(compared)) out.push_back(std::move(one));
   return out;
 }
 

@@ -20,20 +20,30 @@ void sort_by_time(std::vector<ScaleView>& scales) {
                    [](const ScaleView& a, const ScaleView& b) { return a.seconds < b.seconds; });
 }
 
-std::vector<std::string> term_names(const v1::FitReport& report) {
+using Terms = google::protobuf::RepeatedPtrField<v1::Term>;
+
+std::vector<std::string> term_names(const Terms& terms) {
   std::vector<std::string> out;
-  for (int i = 0; i < report.terms_size(); ++i) {
-    const std::string& name = report.terms(i).name();
+  for (int i = 0; i < terms.size(); ++i) {
+    const std::string& name = terms[i].name();
     int same = 0;
     int before = 0;
-    for (int k = 0; k < report.terms_size(); ++k) {
-      if (report.terms(k).name() != name) continue;
+    for (int k = 0; k < terms.size(); ++k) {
+      if (terms[k].name() != name) continue;
       ++same;
       if (k < i) ++before;
     }
     out.push_back(same > 1 ? name + " (" + std::to_string(before + 1) + ")" : name);
   }
   return out;
+}
+
+void add_terms(const Terms& terms, BudgetView& to) {
+  to.terms = term_names(terms);
+  for (ScaleView& scale : to.scales) {
+    for (const v1::Term& term : terms)
+      scale.terms.push_back(at(term.variance(), static_cast<int>(scale.index)));
+  }
 }
 
 }  // namespace
@@ -46,12 +56,15 @@ double ScaleView::share(std::size_t term) const {
 
 BudgetView budget_view(const v1::FitReport& report) {
   BudgetView out = budget_view(report.budget());
-  out.terms = term_names(report);
-  for (ScaleView& scale : out.scales) {
-    for (const v1::Term& term : report.terms())
-      scale.terms.push_back(at(term.variance(), static_cast<int>(scale.index)));
-  }
+  add_terms(report.terms(), out);
   out.replicates = replicate_views(report.replicates());
+  return out;
+}
+
+BudgetView budget_view(const v1::RungPicture& picture) {
+  BudgetView out = budget_view(picture.budget());
+  add_terms(picture.terms(), out);
+  out.replicates = replicate_views(picture.compared().replicates());
   return out;
 }
 
@@ -124,6 +137,21 @@ AllanUnit allan_unit(const std::string& unit) {
     if (!units.datasheet.empty()) return {units.to_datasheet * parsed->to_si, units.datasheet};
   }
   return {1.0, unit.empty() || unit == "1" ? "unit" : unit};
+}
+
+BudgetView as_allan(BudgetView view, const AllanUnit& unit) {
+  const auto change = [&](ScaleView& scale) {
+    scale.seconds *= 0.5;
+    for (double* const one :
+         {&scale.measured, &scale.lower, &scale.upper, &scale.model, &scale.ghost})
+      *one = unit.deviation(*one);
+    for (double& one : scale.terms) one = unit.deviation(one);
+  };
+  for (ScaleView& scale : view.scales) change(scale);
+  for (ReplicateView& replicate : view.replicates) {
+    for (ScaleView& scale : replicate.scales) change(scale);
+  }
+  return view;
 }
 
 std::string squared(const std::string& unit) {

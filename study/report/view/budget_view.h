@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "imunoise/v1/noise.pb.h"
+#include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::report {
 
@@ -50,6 +50,8 @@ struct BudgetView {
 BudgetView budget_view(const v1::FitReport& report);
 /// The budget alone, without terms and replicates.
 BudgetView budget_view(const v1::NoiseBudget& budget);
+/// The budget of a rung, with its terms and replicates.
+BudgetView budget_view(const v1::RungPicture& picture);
 /// A measurement without a model.
 BudgetView budget_view(const v1::WaveletVarianceReport& report);
 
@@ -68,6 +70,9 @@ struct AllanUnit {
 /// Datasheet unit of a channel's Allan deviation (°/h, µg); the unit itself where none is
 /// customary.
 AllanUnit allan_unit(const std::string& unit);
+
+/// The same with Allan deviations over their averaging times in place of wavelet variances.
+BudgetView as_allan(BudgetView view, const AllanUnit& unit);
 
 /// "(rad/s)²", "T²"; "unit²" when the unit is unknown.
 std::string squared(const std::string& unit);

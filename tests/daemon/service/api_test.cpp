@@ -334,7 +334,9 @@ TEST_F(Api, EveryRouteHasARoleASentenceAndAFunction) {
     EXPECT_NE(route.http.role(), v1::role_unspecified) << route.path;
     EXPECT_TRUE(route.http.summary().ends_with(".")) << route.path;
     EXPECT_TRUE(route.path.starts_with("/")) << route.path;
-    EXPECT_EQ(route.verb != "GET", route.http.role() == v1::operator_) << route.path;
+    const bool shows_token = route.path == "/v1/session";  // who may, is what it finds out
+    EXPECT_EQ(route.verb != "GET" && !shows_token, route.http.role() == v1::operator_)
+        << route.path;
     EXPECT_TRUE(paths.insert(route.verb + route.path).second) << route.path << ": twice";
   }
   EXPECT_EQ(get_json("/healthz")["status"], "ok");

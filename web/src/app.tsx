@@ -1,0 +1,51 @@
+// The frame around the rooms, and the states in which there is no room yet.
+import { Empty, Skeleton } from "./parts/states";
+import { SignIn } from "./parts/sign_in";
+import { Bench } from "./rooms/bench/bench";
+import { Studies } from "./rooms/study/studies";
+import { StudyRoom } from "./rooms/study/study_room";
+import { campaigns, connected, knownHere, mayChange, place, session, trouble } from "./state";
+
+const rooms = [
+  { word: "bench", title: "Bench", ifBench: true },
+  { word: "studies", title: "Studies", ifBench: false },
+];
+
+const here = (): string => place.value[0] ?? (session.value?.bench ? "bench" : "studies");
+
+function Room() {
+  if (trouble.value) return <Empty title="imunoise does not answer" sentence={trouble.value} />;
+  if (!session.value) return <Skeleton lines={8} />;
+  if (!knownHere.value) return <SignIn />;
+  const name = place.value[1];
+  if (here() === "studies") return name ? <StudyRoom key={name} name={name} /> : <Studies />;
+  if (here() === "bench" && session.value.bench) return <Bench />;
+  return <Empty title="There is no such page" sentence="Choose a room at the top." />;
+}
+
+function Recording() {
+  const now = [...(campaigns.value?.values() ?? [])].find((one) => one.recording);
+  if (!now) return null;
+  const left = now.left_s === undefined ? "" : ` · ${Math.ceil(now.left_s / 60)} min left`;
+  return <span class="recording"><span class="dot" aria-hidden="true" />{now.campaign?.name} · {now.recording}{left}</span>;
+}
+
+export function App() {
+  return (
+    <>
+      <header class="bar">
+        <a class="name" href="#/">imunoise</a>
+        <nav aria-label="Rooms">
+          {rooms.filter((one) => !one.ifBench || session.value?.bench).map((one) => (
+            <a key={one.word} href={`#/${one.word}`} aria-current={here() === one.word ? "page" : undefined}>{one.title}</a>
+          ))}
+        </nav>
+        <span class="fill" />
+        <Recording />
+        {knownHere.value && !mayChange.value && <span class="badge">read only</span>}
+        {!connected.value && <span class="badge alarm" role="status">connection lost; trying again</span>}
+      </header>
+      <main><Room /></main>
+    </>
+  );
+}

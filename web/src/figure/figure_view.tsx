@@ -1,0 +1,108 @@
+// A figure of the service in the page: fetched in the size that it has here.
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { getText, type Refused } from "../api/client";
+import { Skeleton } from "../parts/states";
+import { number } from "../parts/numbers";
+import { axisTitles, indexOf, type Place, places, pointAt, showTerm, terms } from "./figure";
+
+interface Asked {
+  readonly study: string;
+  readonly view: string;
+  readonly variance: boolean;
+  readonly ghost: string;
+  readonly version: string; // changes when the figure may have changed
+}
+
+function useSize(element: { current: HTMLElement | null }): { width: number; height: number } | null {
+  const [size, setSize] = useState<{ width: number; height: number } | null>(null);
+  useLayoutEffect(() => {
+    if (!element.current) return;
+    const observer = new ResizeObserver(([entry]) => {
+      const box = entry?.contentRect;
+      if (box && box.width >= 200) setSize({ width: Math.floor(box.width), height: Math.floor(box.height) });
+    });
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, []);
+  return size;
+}
+
+const Table = ({ all, titles }: { all: readonly Place[]; titles: readonly [string, string] }) => (
+  <table class="visually-hidden">
+    <caption>The measured points of the figure</caption>
+    <thead><tr><th scope="col">{titles[0]}</th><th scope="col">{titles[1]}</th><th scope="col">residual, σ</th></tr></thead>
+    <tbody>
+      {all.map((one) => <tr key={one.x}><td>{number(one.x)}</td><td>{number(one.y)}</td><td>{number(one.sigma)}</td></tr>)}
+    </tbody>
+  </table>
+);
+
+export function FigureView({ asked, onPlace }: { asked: Asked; onPlace: (place: Place | null) => void }) {
+  const frame = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLDivElement>(null);
+  const size = useSize(frame);
+  const [svg, draw] = useState("");
+  const [problem, tell] = useState("");
+  const [all, setAll] = useState<readonly Place[]>([]);
+  const [titles, setTitles] = useState<readonly [string, string]>(["", ""]);
+  const [names, setNames] = useState<readonly string[]>([]);
+  const [hidden, hide] = useState<ReadonlySet<string>>(new Set());
+  const [at, move] = useState<number | null>(null);
+
+  useEffect(() => {
+    if (!size) return;
+    const stop = new AbortController();
+    const { study, view, variance, ghost } = asked;
+    getText("/v1/studies/{study}/figure", { study },
+      { view, variance, ghost, width: size.width, height: size.height }, stop.signal)
+      .then((text) => { draw(text); tell(""); })
+      .catch((error: Refused) => { if (!stop.signal.aborted) { draw(""); tell(error.message); } });
+    return () => stop.abort();
+  }, [asked.study, asked.view, asked.variance, asked.ghost, asked.version, size?.width, size?.height]);
+
+  useLayoutEffect(() => {
+    const drawn = canvas.current?.querySelector("svg");
+    setAll(drawn ? places(drawn) : []);
+    setNames(drawn ? terms(drawn) : []);
+    if (drawn) setTitles(axisTitles(drawn));
+    move(null);
+  }, [svg]);
+  useLayoutEffect(() => {
+    const drawn = canvas.current?.querySelector("svg");
+    if (!drawn) return;
+    for (const name of names) showTerm(drawn, name, !hidden.has(name));
+    pointAt(drawn, at);
+  }, [svg, names, hidden, at]);
+  useEffect(() => onPlace(at === null ? null : all[at] ?? null), [at, all]);
+
+  const step = (event: KeyboardEvent): void => {
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!by || all.length === 0) return;
+    event.preventDefault();
+    move(Math.min(all.length - 1, Math.max(0, (at ?? (by > 0 ? -1 : all.length)) + by)));
+  };
+  const toggle = (name: string): void => {
+    const next = new Set(hidden);
+    if (!next.delete(name)) next.add(name);
+    hide(next);
+  };
+  return (
+    <div class="figure-view">
+      <div class="figure-frame" ref={frame} tabIndex={0} role="group" aria-label="figure; arrow keys move the cursor" onKeyDown={step}
+        onPointerMove={(event) => { const index = indexOf(event.target); if (index !== null) move(index); }}
+        onPointerLeave={() => move(null)}>
+        {svg && <div class="figure-canvas" ref={canvas} dangerouslySetInnerHTML={{ __html: svg }} />}
+        {!svg && !problem && <Skeleton lines={6} />}
+        {problem && <p class="nothing">{problem}</p>}
+      </div>
+      {all.length > 0 && <Table all={all} titles={titles} />}
+      {names.length > 1 && (
+        <div class="legend" role="group" aria-label="Terms in the figure">
+          {names.map((name) => (
+            <button type="button" key={name} aria-pressed={!hidden.has(name)} onClick={() => toggle(name)}>{name}</button>
+          ))}
+        </div>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,102 @@
+// What is happening: campaigns, their devices, what is wrong, how long still.
+import { useState } from "preact/hooks";
+import { post } from "../../api/client";
+import type { CampaignState, LiveDevice, LiveReplicate } from "../../api/schema";
+import { duration } from "../../parts/numbers";
+import { Empty, Skeleton, Trouble } from "../../parts/states";
+import { campaigns, live, mayChange } from "../../state";
+import { Deviation } from "./deviation";
+
+const phases: Record<string, string> = {
+  settling: "waits until the sensors are still", recording: "records", pausing: "pauses", calibrating: "calibrates",
+  publishing: "publishes", waiting: "waits for the next recording", held_up: "held up", finished: "finished",
+};
+
+function Stop({ state, replicate, onDone }: { state: CampaignState; replicate: LiveReplicate | undefined; onDone: (problem: string) => void }) {
+  const [asking, ask] = useState(false);
+  const name = state.campaign?.name ?? "";
+  const stop = (): void => {
+    ask(false);
+    post("/v1/campaigns/{campaign}/stop", { campaign: name }, { recording: state.recording })
+      .then(() => onDone(""), (error: Error) => onDone(error.message));
+  };
+  if (!asking) return <button type="button" disabled={!mayChange.value} onClick={() => (state.recording ? ask(true) : stop())}>Stop</button>;
+  const elapsed = Math.max(0, ...(replicate?.devices.map((one) => one.elapsed_s) ?? []));
+  return (
+    <div class="ask" role="alertdialog" aria-label="Stop the recording?">
+      <span>This ends recording {state.recording}. Replicate {replicate?.replicate ?? state.status?.replicate} is cut after {duration(elapsed)}; replicates before it stay.</span>
+      <button type="button" class="main" onClick={stop}>Stop it</button>
+      <button type="button" onClick={() => ask(false)}>Go on</button>
+    </div>
+  );
+}
+
+function Row({ device, open, onOpen }: { device: LiveDevice; open: boolean; onOpen: () => void }) {
+  const rate = device.elapsed_s > 0 ? Math.round(Number(device.samples) / device.elapsed_s) : 0;
+  return (
+    <tr class={device.warnings.length > 0 || device.disk_trouble ? "doubt" : ""}>
+      <th scope="row"><button type="button" class="title" aria-expanded={open} onClick={onOpen}>{device.device}</button></th>
+      <td>{rate} /s</td>
+      <td>{device.samples}</td>
+      <td class={device.gaps !== "0" ? "alarm" : ""}>{device.gaps}</td>
+      <td class={device.refused !== "0" ? "alarm" : ""}>{device.refused}</td>
+      <td>{duration(device.elapsed_s)}</td>
+      <td>{device.disk_trouble || device.warnings[0]?.sentence || device.outlook}</td>
+    </tr>
+  );
+}
+
+function Devices({ replicate }: { replicate: LiveReplicate }) {
+  const [open, show] = useState("");
+  return (
+    <div class="scroll">
+      <table class="devices">
+        <thead><tr>{["device", "rows", "samples", "gaps", "rejected", "recorded", "state"].map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
+        <tbody>
+          {replicate.devices.map((one) => [
+            <Row key={one.device} device={one} open={open === one.device} onOpen={() => show(open === one.device ? "" : one.device)} />,
+            open === one.device && <tr key={`${one.device} deviation`}><td colSpan={7}><Deviation device={one} /></td></tr>,
+          ])}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function Campaign({ state }: { state: CampaignState }) {
+  const [problem, tell] = useState("");
+  const name = state.campaign?.name ?? "";
+  const replicate = live.value.get(name);
+  const start = (): void => {
+    post("/v1/campaigns/{campaign}/start", { campaign: name }, { once: false }).then(() => tell(""), (error: Error) => tell(error.message));
+  };
+  const phase = state.running ? phases[state.status?.phase ?? ""] ?? "starts" : "stopped";
+  return (
+    <section class="campaign" aria-label={name}>
+      <header>
+        <h2 title={name}>{name}</h2>
+        <span class={`badge ${state.trouble ? "alarm" : state.recording ? "good" : "plain"}`}>{phase}</span>
+        {state.recording && <span class="soft">{state.recording} · replicate {state.status?.replicate} of {state.status?.replicates}</span>}
+        <span class="fill" />
+        {state.left_s !== undefined && <span>{duration(state.left_s)} left</span>}
+        {state.running
+          ? <Stop state={state} replicate={replicate} onDone={tell} />
+          : <button type="button" class="main" disabled={!mayChange.value} onClick={start}>Start</button>}
+      </header>
+      {state.progress !== undefined && <progress max={1} value={state.progress} aria-label={`progress of ${name}`} />}
+      {state.trouble && <p class="alarm" role="alert">{state.trouble}</p>}
+      {state.status?.reason && !state.trouble && <p class="soft">{state.status.reason}</p>}
+      {problem && <Trouble sentence={problem} onClose={() => tell("")} />}
+      {replicate
+        ? <Devices replicate={replicate} />
+        : <p class="soft">{(state.campaign?.devices ?? []).map((one) => one.name).join(", ")}: {state.campaign?.replicates} replicates of {duration(state.campaign?.length_s ?? 0)}.</p>}
+    </section>
+  );
+}
+
+export function Bench() {
+  if (campaigns.value === null) return <Skeleton lines={8} />;
+  if (campaigns.value.size === 0) return <Empty title="The bench is empty" sentence="Start imunoised with a campaign file, such as config/emulated.toml." />;
+  const all = [...campaigns.value.values()];
+  return <div class="bench"><h1 class="visually-hidden">Bench</h1>{all.map((one) => <Campaign key={one.campaign?.name} state={one} />)}</div>;
+}

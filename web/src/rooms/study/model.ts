@@ -1,0 +1,90 @@
+// A model's text and a study's attempts, as the room needs them.
+import type { EffectCandidate, Rung, Study, StudyAttempt } from "../../api/schema";
+
+/** "WN + RW + line(f=7)": its terms. A + within brackets separates nothing. */
+export function split(model: string): string[] {
+  const out: string[] = [];
+  let depth = 0;
+  let term = "";
+  for (const letter of model) {
+    if (letter === "(" || letter === "[") ++depth;
+    if (letter === ")" || letter === "]") --depth;
+    if (letter === "+" && depth === 0) {
+      out.push(term.trim());
+      term = "";
+    } else term += letter;
+  }
+  return [...out, term.trim()].filter(Boolean);
+}
+
+/** A term with its numbers to four digits: "line(f=19.9)". */
+export const brief = (term: string): string =>
+  term.replace(/\d+\.\d+(e[-+]?\d+)?/g, (text) => String(Number(Number(text).toPrecision(4))));
+
+/** The model without one of its terms. "2*AR1" loses one of the two. */
+export function without(model: string, place: number): string {
+  return split(model).flatMap((term, i) => {
+    if (i !== place) return [term];
+    const [, count, name] = /^(\d+)\*(.*)$/.exec(term) ?? [];
+    if (!count || !name) return [];
+    return [Number(count) > 2 ? `${Number(count) - 1}*${name}` : name];
+  }).join(" + ");
+}
+
+export interface Step {
+  readonly index: number;
+  readonly attempt: StudyAttempt;
+}
+
+/** From the first model to the current one. */
+export function path(study: Study): Step[] {
+  const out: Step[] = [];
+  for (let index: number | undefined = study.current; index !== undefined;) {
+    const attempt: StudyAttempt | undefined = study.attempts[index];
+    if (!attempt) break;
+    out.unshift({ index, attempt });
+    index = attempt.parent;
+  }
+  return out;
+}
+
+export const currentRung = (study: Study): Rung | undefined => study.attempts[study.current]?.rung;
+
+export const mayRedo = (study: Study): boolean =>
+  study.attempts.some((one) => one.undone && one.parent === study.current);
+
+/** What a step of the ladder is measured by: 1 is the floor. */
+export const errorOf = (rung: Rung | undefined): number | undefined =>
+  rung?.unexplained ?? rung?.heldout_error ?? rung?.training_error;
+
+export interface VerdictWords {
+  readonly mood: "good" | "alarm" | "doubt" | "plain";
+  readonly sign: string;
+  readonly words: string;
+}
+
+export function verdict(study: Study): VerdictWords {
+  const found = study.diagnosis;
+  const best = found?.candidates[0];
+  const name = best ? withNumber(best) : "";
+  switch (found?.verdict) {
+    case "found": return { mood: "alarm", sign: "✗", words: `something is missing: ${name}` };
+    case "one_of": return { mood: "doubt", sign: "?", words: `something is missing: ${name}, or a rival` };
+    case "unknown": return { mood: "alarm", sign: "✗", words: best ? `something is missing; best guess: ${name}` : "something is missing that no known effect explains" };
+    case "none": return { mood: "good", sign: "✓", words: "nothing is missing that these data could show" };
+    default: return { mood: "plain", sign: "", words: "not yet compared with the known effects" };
+  }
+}
+
+/** "resonance at 19.9 Hz" */
+export function withNumber(candidate: EffectCandidate): string {
+  const frequency = candidate.parameters.find((one) => one.name === "frequency_hz");
+  return frequency ? `${candidate.title} at ${Number(frequency.value.toPrecision(4))} Hz` : candidate.title;
+}
+
+/** How sure a candidate is, by the chance that noise alone looks this good. */
+export function surety(candidate: EffectCandidate): { words: string; mood: "good" | "doubt" | "plain" } {
+  if (candidate.familywise_p >= 0.05) return { words: "may be chance", mood: "plain" };
+  if (candidate.confused_with.length > 0) return { words: "or a rival", mood: "doubt" };
+  return { words: candidate.familywise_p < 1e-3 ? "sure" : "likely", mood: "good" };
+}

@@ -1,0 +1,29 @@
+// The sentence that explains a place of a figure.
+import type { Study } from "../../api/schema";
+import type { Place } from "../../figure/figure";
+import { number } from "../../parts/numbers";
+import type { View } from "./views";
+
+const kinds: Partial<Record<View, readonly string[]>> = {
+  averaging_times: ["scale"],
+  spectrum: ["frequency"],
+  time: ["time"],
+  distribution: ["kurtosis"],
+  witnesses: ["sensors"],
+  replicates: ["replicate"],
+};
+
+const units: Partial<Record<View, string>> = { averaging_times: "s", spectrum: "Hz", distribution: "s" };
+
+/** Under the cursor the failure there, else how the point deviates; without a cursor the worst of the view. */
+export function placeSentence(study: Study, view: View, at: Place | null, variance: boolean): string {
+  const here = (study.diagnosis?.misfits ?? []).filter((one) => kinds[view]?.includes(one.kind))
+    .sort((one, other) => Math.abs(other.sigma) - Math.abs(one.sigma));
+  if (!at) return here[0]?.sentence ?? "";
+  // Allan deviations stand at half of the averaging time of a wavelet.
+  const x = view === "averaging_times" && !variance ? 2 * at.x : at.x;
+  const failure = here.find((one) => one.from !== undefined && one.to !== undefined && one.from <= x * 1.001 && x <= one.to * 1.001);
+  if (failure) return failure.sentence;
+  const deviation = at.sigma === undefined ? "" : `, ${number(at.sigma, 2)} standard deviations from the model`;
+  return `At ${number(at.x)} ${units[view] ?? ""}: ${number(at.y)}${deviation}.`;
+}

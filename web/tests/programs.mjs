@@ -1,0 +1,87 @@
+// The programs and the browser that the tests use. What a test starts ends with it.
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const imunoise = process.env.IMUNOISE;
+const screenshots = fileURLToPath(new URL("screenshots/", import.meta.url));
+const axe = readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
+mkdirSync(screenshots, { recursive: true });
+
+export function folder(test) {
+  const path = mkdtempSync(join(tmpdir(), "imunoise_page_"));
+  test.after(() => rmSync(path, { recursive: true, force: true }));
+  return path;
+}
+
+export const simulate = (where, ...options) => execFileSync(imunoise, ["simulate", ...options], { cwd: where });
+
+// Resolves with the first match in what a program prints.
+function started(test, program, words, pattern, cwd) {
+  const child = spawn(program, words, { cwd });
+  test.after(() => child.kill("SIGTERM"));
+  return new Promise((go, fail) => {
+    let text = "";
+    const hear = (bytes) => {
+      text += bytes;
+      const found = pattern.exec(text);
+      if (found) go({ child, found: found[0] });
+    };
+    child.stdout.on("data", hear);
+    child.stderr.on("data", hear);
+    child.on("exit", () => fail(new Error(`${program} ended: ${text}`)));
+  });
+}
+
+/** `imunoise open`: the address that it prints, and the process. */
+export async function open(test, where, ...words) {
+  const { child, found } = await started(test, imunoise, ["open", "--no-browser", "--studies", join(where, "studies"), ...words], /http:\S+/, where);
+  return { child, url: found };
+}
+
+export const operator = "o".repeat(32);
+export const viewer = "v".repeat(32);
+
+/** `imunoised` with emulated sensors. */
+export async function serve(test, where, campaign, port) {
+  writeFileSync(join(where, "array.toml"), campaign);
+  writeFileSync(join(where, "tokens"), `operator ${operator}\nviewer ${viewer}\n`, { mode: 0o600 });
+  const words = ["--listen", `127.0.0.1:${port}`, "--tokens", "tokens", "--studies", "studies", "array.toml"];
+  const { child } = await started(test, join(dirname(imunoise), "imunoised"), words, /answers on 127.0.0.1\S+ port \d+/, where);
+  return { child, url: `http://127.0.0.1:${port}/` };
+}
+
+/** A page that fails the test when its scripts do. */
+export async function browse(test, viewport = { width: 1366, height: 768 }) {
+  const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+  test.after(() => browser.close());
+  const page = await (await browser.newContext({ viewport })).newPage();
+  const problems = [];
+  page.on("pageerror", (error) => problems.push(error.message));
+  page.on("console", (message) => { if (/Content.Security.Policy/.test(message.text())) problems.push(message.text()); });
+  return { page, problems };
+}
+
+/** In light and in dark. */
+export async function picture(page, name) {
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    await page.screenshot({ path: `${screenshots}${name}_${colorScheme}.png` });
+  }
+}
+
+/** What axe finds wrong, a line each. The script runs beside the page's policy, not by it. */
+export async function violations(page) {
+  const client = await page.context().newCDPSession(page);
+  await client.send("Runtime.evaluate", { expression: axe });
+  const { result } = await client.send("Runtime.evaluate", {
+    expression: "axe.run().then((found) => JSON.stringify(found.violations.map((one) => one.id + ': ' + one.nodes.map((node) => node.html.slice(0, 120) + ' ' + (node.any[0]?.message ?? '')).join('; '))))",
+    awaitPromise: true,
+    returnByValue: true,
+  });
+  await client.detach();
+  return JSON.parse(result.value);
+}
