@@ -55,7 +55,7 @@ TEST(Integrity, PrintedDecimalsAreNoDefect) {
     for (std::size_t t = 0; t < kMany; ++t) {
       state = phi * state + std::sqrt(1.0 - phi * phi) * rng.normal();
       printed[t] = kPrinted * std::round(state / kPrinted);
-      repeats += t > 0 && printed[t] == printed[t - 1] ? 1 : 0;
+      repeats += t > 0 && printed[t] == printed[t - 1] ? 1U : 0U;
     }
     EXPECT_GE(repeats, 2U) << phi;
     EXPECT_EQ(effects(printed), Names{}) << "phi " << phi << ", " << repeats << " repeats";
