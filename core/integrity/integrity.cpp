@@ -28,6 +28,8 @@ constexpr std::size_t kMany = 100'000;  // distinct values: no grid worth the na
 constexpr std::size_t kNearest = 16;
 constexpr std::size_t kFurthest = 31;
 
+constexpr double kMostAlike = 0.9;  // chance of a repeat that is believed at most
+
 constexpr std::size_t kPile = 5;  // samples at an end of the range that are no chance
 
 // Differences of neighbours, and samples at the extremes, which values without a grid have as well.
@@ -170,12 +172,14 @@ double chance_of_repeat(const Signal& signal, const std::vector<StuckRun>& runs,
   if (equal == 0 || near_pairs == 0 || !(near > 0.0)) return 0.0;
   const double nearer =
       std::sqrt(far / static_cast<double>(far_pairs) / (near / static_cast<double>(near_pairs)));
-  return std::min(0.9, nearer * static_cast<double>(equal) / static_cast<double>(far_pairs));
+  return std::min(kMostAlike, nearer * static_cast<double>(equal) / static_cast<double>(far_pairs));
 }
 
-// Leaves the runs that noise of these codes never makes.
-void drop_likely(const Signal& signal, std::vector<StuckRun>& runs) {
-  const double same = chance_of_repeat(signal, runs, {});
+// Leaves the runs that noise of these codes never makes. Where the noise is smaller than the step,
+// long runs are most of the samples, and tell nothing of the others.
+void drop_likely(const Signal& signal, const Codes& codes, std::vector<StuckRun>& runs) {
+  if (runs.empty()) return;
+  const double same = is_coarse(codes) ? kMostAlike : chance_of_repeat(signal, runs, {});
   std::erase_if(runs, [&](const StuckRun& run) {
     return !never_so_long(run.count, static_cast<double>(signal.size()), same);
   });
@@ -234,7 +238,7 @@ std::vector<StuckRun> stuck_runs(const Signal& signal) {
   const Codes codes = codes_of(signal);
   // Where the noise is smaller than the step, to stand still is what it does.
   if (codes.distinct > 1 && is_coarse(codes)) return {};
-  drop_likely(signal, out);
+  drop_likely(signal, codes, out);
   return out;
 }
 
@@ -244,7 +248,7 @@ std::vector<Defect> integrity(const Signal& signal) {
   const Codes codes = codes_of(signal);
   if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0, 1, {}}};
   std::vector<StuckRun> stuck = long_runs(signal);
-  if (!stuck.empty()) drop_likely(signal, stuck);
+  drop_likely(signal, codes, stuck);
   if (!stuck.empty()) {
     std::size_t count = 0;
     for (const StuckRun& run : stuck) count += run.count;
