@@ -270,6 +270,16 @@ bool as_slow_as_heat(const Process& process, Hertz rate) {
   });
 }
 
+// Structures that are bolted or glued lose at least this part of their critical damping. A line as
+// narrow as a resonance below it may be a machine that starts and stops: its spectrum is the same.
+bool rings_too_long(const Process& process) {
+  constexpr double kLightest = 0.005;
+  const std::vector<DerivedQuantity> all = derived(process, Hertz{1.0});
+  return std::any_of(all.begin(), all.end(), [](const DerivedQuantity& one) {
+    return one.coefficient == Coefficient::kDampingRatio && one.value < kLightest;
+  });
+}
+
 // What a Markov process may be in truth.
 void name_markov(TriedTerm& tried) {
   const FittedModel& fitted = tried.fitted;
@@ -351,6 +361,12 @@ std::vector<Cause> noise_causes() {
        "resonance",
        false,
        true},
+      {"switched_line",
+       "vibration that switches on and off",
+       "A machine on the same bench starts and stops; while it runs, it vibrates at one frequency.",
+       "the same with machines off, one after the other, or the spectrum of short stretches",
+       {"resonance", "line"},
+       "switched_line"},
   };
 }
 
@@ -364,6 +380,9 @@ void review_noise(const Current& current, TriedTerm& tried) {
       return as_slow_as_heat(term.process, current.subject().rate);
     });
   }
+  if (tried.cause == "resonance" &&
+      rings_too_long(tried.fitted.fit.model.noise.terms.back().process))
+    tried.could_be.push_back("switched_line");
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
   tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
 }

@@ -167,4 +167,30 @@ Shape waves(double frequency, int harmonics) {
           }};
 }
 
+Shape half_waves(Index length, int count, Index after) {
+  const auto omega = [=](Index k) {
+    return std::numbers::pi * static_cast<double>(k + 1) / static_cast<double>(length);
+  };
+  // cos(ωt + φ) = cos φ cos ωt - sin φ sin ωt
+  const auto turned = [=](Index k) -> Eigen::Vector2d {
+    const double phase = omega(k) * (static_cast<double>(after) + 0.5);
+    return {std::cos(phase), -std::sin(phase)};
+  };
+  return {[=](const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
+            for (Index k = 0; k < count; ++k) {
+              const Eigen::Vector2d parts = coefficients(k) * turned(k);
+              add_wave(omega(k), parts.x(), parts.y(), to);
+            }
+          },
+          [=](Index n) {
+            Eigen::MatrixXd out(n - 1, count);
+            Eigen::MatrixXd pair(n - 1, 2);
+            for (Index k = 0; k < count; ++k) {
+              wave_cosines(n, omega(k), pair);
+              out.col(k) = pair * turned(k);
+            }
+            return out;
+          }};
+}
+
 }  // namespace imunoise

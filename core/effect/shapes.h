@@ -23,4 +23,7 @@ Shape step(Eigen::Index at);
 /// The cosine and sine of each multiple of a frequency in cycles per sample, side by side.
 Shape waves(double frequency, int harmonics);
 
+/// cos(πk(t + after + ½)/length) for k = 1 … count, a column each; `after` and `length` in samples.
+Shape half_waves(Eigen::Index length, int count, Eigen::Index after);
+
 }  // namespace imunoise

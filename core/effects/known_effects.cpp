@@ -11,6 +11,7 @@
   EFFECT(line)                   \
   EFFECT(wander)                 \
   EFFECT(step)                   \
+  EFFECT(common_course)          \
   EFFECT(witness)                \
   EFFECT(two_lags)               \
   EFFECT(modulated)              \

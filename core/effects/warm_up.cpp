@@ -44,10 +44,12 @@ void simulate_warm_up(const EffectTerm& term, const SimulatedReplicate& at,
 
 Suggestions search_warm_up(const SearchView& view) {
   const Subject& subject = view.subject();
-  // From a few blocks to half a replicate; longer is a ramp.
+  // From a few blocks to half a replicate; longer is a ramp. The package of a sensor on its board,
+  // some 0.02 J/K behind 50 K/W, warms no faster than in a second.
+  constexpr double kFastestPackage = 1.0;  // s
   const double longest = 0.5 * subject.seconds(view.current().longest());
-  const double shortest =
-      std::max(4.0 * view.slow().longest_block_seconds(), 16.0 / subject.rate.value);
+  const double shortest = std::max(
+      {kFastestPackage, 4.0 * view.slow().longest_block_seconds(), 16.0 / subject.rate.value});
   Suggestions out;
   if (shortest >= longest) return out;
   for (const bool own : {false, true}) {

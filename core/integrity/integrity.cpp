@@ -1,8 +1,8 @@
 #include "core/integrity/integrity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 namespace imunoise {
@@ -18,9 +18,17 @@ struct Codes {
   std::size_t highest = 0;        // at the largest
   std::size_t below_highest = 0;  // at the value next to it
   std::size_t above_lowest = 0;
+  std::size_t missing = 0;  // codes that never occur between two that often do
+  double missed = 0.0;      // samples that these would have
 };
 
 constexpr std::size_t kMany = 100'000;  // distinct values: no grid worth the name
+
+// Samples so far apart are compared to see how often codes meet by chance: no packet is so long.
+constexpr std::size_t kNearest = 16;
+constexpr std::size_t kFurthest = 31;
+
+constexpr double kMostAlike = 0.9;  // chance of a repeat that is believed at most
 
 constexpr std::size_t kPile = 5;  // samples at an end of the range that are no chance
 
@@ -68,6 +76,24 @@ std::vector<Occurrence> occurrences(const Signal& signal) {
   return out;
 }
 
+// Below half a step of noise, rounding is no longer white noise of step²/12.
+bool is_coarse(const Codes& codes) { return codes.step > 0.0 && codes.spread < 0.7 * codes.step; }
+
+// Codes that a converter never gives. The density of noise that is wider than a step is concave in
+// its logarithm from one code to the next: a code has at least the geometric mean of its
+// neighbours' samples, and none at all of so many once in 10^10.
+void add_missing_codes(const std::vector<Occurrence>& all, Codes& to) {
+  constexpr double kFewest = 25.0;  // samples
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const double gap = (all[i].value - all[i - 1].value) / to.step;
+    const double expected =
+        std::sqrt(static_cast<double>(all[i].count) * static_cast<double>(all[i - 1].count));
+    if (std::lround(gap) != 2 || expected < kFewest) continue;
+    ++to.missing;
+    to.missed += expected;
+  }
+}
+
 Codes codes_of(const Signal& signal) {
   Codes out = codes_without_grid(signal);
   // Where next to nothing occurs twice, a grid would tell nothing.
@@ -81,16 +107,9 @@ Codes codes_of(const Signal& signal) {
     out.step = std::min(out.step, all[i].value - all[i - 1].value);
   out.above_lowest = all[1].count;
   out.below_highest = all[all.size() - 2].count;
+  if (!is_coarse(out)) add_missing_codes(all, out);
   return out;
 }
-
-// Chance that a sample of normal noise falls on the code of the one before.
-double same_code(const Codes& codes) {
-  return std::min(0.9, codes.step / (codes.spread * std::sqrt(2.0 * std::numbers::pi)));
-}
-
-// Below half a step of noise, rounding is no longer white noise of step²/12.
-bool is_coarse(const Codes& codes) { return codes.step > 0.0 && codes.spread < 0.7 * codes.step; }
 
 constexpr std::size_t kFewestStuck = 8;  // samples
 
@@ -114,12 +133,55 @@ std::vector<StuckRun> long_runs(const Signal& signal) {
   return out;
 }
 
-// Leaves the runs that noise of this step and size never makes.
-void drop_likely(std::vector<StuckRun>& runs, const Codes& codes, std::size_t samples) {
-  if (codes.distinct < 2) return;
-  const double same = same_code(codes);
+// Chance that a sound sample equals the one before it: samples that lie some apart are no
+// duplicates, and share their codes as often, whatever the step, the decimals that were printed and
+// the codes that are missing. Where noise is correlated neighbours lie nearer to each other: the
+// density of their difference at zero is larger as its deviation is smaller. Left out are long runs
+// of one value, and the values at the ends of the range that samples were cut to.
+double chance_of_repeat(const Signal& signal, const std::vector<StuckRun>& runs,
+                        const std::vector<double>& ends) {
+  std::array<double, kFurthest + 1> recent;
+  recent.fill(NAN);
+  double near = 0.0;
+  double far = 0.0;
+  std::size_t near_pairs = 0;
+  std::size_t far_pairs = 0;
+  std::size_t equal = 0;
+  auto run = runs.begin();
+  for (std::size_t t = 0; t < signal.size(); ++t) {
+    while (run != runs.end() && t >= run->first + run->count) ++run;
+    const double value = signal.value(t);
+    const bool left_out = (run != runs.end() && t >= run->first) ||
+                          std::find(ends.begin(), ends.end(), value) != ends.end();
+    const auto before = [&](std::size_t lag) {
+      return recent[(t + recent.size() - lag) % recent.size()];
+    };
+    if (!left_out && !std::isnan(before(1))) {
+      near += (value - before(1)) * (value - before(1));
+      ++near_pairs;
+    }
+    for (std::size_t lag = kNearest; !left_out && lag <= kFurthest; ++lag) {
+      const double difference = value - before(lag);
+      if (std::isnan(difference)) continue;
+      far += difference * difference;
+      ++far_pairs;
+      equal += difference == 0.0 ? 1 : 0;
+    }
+    recent[t % recent.size()] = left_out ? NAN : value;
+  }
+  if (equal == 0 || near_pairs == 0 || !(near > 0.0)) return 0.0;
+  const double nearer =
+      std::sqrt(far / static_cast<double>(far_pairs) / (near / static_cast<double>(near_pairs)));
+  return std::min(kMostAlike, nearer * static_cast<double>(equal) / static_cast<double>(far_pairs));
+}
+
+// Leaves the runs that noise of these codes never makes. Where the noise is smaller than the step,
+// long runs are most of the samples, and tell nothing of the others.
+void drop_likely(const Signal& signal, const Codes& codes, std::vector<StuckRun>& runs) {
+  if (runs.empty()) return;
+  const double same = is_coarse(codes) ? kMostAlike : chance_of_repeat(signal, runs, {});
   std::erase_if(runs, [&](const StuckRun& run) {
-    return !never_so_long(run.count, static_cast<double>(samples), same);
+    return !never_so_long(run.count, static_cast<double>(signal.size()), same);
   });
 }
 
@@ -147,6 +209,27 @@ std::vector<WrongSample> cut_off(const Signal& signal, int beyond) {
   return out;
 }
 
+// `repeats`: those that lie neither in a stuck run nor at an end of the range.
+void add_duplicates(const Signal& signal, const std::vector<StuckRun>& stuck,
+                    const std::vector<double>& ends, std::vector<WrongSample> repeats,
+                    std::vector<Defect>& out) {
+  constexpr double kSurely = 6.0;     // standard deviations
+  constexpr double kFewSound = 0.05;  // of those that repeat
+  constexpr double kLags = kFurthest - kNearest + 1;
+  if (repeats.size() < 2) return;
+  const auto repeated = static_cast<double>(repeats.size());
+  const double expected =
+      static_cast<double>(signal.size()) * chance_of_repeat(signal, stuck, ends);
+  const double deviation = std::sqrt(expected * (1.0 + 1.0 / kLags));
+  const double excess = repeated - expected;
+  // The chance is an approximation: what is within a fifth of it is not called a defect.
+  if (!(excess > kSurely * deviation + 1.0 && excess > 0.2 * expected)) return;
+  const std::size_t count = repeats.size();
+  const std::size_t first = repeats.front().at;
+  if (!(expected < kFewSound * repeated)) repeats.clear();
+  out.push_back({"duplicated_samples", count, expected, first, 1, std::move(repeats)});
+}
+
 }  // namespace
 
 std::vector<StuckRun> stuck_runs(const Signal& signal) {
@@ -155,7 +238,7 @@ std::vector<StuckRun> stuck_runs(const Signal& signal) {
   const Codes codes = codes_of(signal);
   // Where the noise is smaller than the step, to stand still is what it does.
   if (codes.distinct > 1 && is_coarse(codes)) return {};
-  drop_likely(out, codes, signal.size());
+  drop_likely(signal, codes, out);
   return out;
 }
 
@@ -165,7 +248,7 @@ std::vector<Defect> integrity(const Signal& signal) {
   const Codes codes = codes_of(signal);
   if (codes.distinct < 2) return {{"stuck", signal.size(), 0.0, 0, 1, {}}};
   std::vector<StuckRun> stuck = long_runs(signal);
-  drop_likely(stuck, codes, signal.size());
+  drop_likely(signal, codes, stuck);
   if (!stuck.empty()) {
     std::size_t count = 0;
     for (const StuckRun& run : stuck) count += run.count;
@@ -176,29 +259,22 @@ std::vector<Defect> integrity(const Signal& signal) {
     return at_end >= kPile && at_end > 3 * next_to_it;
   };
   std::vector<WrongSample> repeats = repeats_of(signal, stuck);
+  std::vector<double> ends;
   const auto saturated = [&](int beyond, std::size_t at_end, std::size_t next_to_it) {
     if (!piled(at_end, next_to_it)) return;
     std::vector<WrongSample> there = cut_off(signal, beyond);
     // There every sample repeats the one before: that is no defect of its own.
-    const double end = signal.value(there.front().at);
-    std::erase_if(repeats, [&](const WrongSample& one) { return signal.value(one.at) == end; });
+    ends.push_back(signal.value(there.front().at));
+    std::erase_if(repeats,
+                  [&](const WrongSample& one) { return signal.value(one.at) == ends.back(); });
     out.push_back({"saturation", at_end, static_cast<double>(next_to_it), there.front().at, 1,
                    std::move(there)});
   };
   saturated(1, codes.highest, codes.below_highest);
   saturated(-1, codes.lowest, codes.above_lowest);
-  constexpr double kSurely = 6.0;     // standard deviations
-  constexpr double kFewSound = 0.05;  // of those that repeat
-  const auto repeated = static_cast<double>(repeats.size());
-  const double expected = static_cast<double>(signal.size()) * same_code(codes);
-  const double excess = repeated - expected;
-  // The chance is an approximation: what is within a fifth of it is not called a defect.
-  if (excess > kSurely * std::sqrt(expected) + 1.0 && excess > 0.2 * expected) {
-    const std::size_t count = repeats.size();
-    const std::size_t first = repeats.front().at;
-    if (!(expected < kFewSound * repeated)) repeats.clear();
-    out.push_back({"duplicated_samples", count, expected, first, 1, std::move(repeats)});
-  }
+  add_duplicates(signal, stuck, ends, std::move(repeats), out);
+  if (codes.missing > 0)
+    out.push_back({"missing_codes", codes.missing, codes.missed, 0, codes.missing, {}});
   if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0, 1, {}});
   return out;
 }

@@ -38,6 +38,7 @@ const std::vector<Example>& examples() {
       {"ramp(slope=1e-3)"},
       {"ramp(own, slope=1e-3)", 1.9},  // of three replicates: 4.5/√6
       {"warm_up(tau=100, amplitude=1)"},
+      {"common_course(terms=5, amplitude=0.3)"},
       {"line(f=0.7, amplitude=0.3)"},
       {"line(f=0.7, harmonics=2, amplitude=0.3, phase=1)"},
       {"step(replicate=2, t=400, height=0.5)"},

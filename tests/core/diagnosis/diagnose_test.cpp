@@ -53,6 +53,29 @@ TEST(Diagnose, AWave) {
   EXPECT_LT(std::abs(term["f"] - 7.123), 4.0 * error);
 }
 
+// Its spectrum is that of a resonance that hardly any structure can have.
+TEST(Diagnose, ANarrowResonanceMayBeAMachineThatStartsAndStops) {
+  const auto gated = [](std::size_t k, double s) {
+    return std::fmod(s + 7.0 * static_cast<double>(k), 31.0) < 14.0 ? 0.3 * wave(7.123, s) : 0.0;
+  };
+  const Diagnosis diagnosis = of({.seed = 17, .added = gated});
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const RankedTerm& first = diagnosis.effects[0];
+  const bool told = std::find(first.confused_with.begin(), first.confused_with.end(),
+                              "switched_line") != first.confused_with.end();
+  EXPECT_TRUE(first.tried.cause == "line" || told) << first.tried.cause;
+  EXPECT_NE(diagnosis.verdict, DiagnosisVerdict::kNone);
+}
+
+// Of one form in all replicates, and of none that the catalogue has.
+TEST(Diagnose, ASmoothCourseThatComesBackIsCommon) {
+  const auto course = [](std::size_t, double s) {
+    return 0.4 * (wave(0.011, s + 5.0) + 0.7 * wave(0.019, s));
+  };
+  const Diagnosis diagnosis = of({.seed = 18, .added = course, .temperature = temperature});
+  expect_found(diagnosis, "common_course");
+}
+
 TEST(Diagnose, ATemperatureBehindALag) {
   // temperature() through a lag of 5 s.
   const auto behind = [](std::size_t k, double s) {

@@ -140,6 +140,7 @@ const std::vector<std::string>& simulated_terms() {
   static const std::vector<std::string> kTerms{
       "ramp(slope=0.01)",
       "warm_up(tau=20, amplitude=3)",
+      "common_course(terms=6, amplitude=1)",
       "line(f=7.3, amplitude=0.3)",
       "wander(from=7.1, to=7.4, amplitude=0.4)",
       "step(replicate=2, t=90, height=0.8)",

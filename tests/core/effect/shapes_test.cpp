@@ -32,6 +32,8 @@ TEST(Shapes, ClosedFormsAreTheTransforms) {
       expect_its_transform(step(at), n);
     for (const double frequency : {1e-4, 0.0123, 0.125, 0.24999})
       expect_its_transform(waves(frequency, 2), n);
+    expect_its_transform(half_waves(n, 3, 0), n);
+    expect_its_transform(half_waves(n + 40, 3, 7), n);
   }
 }
 

@@ -41,6 +41,40 @@ TEST(Integrity, SoundSamplesAreLeftAlone) {
   EXPECT_EQ(effects(noise(0.5)), Names{});
 }
 
+// With six decimals some samples of many repeat the one before, whatever the noise: of white noise
+// n·step/(2√π), 5.1 here; of noise whose neighbours are alike more. Too many values occur to count
+// each.
+TEST(Integrity, PrintedDecimalsAreNoDefect) {
+  constexpr std::size_t kMany = 600'000;
+  constexpr double kPrinted = 3e-5;
+  for (const double phi : {0.0, 0.95, 0.999}) {
+    RandomStream rng(7);
+    std::vector<double> printed(kMany);
+    double state = 0.0;
+    std::size_t repeats = 0;
+    for (std::size_t t = 0; t < kMany; ++t) {
+      state = phi * state + std::sqrt(1.0 - phi * phi) * rng.normal();
+      printed[t] = kPrinted * std::round(state / kPrinted);
+      repeats += t > 0 && printed[t] == printed[t - 1] ? 1U : 0U;
+    }
+    EXPECT_GE(repeats, 2U) << phi;
+    EXPECT_EQ(effects(printed), Names{}) << "phi " << phi << ", " << repeats << " repeats";
+  }
+}
+
+TEST(Integrity, CodesThatNeverOccurAreMissingAndNoDuplicates) {
+  constexpr double kStep = 0.2;
+  std::vector<double> codes = noise(kStep);
+  for (double& one : codes) {
+    const double code = std::round(one / kStep);
+    if (code == -3.0 || code == 1.0 || code == 4.0) one = kStep * (code + 1.0);
+  }
+  const auto found = integrity(Signal(std::span<const double>(codes), Hertz{100.0}));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].effect, "missing_codes");
+  EXPECT_EQ(found[0].count, 3U);
+}
+
 TEST(Integrity, EachDefectIsNamed) {
   std::vector<double> repeated = noise(0.01);
   for (std::size_t t = 101; t < kSamples; t += 100) repeated[t] = repeated[t - 1];
