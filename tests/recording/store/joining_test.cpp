@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "recording/store/manifest/manifest.h"
 #include "recording/store/recorder/recorder.h"
 #include "recording/store/verify/verify.h"
 #include "tests/recording/store/fake_disk.h"
@@ -110,6 +111,29 @@ TEST(Joining, FailsWithTheDiskAndMayBeTriedAgain) {
       ASSERT_TRUE((*recorder)->push(*added, imu_block(0, 10)));
       ASSERT_TRUE((*recorder)->close());
       EXPECT_EQ((*recorder)->state().counts[*added][0].stored, 10U);
+      EXPECT_TRUE(verify_recording(disk, kRecording, false)->sound());
+    }
+  }
+}
+
+TEST(Joining, ThatFailedLeavesNoDeviceInTheManifest) {
+  for (const FakeDisk::Call kind :
+       {FakeDisk::Call::kCreate, FakeDisk::Call::kSync, FakeDisk::Call::kRename}) {
+    for (const int nth : {1, 2}) {  // the recording's manifest, the replicate's
+      SCOPED_TRACE(std::to_string(static_cast<int>(kind)) + ", call " + std::to_string(nth));
+      FakeDisk disk;
+      const RecordingPlan plan{"bench", 1, kStart, {test_device("imu0")}};
+      const auto recorder = Recorder::start(disk, kRecording, plan, a_chunk_each_block());
+      ASSERT_TRUE(recorder) << recorder.error().message;
+      disk.fail_once(kind, nth);
+      ASSERT_FALSE((*recorder)->add(test_device("imu1")));
+      ASSERT_TRUE((*recorder)->push(0, imu_block(0, 10)));
+      const auto closed = (*recorder)->close();
+      ASSERT_TRUE(closed) << closed.error().message;
+      const auto manifest = read_manifest(disk, kRecording);
+      ASSERT_TRUE(manifest && *manifest);
+      ASSERT_EQ((*manifest)->devices_size(), 1);
+      EXPECT_EQ((*manifest)->devices(0).name(), "imu0");
       EXPECT_TRUE(verify_recording(disk, kRecording, false)->sound());
     }
   }
