@@ -3,14 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/wavelet/wavelet_variance.h"
-
 namespace imunoise {
 namespace {
 
 constexpr Eigen::Index kMostJoint = 1200;
 
 }  // namespace
+
+WaveletVariance own_variance(const WaveletCovariance& measured, Eigen::Index sensor) {
+  WaveletVariance out;
+  out.scales = measured.scales;
+  out.variance = measured.of(sensor, sensor);
+  out.samples = measured.samples;
+  out.rate = measured.rate;
+  out.quantity = measured.quantity;
+  set_chi_square_interval(out);
+  return out;
+}
 
 std::vector<ReplicateGroup> groups_of(std::span<const WaveletCovariance> replicates) {
   std::vector<ReplicateGroup> out;

@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "core/array/array_moments.h"
+#include "core/wavelet/wavelet_covariance.h"
+#include "core/wavelet/wavelet_variance.h"
 
 namespace imunoise {
+
+/// The wavelet variance of one sensor of an array.
+WaveletVariance own_variance(const WaveletCovariance& measured, Eigen::Index sensor);
 
 /// Replicates of one length, and the average of their cross-covariances.
 struct ReplicateGroup {

@@ -68,9 +68,11 @@ ArrayModel model_of(const ArrayModel& open, const Minimum& found) {
   return out;
 }
 
-bool gives_weights(const ArrayModel& model, const Scales& scales) {
-  for (const Eigen::MatrixXd& at : covariance(model, scales)) {
-    if (!(at.diagonal().array() > 0.0).all()) return false;
+bool gives_weights(const ArrayModel& model, const std::vector<ReplicateGroup>& groups) {
+  for (const ReplicateGroup& group : groups) {
+    for (const Eigen::MatrixXd& at : covariance(model, group.scales)) {
+      if (!(at.diagonal().array() > 0.0).all()) return false;
+    }
   }
   return true;
 }
@@ -96,7 +98,7 @@ ArrayFit fit_array(const Model& written, const ArrayLayout& layout,
   Minimum found = minimise_from(problem_of(open, blocks, roots), starts, progress);
   for (int round = 0; round < kReweightings && options.weighting == Weighting::kFull; ++round) {
     const ArrayModel model = model_of(open, found);
-    if (progress.stopped() || !gives_weights(model, groups.front().scales)) break;
+    if (progress.stopped() || !gives_weights(model, groups)) break;
     const BlockCovariance covariance(model, blocks);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       roots[b] = whiten(covariance(model, blocks[b])).matrix;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/array/array_blocks.h"
 #include "core/estimate/estimators.h"
 #include "core/process/parameter_scale.h"
 
@@ -32,17 +33,6 @@ std::vector<Order> orders(const Model& written) {
     }
     if (good) out.push_back(order);
   } while (written.terms.size() <= 8 && std::next_permutation(order.begin(), order.end()));
-  return out;
-}
-
-WaveletVariance own_variance(const WaveletCovariance& measured, Eigen::Index sensor) {
-  WaveletVariance out;
-  out.scales = measured.scales;
-  out.variance = measured.of(sensor, sensor);
-  out.samples = measured.samples;
-  out.rate = measured.rate;
-  out.quantity = measured.quantity;
-  set_chi_square_interval(out);
   return out;
 }
 

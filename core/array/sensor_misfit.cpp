@@ -1,6 +1,6 @@
 #include "core/array/sensor_misfit.h"
 
-#include "core/wavelet/wavelet_variance.h"
+#include "core/array/array_blocks.h"
 
 namespace imunoise {
 namespace {
@@ -18,17 +18,6 @@ Model noise_of(const ArrayModel& model, Eigen::Index sensor) {
   return sorted(std::move(out));
 }
 
-WaveletVariance variance_of(const WaveletCovariance& replicate, Eigen::Index sensor) {
-  WaveletVariance out;
-  out.scales = replicate.scales;
-  out.variance = replicate.of(sensor, sensor);
-  out.samples = replicate.samples;
-  out.rate = replicate.rate;
-  out.quantity = replicate.quantity;
-  set_chi_square_interval(out);
-  return out;
-}
-
 }  // namespace
 
 std::vector<TestOutcome> sensor_misfits(const ArrayModel& model,
@@ -37,7 +26,7 @@ std::vector<TestOutcome> sensor_misfits(const ArrayModel& model,
   for (Eigen::Index i = 0; i < model.sensors; ++i) {
     const Model noise = noise_of(model, i);
     std::vector<WaveletVariance> own;
-    for (const WaveletCovariance& one : replicates) own.push_back(variance_of(one, i));
+    for (const WaveletCovariance& one : replicates) own.push_back(own_variance(one, i));
     const auto scores = normal_scores(noise, own, moment_covariances(noise, own));
     out.push_back(goodness_of_fit(ScoreBlocks(noise, own, scores)));
   }

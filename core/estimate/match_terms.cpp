@@ -12,7 +12,8 @@ constexpr std::size_t kMostMatched = 6;
 using TermPlaces = std::vector<std::size_t>;
 
 bool of_one_kind(const Term& a, const Term& b) {
-  return a.process.index() == b.process.index() && a.given == b.given && a.sharing == b.sharing;
+  return a.process.index() == b.process.index() && a.given == b.given && a.sharing == b.sharing &&
+         structure(a.process) == structure(b.process);
 }
 
 // The places of each kind of term that is there more than once.

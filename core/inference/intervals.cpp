@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/process/parameter_scale.h"
 #include "core/support/distributions.h"
+#include "core/support/roots.h"
 
 namespace imunoise {
 namespace {
@@ -27,6 +29,19 @@ double find(const std::vector<DerivedQuantity>& all, Coefficient coefficient, do
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const auto& q) { return q.coefficient == coefficient; });
   return found == all.end() ? otherwise : found->value;
+}
+
+// A power is called seen only where its estimate is above z standard errors, and such estimates are
+// too large in the mean. By what factor the lower end of an interval falls when that is counted:
+// the smallest mean under which an estimate that passes is `ratio` or more with half the
+// probability left outside (Weinstein, Fithian & Benjamini 2013, J. Am. Stat. Assoc. 108:165), over
+// the one without selection. `ratio`: the estimate in standard errors, above z.
+double selection_factor(double ratio, double z) {
+  const auto tail = [](double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); };
+  const double outside = tail(z);
+  const auto excess = [&](double mean) { return tail(ratio - mean) - outside * tail(z - mean); };
+  if (excess(0.0) >= 0.0) return 0.0;
+  return std::min(1.0, root_between(excess, 0.0, ratio) / (ratio - z));
 }
 
 }  // namespace
@@ -103,6 +118,7 @@ ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double 
   const double centre = scale.to_scale(value);
   out.lower = scale.to_value(centre - reach);
   out.upper = scale.to_value(centre + reach);
+  if (index == 0 && standard_error > 0.0) out.lower *= selection_factor(value / standard_error, z);
   if (!scale.logarithmic() && reach > 8.0) {
     out.observability = Observability::kIndistinguishable;  // spans almost all there is
   }

@@ -8,7 +8,7 @@
 namespace imunoise {
 
 /// Confidence interval of parameter `index` of a process from its standard error, on the scale that
-/// suits it.
+/// suits it. The lower end of a power that is barely seen counts that it was seen.
 ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
                            double standard_error, double confidence);
 

@@ -47,6 +47,8 @@ TEST(HiddenEffects, ARoundedAngle) { expect_named("quantisation/angle", 16.0); }
 
 TEST(HiddenEffects, TemperatureThatIsNotInTheFile) {
   const Outcome outcome = of({"temperature/static"}, 24.0, true);
+  ASSERT_EQ(outcome.error, "");
+  EXPECT_TRUE(outcome.detected()) << outcome.describe();
   EXPECT_FALSE(outcome.confidently_wrong()) << outcome.describe();
 }
 

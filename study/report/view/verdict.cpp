@@ -121,7 +121,9 @@ bool only_bounded(const v1::Parameter& parameter) {
 std::string observability_words(const v1::Parameter& parameter) {
   switch (parameter.observability()) {
     case v1::observed:
-      return "seen in the data";
+      return parameter.value() > 0.0 && parameter.lower() == 0.0
+                 ? "barely seen: its interval reaches zero"
+                 : "seen in the data";
     case v1::given:
       return "given by the user";
     case v1::indistinguishable:

@@ -8,6 +8,7 @@
 
 #include "core/array/array_estimate.h"
 #include "core/array/dependence.h"
+#include "core/array/sensor_misfit.h"
 #include "core/array/virtual_sensor.h"
 #include "core/support/parallel.h"
 #include "core/wavelet/moment_covariance.h"
@@ -295,6 +296,44 @@ TEST(VirtualSensor, TakesWhatASingularMatrixAllows) {
              Eigen::Vector3d(0.25, 0.25, 0.5))
                 .norm(),
             1e-9);
+}
+
+// Under a wrong model independent sensors seem to share noise. The misfit of each says that such a
+// verdict means nothing; under the right one it is silent.
+TEST(SensorMisfit, SaysWhereAVerdictOfSharedNoiseMeansNothing) {
+  const Model right = parse_array_model("AR1 + WN", Hertz{1.0}).value();
+  ArrayModel truth = expand(right, {3, {}});
+  for (Latent& latent : truth.latents) {
+    const bool markov = std::holds_alternative<Ar1>(latent.term.process);
+    if (markov) latent.term.process = Ar1{1.0, 0.99};
+    latent.set_scalar(markov ? 1e-3 : 1.0);
+  }
+  const Model wrong = parse_array_model("WN", Hertz{1.0}).value();
+  constexpr std::uint32_t kSets = 60;
+  int named = 0;
+  int judged = 0;
+  int misfits = 0;
+  for (std::uint32_t set = 0; set < kSets; ++set) {
+    const WaveletCovariance measured = testing::simulated_moments(truth, 4096, 20261125, set);
+    const auto fits = [&](const Model& model) {
+      const ArrayFit fit = fit_array(model, {3, {}}, std::span(&measured, 1));
+      const std::vector<TestOutcome> tests = sensor_misfits(fit.model, std::span(&measured, 1));
+      return std::pair(fit, tests);
+    };
+    const auto [fit, tests] = fits(wrong);
+    for (const PairDependence& one : dependence(fit.model, std::span(&measured, 1))) {
+      if (!(one.adjusted_p < 0.05)) continue;
+      ++named;
+      const bool good = tests[static_cast<std::size_t>(one.pair.a)].p_value > 0.05 / 3.0 &&
+                        tests[static_cast<std::size_t>(one.pair.b)].p_value > 0.05 / 3.0;
+      judged += good ? 1 : 0;
+    }
+    for (const TestOutcome& one : fits(right).second) misfits += one.p_value < 0.05 / 3.0 ? 1 : 0;
+  }
+  std::printf("%d pairs named in %u sets, %d of them judged\n", named, kSets, judged);
+  EXPECT_GT(named, 20);
+  EXPECT_EQ(judged, 0);
+  EXPECT_LE(misfits, 10);  // of 180 at 1.7 %: P(more) < 0.001
 }
 
 // A cross-covariance at one averaging time is the same quantity in replicates of all lengths.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 
 #include "core/inference/parameter_covariance.h"
 #include "core/support/distributions.h"
@@ -104,7 +105,6 @@ TEST(Goodness, KnowsThatFewDegreesOfFreedomAreSkew) {
   }
 }
 
-// A random walk at the edge of what is seen: its interval covers the truth, not only its estimate.
 // The lower bound of a correlation lies below zero.
 TEST(ParameterSets, AParameterAtABoundIsNotInside) {
   Ar2 process{1.0, 0.5, 0.3};
@@ -120,6 +120,7 @@ TEST(ParameterSets, AParameterAtABoundIsNotInside) {
   EXPECT_EQ(inside(-0.99), 3U);
 }
 
+// A random walk at the edge of what is seen: its interval covers the truth, not only its estimate.
 TEST(Intervals, UpperBoundsCover) {
   constexpr std::size_t kSets = 200;
   const Model truth = model_of("WN(sigma2=1) + RW(gamma2=2e-4)");
@@ -142,6 +143,28 @@ TEST(Intervals, UpperBoundsCover) {
               100.0 * bounds);
   EXPECT_GT(bounds, 0.3);
   EXPECT_GE(share, 0.95 - testing::binomial_allowance(0.95, kSets));
+}
+
+// A walk too small to be seen in most sets: where it is seen, its estimate is too large, and its
+// interval reaches down to the truth all the same.
+TEST(Intervals, CoverWhatIsBarelySeen) {
+  constexpr std::size_t kSets = 800;
+  constexpr double kTruth = 1.2e-4;
+  const Model truth = model_of("WN(sigma2=1) + RW(gamma2=1.2e-4)");
+  std::vector<int> seen(kSets);
+  std::vector<int> covered(kSets);
+  for_each_index(kSets, [&](std::size_t i) {
+    const auto moments = simulated_set(truth, {2048}, 1, kSeed + i);
+    const ParameterEstimate walk =
+        infer(mugmwm(freed(truth), moments, Weighting::kFull), moments).parameters[1][0];
+    seen[i] = walk.observability == Observability::kObserved ? 1 : 0;
+    covered[i] = seen[i] != 0 && walk.lower <= kTruth && kTruth <= walk.upper ? 1 : 0;
+  });
+  const auto of_seen = static_cast<double>(std::accumulate(seen.begin(), seen.end(), 0));
+  const double share = std::accumulate(covered.begin(), covered.end(), 0) / of_seen;
+  std::printf("seen in %.0f of %zu, covered in %.0f %% of these\n", of_seen, kSets, 100.0 * share);
+  ASSERT_GT(of_seen, 10.0);
+  EXPECT_GE(share, 0.95 - testing::binomial_allowance(0.95, of_seen));
 }
 
 TEST(Intervals, SayWhatTheDataSay) {
