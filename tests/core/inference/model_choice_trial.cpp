@@ -157,12 +157,13 @@ Kept walks_kept(const Model& truth, std::size_t sets) {
   return out;
 }
 
-// A walk that the fit sees is kept, and none is added where there is none.
+// A walk is kept at least as often as the fit's interval or CV-WVIC shows it, and hardly ever added
+// where there is none.
 TEST(HeldOutLikelihood, KeepsAWalkAndAddsNone) {
   constexpr std::size_t kWalks = 100;
   for (const bool there : {true, false}) {
     const Model truth =
-        testing::model_of(there ? "AR1(sigma2=4e-4, phi=0.99) + WN(sigma2=1) + RW(gamma2=1.5e-6)"
+        testing::model_of(there ? "AR1(sigma2=4e-4, phi=0.99) + WN(sigma2=1) + RW(gamma2=4e-7)"
                                 : "AR1(sigma2=4e-4, phi=0.99) + WN(sigma2=1)");
     const Kept kept = walks_kept(truth, kWalks);
     std::printf(
@@ -171,7 +172,8 @@ TEST(HeldOutLikelihood, KeepsAWalkAndAddsNone) {
         there ? "with a walk" : "without", kept.by_fit, kept.by_error, kept.by_likelihood,
         kept.by_one, kWalks);
     if (there) {
-      EXPECT_GE(kept.by_likelihood, 95);
+      EXPECT_GE(kept.by_likelihood, kept.by_fit);
+      EXPECT_GE(kept.by_likelihood, kept.by_error);
     } else {
       EXPECT_LE(kept.by_likelihood,
                 5 + static_cast<int>(100.0 * testing::binomial_allowance(0.05, 100.0)));
