@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "cli/parse/commands.h"
 #include "cli/parse/raw_analysis.h"
+#include "core/effects/known_effects.h"
 
 namespace imunoise::cli {
 namespace {
@@ -9,11 +12,29 @@ Examples:
   imunoise diagnose run?.h5 --channel gyro_x --model "WN + RW"     effects missing from this model
   imunoise diagnose run?.h5 --channel gyro_x --auto                add effects until none is missing
   imunoise diagnose run?.h5 --channel gyro_x --model "WN + RW + line(f=23.4)"
-  imunoise diagnose run?.h5 --channel gyro_x --witness temperature --report diagnosis.html
+  imunoise diagnose run?.h5 --channel gyro_x --witness temperature --report diagnosis.html)help";
 
-Effects in a model: ramp, warm_up(tau=600), line(f=0.5, harmonics=3), step(replicate=2, t=1234),
-witness(CHANNEL, lag=300), witness(CHANNEL, quadratic), modulated(CHANNEL), outliers(above=6),
-telegraph, own_powers.)help";
+// "line(f=Hz, harmonics)": what a term needs has a value, all else may be left out. Sizes are what
+// a fit finds.
+std::string usage_of(const Effect& effect) {
+  std::string words = effect.witness ? "CHANNEL" : "";
+  for (const EffectParameter& one : effect.parameters) {
+    if (one.truth) continue;
+    std::string value;
+    if (one.required)
+      value = one.unit.empty() || one.unit == "1" ? "=N" : fmt::format("={}", one.unit);
+    words += fmt::format("{}{}{}", words.empty() ? "" : ", ", one.name, value);
+  }
+  return words.empty() ? std::string(effect.name) : fmt::format("{}({})", effect.name, words);
+}
+
+// The examples, then every effect that a model can hold.
+std::string with_effects(const std::string& examples) {
+  std::string out = examples + "\n\nEffects in a model:\n";
+  for (const Effect* effect : known_effects())
+    out += fmt::format("  {}\n      {}\n", usage_of(*effect), effect->meaning);
+  return out;
+}
 
 void add_witnesses(CLI::App& command, std::vector<std::string>& witnesses) {
   command
@@ -29,7 +50,7 @@ void add_witnesses(CLI::App& command, std::vector<std::string>& witnesses) {
 ParsedCommand diagnose_command(CLI::App& program) {
   CLI::App* const diagnose =
       program.add_subcommand("diagnose", "Find the physical effect that a model lacks");
-  diagnose->footer(kDiagnoseExamples);
+  diagnose->footer(with_effects(kDiagnoseExamples));
   const auto raw = std::make_shared<RawAnalysis>();
   const auto options = std::make_shared<study::DiagnoseOptions>();
   add_input(*diagnose, raw->input);

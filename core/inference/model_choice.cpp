@@ -109,7 +109,7 @@ Interval excess_over(const Eigen::ArrayXd& best, const Eigen::ArrayXd& own) {
 }
 
 // The candidate that describes all replicates best: its covariance of moments is nearest the truth.
-std::size_t closest(const std::vector<Estimate>& fits, Replicates replicates) {
+std::size_t closest(std::span<const Estimate> fits, Replicates replicates) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < fits.size(); ++c) {
@@ -160,18 +160,25 @@ ModelChoice choose_model(std::span<const Model> models, Replicates replicates,
     const auto at = static_cast<double>(c) / static_cast<double>(models.size());
     fits[c] = mugmwm(models[c], replicates, Weighting::kFull, progress.part(at, at));
   }
+  ModelChoice out = choose_model(fits, replicates, options);
+  progress.report(1.0);
+  return out;
+}
+
+ModelChoice choose_model(std::span<const Estimate> fits, Replicates replicates,
+                         const ChoiceOptions& options) {
   const std::size_t reference = closest(fits, replicates);
   const Distance distance(fits[reference].model, replicates, options.weighting);
   const std::vector<Eigen::MatrixXd> roots = options.weighting == Weighting::kFull
                                                  ? fits[reference].weight_roots
                                                  : diagonal_roots(replicates);
   const std::vector<Fold> splits = folds(replicates.size(), options.splits);
-  std::vector<Eigen::ArrayXd> merits(models.size());
-  for_each_index(models.size(), [&](std::size_t c) {
+  std::vector<Eigen::ArrayXd> merits(fits.size());
+  for_each_index(fits.size(), [&](std::size_t c) {
     merits[c] = held_out(fits[c].model, roots, replicates, distance, splits);
   });
 
-  std::vector<std::size_t> order(models.size());
+  std::vector<std::size_t> order(fits.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   // Models that predict the same (one has a term that the fit put at zero) are told by their size.
   const auto rank = [&](std::size_t c) {
@@ -183,6 +190,7 @@ ModelChoice choose_model(std::span<const Model> models, Replicates replicates,
   out.splits = splits.size();
   for (const std::size_t c : order) {
     Candidate candidate;
+    candidate.place = c;
     candidate.model = fits[c].model;
     candidate.merit = mean_interval(merits[c]);
     candidate.merit.lower = std::max(0.0, candidate.merit.lower);
@@ -192,7 +200,6 @@ ModelChoice choose_model(std::span<const Model> models, Replicates replicates,
                                                        : ChoiceVerdict::kEquivalent;
     out.candidates.push_back(std::move(candidate));
   }
-  progress.report(1.0);
   return out;
 }
 

@@ -35,7 +35,8 @@ struct Interval {
 
 /// One model and how well it predicts replicates that it was not fitted to.
 struct Candidate {
-  Model model;  ///< fitted to all replicates
+  std::size_t place = 0;  ///< in the list of models
+  Model model;            ///< fitted to all replicates
   /// Held-out distance over what the noise of a replicate's moments alone makes: 1.0 is the noise
   /// floor, which only the true parameters reach.
   Interval merit;
@@ -57,5 +58,8 @@ std::vector<Model> sub_models(const Model& model);
 /// overlap. Preconditions: at least one model; at least two replicates, all of one rate.
 ModelChoice choose_model(std::span<const Model> models, std::span<const WaveletVariance> replicates,
                          const ChoiceOptions& options = {}, const Progress& progress = {});
+/// The same of models that are fitted already, by mugmwm() with full weights.
+ModelChoice choose_model(std::span<const Estimate> fits,
+                         std::span<const WaveletVariance> replicates, const ChoiceOptions& options);
 
 }  // namespace imunoise

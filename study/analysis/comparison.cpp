@@ -28,8 +28,8 @@ void add_replicates(const FittedModel& trial, const LeftOver& left,
       const auto at = static_cast<Eigen::Index>(i);
       one.add_scales_s(2.0 * static_cast<double>(own.scales[i]) / own.rate.value);
       one.add_measured(own.variance(at));
-      const double freedom = spread(at) > 0.0 ? 2.0 * nu(at) * nu(at) / spread(at) : 0.0;
-      one.add_residual(freedom > 0.0 ? normal_score(own.variance(at) / nu(at), freedom) : 0.0);
+      const double dof = spread(at) > 0.0 ? 2.0 * nu(at) * nu(at) / spread(at) : 0.0;
+      one.add_residual(dof > 0.0 ? normal_score(own.variance(at) / nu(at), dof) : 0.0);
     }
   }
 }

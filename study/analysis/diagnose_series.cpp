@@ -118,10 +118,10 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     out.add_notes(
         fmt::format("Never changes, so that nothing can follow it: {}.", names_of(subject->still)));
   if (!options.model)
-    out.add_notes(
-        fmt::format("No model was named: of the sub-models of {}, {} is the simplest "
-                    "that predicts replicates as well as the best does.",
-                    kDefaultModel, *named));
+    out.add_notes(fmt::format(
+        "No model was named: of {}, its sub-models and what FN, QN and DR add to them, {} is "
+        "the simplest of the best held-out likelihood.",
+        kDefaultModel, *named));
   for (const std::string& note : seen.notes) out.add_notes(note);
   if (subject->replicates() == 1)
     out.add_notes(

@@ -12,7 +12,7 @@
 namespace imunoise::study {
 
 struct DiagnoseOptions {
-  /// Noise and effects whose missing parts are sought, in the grammar; unset: chosen by CV-WVIC.
+  /// Noise and effects whose missing parts are sought, in the grammar; unset: see model_for().
   std::optional<std::string> model;
   std::vector<std::string> witnesses;  ///< names of channels; empty: all but the one diagnosed
   bool automatic = false;              ///< add what is found, and go on
@@ -32,8 +32,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
                                              const DiagnoseOptions& options,
                                              const Progress& progress = {});
 
-/// The simplest sub-model of the default that predicts replicates as well as the best does
-/// (CV-WVIC).
+/// The model that select_model() chooses where none is named.
 Result<std::string> model_for(const RecordedChannel& look, const Progress& progress = {});
 
 }  // namespace imunoise::study

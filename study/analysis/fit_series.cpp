@@ -6,6 +6,7 @@
 
 #include "core/inference/efficient_fit.h"
 #include "core/spectrum/cross_power.h"
+#include "study/analysis/compared_models.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 
@@ -96,6 +97,7 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
         "the "
         "model fits.");
   }
+  if (auto note = quantisation_note(fit.estimate.model)) out.add_notes(std::move(*note));
   progress.report(1.0);
   return out;
 }

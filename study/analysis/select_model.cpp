@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/effects/parse_full_model.h"
+#include "core/spectrum/cross_power.h"
+#include "study/analysis/compared_models.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
 namespace {
 
-constexpr std::size_t kBlocks = 6;            // of a single recording
+constexpr std::size_t kBlocks = 6;            // of a single recording, and parts of its bands
 constexpr double kFarFromFloor = 1.5;         // merit
 constexpr std::size_t kLeastSamples = 1'024;  // of a block
 constexpr std::size_t kMostForHalves = 20;    // replicates; half splits are 184,756 then
@@ -27,6 +30,17 @@ Series in_blocks(const Series& series) {
     out.replicates.push_back(whole.part(b * size, size));
   }
   return out;
+}
+
+// What is held out of the likelihood, one at a time: replicates, or of a single one every sixth
+// band. Empty where a replicate is too short for a likelihood.
+std::vector<BandedPower> parts_of(const Series& series) {
+  std::vector<BandedPower> out;
+  for (const Signal& one : series.replicates) {
+    if (one.size() < kFewestSamples) return {};
+    out.push_back(banded_power(one));
+  }
+  return out.size() == 1 ? dealt_out(out.front(), kBlocks) : out;
 }
 
 Result<std::vector<FullModel>> read_models(const std::vector<std::string>& texts, Hertz rate) {
@@ -45,16 +59,12 @@ const FullModel& largest(const std::vector<FullModel>& models) {
   });
 }
 
-// The noise of the candidates: of a single model, it and all its sub-models.
-Result<std::vector<Model>> candidates_of(const std::vector<FullModel>& named,
-                                         const std::vector<WaveletVariance>& measured) {
-  std::vector<Model> out;
+Result<void> all_have_scales(const std::vector<FullModel>& named,
+                             const std::vector<WaveletVariance>& measured) {
   for (const FullModel& one : named) {
-    if (auto enough = enough_scales(one.noise, measured); !enough)
-      return tl::unexpected(enough.error());
-    out.push_back(one.noise);
+    if (auto enough = enough_scales(one.noise, measured); !enough) return enough;
   }
-  return out.size() == 1 ? sub_models(out.front()) : out;
+  return {};
 }
 
 v1::ChoiceVerdict verdict_of(ChoiceVerdict from) {
@@ -96,11 +106,19 @@ const v1::CandidateModel& simplest_equivalent(const v1::ChoiceReport& report) {
 
 std::string summary_of(const v1::ChoiceReport& report) {
   const v1::CandidateModel& best = report.candidates(0);
-  std::string out = fmt::format(
+  std::string out;
+  if (!report.chosen().empty()) {
+    out = fmt::format(
+        "{} is chosen: no model with fewer parameters comes within {:g} nats of the best held-out "
+        "likelihood. By CV-WVIC, ",
+        report.chosen(), kClearNats);
+  }
+  out += fmt::format(
       "{} has the smallest held-out error: {:.3g} times the noise "
       "floor.",
       best.model(), best.merit());
-  if (const v1::CandidateModel& simplest = simplest_equivalent(report); &simplest != &best) {
+  const v1::CandidateModel& simplest = simplest_equivalent(report);
+  if (report.chosen().empty() && &simplest != &best) {
     out +=
         fmt::format(" {} is simpler, and the data do not show that it is worse.", simplest.model());
   }
@@ -110,6 +128,25 @@ std::string summary_of(const v1::ChoiceReport& report) {
         "significantly; imunoise test shows which.";
   }
   return out;
+}
+
+// What the held-out likelihood says of each candidate; `place` is that of a candidate among them.
+void add_likelihoods(const std::vector<HeldOutFit>& held, const std::vector<std::size_t>& place,
+                     v1::ChoiceReport& out) {
+  const HeldOutFit& best = *std::max_element(
+      held.begin(), held.end(), [](const auto& a, const auto& b) { return a.total() < b.total(); });
+  const std::size_t chosen = simplest_of_best(held);
+  for (int i = 0; i < out.candidates_size(); ++i) {
+    const std::size_t at = place[static_cast<std::size_t>(i)];
+    const HeldOutFit& own = held[at];
+    v1::CandidateModel& to = *out.mutable_candidates(i);
+    if (at == chosen) out.set_chosen(to.model());
+    if (!std::isfinite(own.total())) continue;
+    to.set_shortfall(best.total() - own.total());
+    std::uint32_t worse = 0;
+    for (std::size_t k = 0; k < own.nats.size(); ++k) worse += own.nats[k] < best.nats[k] ? 1U : 0U;
+    to.set_replicates_worse(worse);
+  }
 }
 
 }  // namespace
@@ -138,11 +175,16 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   const Series series = blocks ? in_blocks(left->series) : left->series;
   const auto measured = measured_replicates(series, options.measure, progress.part(0.3, 0.5));
   if (!measured) return tl::unexpected(measured.error());
-  const auto candidates = candidates_of(*named, *measured);
-  if (!candidates) return tl::unexpected(candidates.error());
-  const ModelChoice choice =
-      choose_model(*candidates, *measured, options.choice, progress.part(0.5, 1.0));
+  if (auto enough = all_have_scales(*named, *measured); !enough)
+    return tl::unexpected(enough.error());
+  Comparisons compared(*measured, parts_of(left->series));
+  std::vector<Model> models;
+  for (const FullModel& one : *named) models.push_back(one.noise);
+  compared.add(models.size() == 1 ? sub_models(models.front()) : models, progress.part(0.5, 0.8));
+  if (options.search_on || options.models.empty()) compared.search_on(progress.part(0.8, 0.95));
   if (progress.stopped()) return fail("stopped");
+  const ModelChoice choice = choose_model(compared.fits(), *measured, options.choice);
+  progress.report(1.0);
 
   v1::ChoiceReport out;
   out.set_channel(series.channel);
@@ -154,7 +196,12 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   out.set_split_count(static_cast<std::uint32_t>(choice.splits));
   out.set_estimator(moments_estimator(series.replicates.size()));
   out.set_weights(options.choice.weighting == Weighting::kFull ? "full" : "diag");
-  for (const Candidate& candidate : choice.candidates) add_candidate(candidate, left->effects, out);
+  std::vector<std::size_t> place;
+  for (const Candidate& candidate : choice.candidates) {
+    add_candidate(candidate, left->effects, out);
+    place.push_back(candidate.place);
+  }
+  if (!compared.held().empty()) add_likelihoods(compared.held(), place, out);
   for (const v1::FittedEffect& one : left->numbers) *out.add_effects() = one;
   if (!left->effects.empty()) out.add_notes(taken_out_note(*left));
   const v1::CandidateModel& best = out.candidates(0);
@@ -165,7 +212,8 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
         fmt::format("There is one recording; imunoise cut it into {} contiguous blocks. They do "
                     "not show changes "
                     "from day to day or between power-ons, so this is weaker evidence than "
-                    "replicates.",
+                    "replicates. The held-out likelihood leaves out a sixth of the frequencies at "
+                    "a time instead.",
                     kBlocks));
   }
   if (series.replicates.size() < kFewReplicates) {
@@ -175,12 +223,21 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
         series.replicates.size()));
   }
   if (options.models.empty()) {
-    out.add_notes(default_model_note("and its sub-models were compared"));
+    out.add_notes(default_model_note(
+        "and its sub-models were compared, and from the best of them on FN, QN and DR"));
+  }
+  const std::string& used = model_to_use(out).model();
+  for (const Candidate& one : choice.candidates) {
+    if (model_text(one.model, left->effects) != used) continue;
+    if (auto note = quantisation_note(one.model)) out.add_notes(std::move(*note));
   }
   return out;
 }
 
 const v1::CandidateModel& model_to_use(const v1::ChoiceReport& choice) {
+  for (const v1::CandidateModel& one : choice.candidates()) {
+    if (one.model() == choice.chosen()) return one;
+  }
   return choice.far_from_floor() ? choice.candidates(0) : simplest_equivalent(choice);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 
 #include "core/effects/parse_full_model.h"
@@ -110,6 +111,22 @@ v1::CalibrationSettings settings_of(const CalibrateOptions& options) {
   return out;
 }
 
+// " (WN + FN + RW fits (p = 0.4): gyro_x, gyro_y; ...)".
+std::string missing_in(const v1::Calibration& calibration) {
+  std::map<std::string, std::string> channels;
+  for (const v1::ChannelCalibration& one : calibration.channels()) {
+    // Channels that lack the same differ in their p-values.
+    std::string what = one.missing().substr(0, one.missing().find(" (p"));
+    if (what.empty()) continue;
+    std::string& of = channels[std::move(what)];
+    of += (of.empty() ? "" : ", ") + one.channel();
+  }
+  std::string out;
+  for (const auto& [what, of] : channels)
+    out += fmt::format("{}{}: {}", out.empty() ? "" : "; ", of, what);
+  return out.empty() ? "" : fmt::format(" ({})", out);
+}
+
 std::string summary_of(const v1::Calibration& calibration) {
   int fitted = 0;
   int misfits = 0;
@@ -128,7 +145,8 @@ std::string summary_of(const v1::Calibration& calibration) {
   }
   std::string out =
       fmt::format("{} of {} channels have a model", fitted, calibration.channels_size());
-  if (misfits > 0) out += fmt::format("; {} of these do not fit", misfits);
+  if (misfits > 0)
+    out += fmt::format("; {} of these do not fit{}", misfits, missing_in(calibration));
   if (doubts > 0) out += fmt::format("; of {} it is doubtful that they fit", doubts);
   if (fitted > 0 && misfits + doubts == 0) out += ", and every model fits";
   if (calibration.settings().diagnose() && fitted > 0)

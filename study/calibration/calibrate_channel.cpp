@@ -1,9 +1,13 @@
 #include "study/calibration/calibrate_channel.h"
 
+#include <fmt/format.h>
+
 #include "study/analysis/diagnose_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
+#include "study/analysis/vocabulary.h"
+#include "study/report/view/verdict.h"
 
 namespace imunoise::study {
 namespace {
@@ -41,6 +45,29 @@ void shorten(v1::DiagnosisReport& report) {
   report.clear_compared_after();
 }
 
+// Which term a model lacks that does not fit, and whether it fits with that.
+std::string what_is_missing(const Series& series, const std::string& model,
+                            const Progress& progress) {
+  SelectOptions select;
+  select.models = {model};
+  select.search_on = true;
+  const auto choice = select_model(series, select, progress.part(0.0, 0.7));
+  if (!choice) return {};
+  const std::string better = model_to_use(*choice).model();
+  FitOptions fit;
+  fit.model = better;
+  const auto fitted = fit_series(series, fit, progress.part(0.7, 1.0));
+  if (!fitted || better == model)
+    return "no noise process that imunoise knows makes the model fit; find the missing effect with "
+           "imunoise diagnose";
+  if (report::verdict(*fitted) == report::Verdict::kFails)
+    return fmt::format(
+        "{} predicts better, but does not fit either ({}); find the missing effect with imunoise "
+        "diagnose",
+        better, chance_words(fitted->p_value()));
+  return fmt::format("{} fits ({})", better, chance_words(fitted->p_value()));
+}
+
 }  // namespace
 
 void add_trouble(std::string_view step, const Error& error,
@@ -72,7 +99,9 @@ v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>
   }
   FitOptions fit;
   fit.model = model;
-  keep(fit_series(series, fit, progress.part(0.3, 0.4)), "fit", out, &Calibration::mutable_fit);
+  keep(fit_series(series, fit, progress.part(0.3, 0.35)), "fit", out, &Calibration::mutable_fit);
+  if (out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails)
+    out.set_missing(what_is_missing(series, out.fit().model(), progress.part(0.35, 0.4)));
   if (replicates.size() > 1) {
     TestOptions test;
     test.model = model;

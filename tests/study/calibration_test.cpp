@@ -9,6 +9,7 @@
 #include "study/calibration/calibrate.h"
 #include "study/calibration/calibration_file.h"
 #include "study/report/json.h"
+#include "study/report/view/verdict.h"
 #include "tests/study/simulated_recording.h"
 
 namespace imunoise::study {
@@ -181,6 +182,24 @@ TEST_F(Calibrated, ProgressGoesToTheEndAndAStopIsHeeded) {
   const auto stopped = calibrate(files_, folder_.path(), options, stops);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().message, "stopped");
+}
+
+// A model that does not fit is no end: which one would is told.
+TEST_F(Calibrated, WhatAModelLacksIsTold) {
+  CalibrateOptions options;
+  options.models = {"WN"};
+  const v1::Calibration got = calibrated(options);
+  int failing = 0;
+  for (const v1::ChannelCalibration& one : got.channels()) {
+    if (!one.has_fit()) continue;
+    const bool fails = report::verdict(one.fit()) == report::Verdict::kFails;
+    EXPECT_EQ(!one.missing().empty(), fails) << one.channel();
+    if (!fails) continue;
+    ++failing;
+    EXPECT_NE(got.summary().find(one.channel() + ": "), std::string::npos) << got.summary();
+  }
+  EXPECT_GT(failing, 0) << got.summary();
+  EXPECT_NE(got.summary().find("do not fit ("), std::string::npos) << got.summary();
 }
 
 TEST_F(Calibrated, TheFileIsReadAsItWasWritten) {

@@ -58,6 +58,7 @@ Table coefficients(const v1::FitReport& fit, Digits digits) {
 Table in_words(const v1::ChannelCalibration& channel) {
   Table out{"What else is known", {"", ""}, {}};
   if (channel.has_choice()) out.rows.push_back({"model", channel.choice().summary()});
+  if (!channel.missing().empty()) out.rows.push_back({"to fit", channel.missing()});
   if (channel.has_stationarity())
     out.rows.push_back({"replicates", channel.stationarity().summary()});
   if (channel.has_diagnosis()) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "study/report/documents/inference_documents.h"
@@ -26,6 +27,27 @@ std::string error(double value, double lower, double upper, Digits digits) {
   return value < kHopeless ? with_interval(value, lower, upper, digits) : number(value, 3, digits);
 }
 
+// Those that have a held-out likelihood, the best first.
+Table likelihood_table(const v1::ChoiceReport& report, Digits digits) {
+  std::vector<const v1::CandidateModel*> order;
+  for (const v1::CandidateModel& one : report.candidates()) {
+    if (one.has_shortfall()) order.push_back(&one);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->shortfall() < b->shortfall(); });
+  Table out{
+      "Models by held-out likelihood", {"model", "below the best", "worse in", "free", ""}, {}};
+  constexpr double kSame = 0.05;  // nats
+  for (const v1::CandidateModel* one : order) {
+    const bool best = one->shortfall() < kSame;
+    out.rows.push_back({one->model(), best ? "" : number(one->shortfall(), 3, digits) + " nats",
+                        best ? "" : std::to_string(one->replicates_worse()),
+                        std::to_string(one->parameters()),
+                        one->model() == report.chosen() ? "chosen" : ""});
+  }
+  return out;
+}
+
 Section section(const v1::ChoiceReport& report, Digits digits) {
   Section out;
   out.title = channel_name(report.channel());
@@ -35,7 +57,7 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
                           report.split_count(), report.splits(), report.weights()) +
               estimator_fact(report.estimator());
   out.summary = report.summary();
-  Table table{"Models by held-out error (noise floor = 1)",
+  Table table{"Models by held-out error (CV-WVIC, noise floor = 1)",
               {"model", "error", "above the best", "free", ""},
               {}};
   std::vector<IntervalRow> rows;
@@ -50,7 +72,7 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
                     one.verdict() == v1::not_appropriate});
   }
   if (report.candidates_size() > 0) {
-    out.badge = report.candidates(0).model();
+    out.badge = report.chosen().empty() ? report.candidates(0).model() : report.chosen();
     out.mood = report.far_from_floor() ? Mood::kDoubtful : Mood::kGood;
   }
   auto figure =
@@ -59,7 +81,8 @@ Section section(const v1::ChoiceReport& report, Digits digits) {
                       "the noise floor; orange models are significantly worse than the best.",
                       rows, 1.0);
   if (figure) out.figures.push_back(std::move(*figure));
-  out.tables = {std::move(table)};
+  if (!report.chosen().empty()) out.tables.push_back(likelihood_table(report, digits));
+  out.tables.push_back(std::move(table));
   out.notes.assign(report.notes().begin(), report.notes().end());
   return out;
 }

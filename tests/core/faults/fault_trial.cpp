@@ -8,6 +8,7 @@
 
 #include "core/array/array_estimate.h"
 #include "core/support/parallel.h"
+#include "core/support/roots.h"
 #include "tests/core/faults/faulty_array.h"
 
 namespace imunoise {
@@ -100,13 +101,10 @@ double cusum_time(double shift, double k, double threshold) {
 // between false alarms of `between`.
 double cusum_delay(double shift, double between) {
   const double k = 0.5 * shift;
-  double low = 0.0;
-  double high = 100.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (cusum_time(0.0, k, middle) < between ? low : high) = middle;
-  }
-  return cusum_time(shift, k, low);
+  const double threshold =
+      root_between([&](double at) { return std::log(cusum_time(0.0, k, at) / between); }, 0.0,
+                   std::min(100.0, 300.0 / k));  // beyond, exp(2k·threshold) overflows
+  return cusum_time(shift, k, threshold);
 }
 
 struct Delays {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/inference/held_out_likelihood.h"
 #include "core/inference/model_choice.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
@@ -91,6 +92,92 @@ TEST_P(Coverage, OfTheDifference) {
         GetParam() == Splits::kHalf ? "half splits" : "leave one out", text, 100.0 * share(covered),
         100.0 * share(right_first), kSets);
     EXPECT_GT(share(covered), 0.95 - testing::binomial_allowance(0.95, kSets));
+  }
+}
+
+bool has_walk(const Model& model) {
+  return std::any_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
+    return std::holds_alternative<RandomWalk>(term.process);
+  });
+}
+
+struct Kept {
+  int by_error = 0;       // CV-WVIC, the simplest model that is not worse
+  int by_likelihood = 0;  // held-out likelihood over replicates
+  int by_one = 0;         // the same of the first replicate alone, its bands dealt out
+  int by_fit = 0;         // the interval of the whole model's fit does not reach zero
+};
+
+// In how many sets each criterion keeps a random walk.
+Kept walks_kept(const Model& truth, std::size_t sets) {
+  const std::vector<Model> all = sub_models(testing::model_of("2*AR1 + WN + RW"));
+  std::vector<Kept> each(sets);
+  for_each_index(sets, [&](std::size_t i) {
+    std::vector<WaveletVariance> moments;
+    std::vector<BandedPower> powers;
+    for (std::uint32_t k = 0; k < 6; ++k) {
+      const std::vector<double> x = simulate(truth, 30'000, kSeed + i, k);
+      const Signal signal(std::span<const double>(x), testing::kTrialRate);
+      moments.push_back(wavelet_variance(signal, Scales::for_samples(x.size(), 1)));
+      powers.push_back(banded_power(signal));
+    }
+    std::vector<Estimate> fits;
+    std::vector<HeldOutFit> held;
+    std::vector<HeldOutFit> one;
+    const std::vector<BandedPower> dealt = dealt_out(powers[0], 6);
+    for (const Model& model : all) {
+      fits.push_back(mugmwm(model, moments, Weighting::kFull));
+      held.push_back(held_out_fit(fits.back().model, powers));
+      one.push_back(held_out_fit(fits.back().model, dealt));
+    }
+    const ModelChoice choice = choose_model(fits, moments, {});
+    const Candidate* simplest = &choice.candidates[0];
+    for (const Candidate& candidate : choice.candidates) {
+      if (candidate.verdict == ChoiceVerdict::kEquivalent &&
+          parameter_count(candidate.model) < parameter_count(simplest->model))
+        simplest = &candidate;
+    }
+    each[i].by_error = has_walk(simplest->model) ? 1 : 0;
+    each[i].by_likelihood = has_walk(held[simplest_of_best(held)].model) ? 1 : 0;
+    each[i].by_one = has_walk(one[simplest_of_best(one)].model) ? 1 : 0;
+    const Fit whole =
+        infer(mugmwm(testing::model_of("AR1 + WN + RW"), moments, Weighting::kFull), moments);
+    for (std::size_t t = 0; t < whole.estimate.model.terms.size(); ++t) {
+      if (std::holds_alternative<RandomWalk>(whole.estimate.model.terms[t].process))
+        each[i].by_fit = whole.parameters[t][0].observability == Observability::kObserved ? 1 : 0;
+    }
+  });
+  Kept out;
+  for (const Kept& one : each) {
+    out.by_error += one.by_error;
+    out.by_likelihood += one.by_likelihood;
+    out.by_one += one.by_one;
+    out.by_fit += one.by_fit;
+  }
+  return out;
+}
+
+// A walk is kept at least as often as the fit's interval or CV-WVIC shows it, and hardly ever added
+// where there is none.
+TEST(HeldOutLikelihood, KeepsAWalkAndAddsNone) {
+  constexpr std::size_t kWalks = 100;
+  for (const bool there : {true, false}) {
+    const Model truth =
+        testing::model_of(there ? "AR1(sigma2=4e-4, phi=0.99) + WN(sigma2=1) + RW(gamma2=4e-7)"
+                                : "AR1(sigma2=4e-4, phi=0.99) + WN(sigma2=1)");
+    const Kept kept = walks_kept(truth, kWalks);
+    std::printf(
+        "%s: the fit sees a walk in %d, CV-WVIC keeps it in %d, the held-out likelihood in %d, "
+        "that of one replicate in %d of %zu sets\n",
+        there ? "with a walk" : "without", kept.by_fit, kept.by_error, kept.by_likelihood,
+        kept.by_one, kWalks);
+    if (there) {
+      EXPECT_GE(kept.by_likelihood, kept.by_fit);
+      EXPECT_GE(kept.by_likelihood, kept.by_error);
+    } else {
+      EXPECT_LE(kept.by_likelihood,
+                5 + static_cast<int>(100.0 * testing::binomial_allowance(0.05, 100.0)));
+    }
   }
 }
 

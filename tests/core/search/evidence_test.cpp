@@ -11,6 +11,7 @@
 
 #include "core/support/distributions.h"
 #include "core/support/random.h"
+#include "core/support/roots.h"
 
 namespace imunoise {
 namespace {
@@ -70,12 +71,9 @@ TEST(Evidence, ASearchIsAsLikelyToBeFooledAsItsPathSays) {
   constexpr int kSamples = 64;
   constexpr int kGrid = 4 * kSamples;
   const Search search{0.5 * std::numbers::pi / std::sqrt(3.0) * kSamples, 0.0};
-  double low = 0.0;
-  double high = 50.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (log_p_value(middle, 2.0, INFINITY, false, search) > std::log(0.05) ? low : high) = middle;
-  }
+  const double high = root_between(
+      [&](double nats) { return log_p_value(nats, 2.0, INFINITY, false, search) - std::log(0.05); },
+      0.0, 50.0);
   RandomStream rng(42);
   int passed = 0;
   for (int set = 0; set < kSets; ++set) {

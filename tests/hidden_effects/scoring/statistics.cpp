@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/support/distributions.h"
+#include "core/support/roots.h"
 
 namespace imunoise::hidden {
 namespace {
@@ -26,13 +27,10 @@ double binomial_cdf(std::size_t hits, std::size_t count, double p) {
 
 // The p at which the decreasing cdf(p) is `level`.
 double solve_p(std::size_t hits, std::size_t count, double level) {
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (binomial_cdf(hits, count, middle) > level ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  constexpr double kEdge = 1e-12;
+  const auto above = [&](double p) { return binomial_cdf(hits, count, p) - level; };
+  if (above(1.0 - kEdge) > 0.0) return 1.0;
+  return root_between(above, kEdge, 1.0 - kEdge);
 }
 
 // Places that a search for this effect has to look at.
@@ -112,14 +110,11 @@ double oracle_at_90(const HiddenEffect& effect, std::size_t samples, std::size_t
   // variance 2·dof + 4δ² when they are there.
   const double dof = effect.id == "harmonics" ? 6.0 : 2.0;
   const double threshold = chi_square_quantile(1.0 - tail, dof);
-  double low = 0.0;
-  double high = 100.0;
-  for (int i = 0; i < 50; ++i) {
-    const double delta = 0.5 * (low + high);
-    const double above = dof + delta * delta - threshold;
-    (above < found * std::sqrt(2.0 * dof + 4.0 * delta * delta) ? low : high) = delta;
-  }
-  return high;
+  return root_between(
+      [&](double delta) {
+        return dof + delta * delta - threshold - found * std::sqrt(2.0 * dof + 4.0 * delta * delta);
+      },
+      0.0, 100.0);
 }
 
 }  // namespace imunoise::hidden
