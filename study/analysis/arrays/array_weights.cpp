@@ -71,14 +71,14 @@ VirtualSensor virtual_sensor_of(const ArrayFit& fit, const Scales& scales,
 namespace {
 
 // Sums over the replicates that the weights were not made from.
-struct HeldOut {
+struct HeldOutHalf {
   std::vector<Eigen::MatrixXd> covariance;  // a scale each
   std::vector<bool> seen;                   // whether a replicate is long enough for it
 };
 
-HeldOut held_out(const Measured& measured, const Scales& scales, Eigen::Index sensors) {
-  HeldOut out{{scales.size(), Eigen::MatrixXd::Zero(sensors, sensors)},
-              std::vector<bool>(scales.size(), false)};
+HeldOutHalf held_out_half(const Measured& measured, const Scales& scales, Eigen::Index sensors) {
+  HeldOutHalf out{{scales.size(), Eigen::MatrixXd::Zero(sensors, sensors)},
+                  std::vector<bool>(scales.size(), false)};
   for (std::size_t k = (measured.size() + 1) / 2; k < measured.size(); ++k) {
     // Scales of shorter replicates are the first of those of longer ones.
     const std::size_t common = std::min(scales.size(), measured[k].scales.size());
@@ -90,7 +90,7 @@ HeldOut held_out(const Measured& measured, const Scales& scales, Eigen::Index se
   return out;
 }
 
-bool noisier_than_mean(const HeldOut& held, const VirtualSensor& sensor,
+bool noisier_than_mean(const HeldOutHalf& held, const VirtualSensor& sensor,
                        const Eigen::VectorXd& scale_weights) {
   const Eigen::MatrixXd weighted = weighted_covariance(held.covariance, scale_weights);
   return gain_over_mean({weighted}, sensor.weights)(0) > 1.0;
@@ -110,7 +110,7 @@ void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
   to.set_scales(options.scales);
   for (const double w : scale_weights) to.add_scale_weights(w);
   const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
-  const HeldOut held = half ? held_out(measured, scales, weighted.rows()) : HeldOut{};
+  const HeldOutHalf held = half ? held_out_half(measured, scales, weighted.rows()) : HeldOutHalf{};
   const Eigen::ArrayXd seen = half ? gain_over_mean(held.covariance, half->weights) : predicted;
   for (std::size_t j = 0; j < scales.size(); ++j) {
     v1::ScaleGain& gain = *to.add_scale_gains();
