@@ -3,17 +3,16 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { browse, folder, operator, picture, serve, viewer, violations } from "./programs.mjs";
 
-const campaign = `folder = "recordings"
+const campaign = `name = "array"
+folder = "recordings"
 replicates = 1
 length = "60 s"
 
 [[device]]
 name = "left"
 driver = "emulated"
-device = "xsens"
-speed = 1
-length = 60
-seed = 1
+options.device = "xsens"
+options.seed = 1
 `;
 
 async function signIn(page, url, token) {

@@ -15,9 +15,12 @@ export function split(text: string): { blocks: string[]; rest: string } {
   return { blocks, rest };
 }
 
+/** An event's name is that of the field which its data are. */
 export function parse(block: string): Event | null {
-  const data = block.split("\n").filter((line) => line.startsWith("data: ")).map((line) => line.slice(6)).join("\n");
-  return data ? (JSON.parse(data) as Event) : null;
+  const field = (name: string): string =>
+    block.split("\n").filter((line) => line.startsWith(`${name}: `)).map((line) => line.slice(name.length + 2)).join("\n");
+  const data = field("data");
+  return data ? ({ [field("event")]: JSON.parse(data) } as Event) : null;
 }
 
 function tell(news: News): void {

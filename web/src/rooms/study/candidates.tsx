@@ -5,6 +5,8 @@ import { number, withUnit } from "../../parts/numbers";
 import { currentRung, errorOf, surety, withNumber } from "./model";
 import type { StudyStore } from "./study_store";
 
+const percent = (p: number): string => (p < 1e-4 ? "less than 0.01 %" : `${number(100 * p, 2)} %`);
+
 function Falls({ study, candidate }: { study: Study; candidate: EffectCandidate }) {
   const before = errorOf(currentRung(study));
   const after = errorOf(candidate.next) ?? candidate.heldout_error_after;
@@ -28,13 +30,15 @@ function Details({ candidate }: { candidate: EffectCandidate }) {
           ))}
         </dl>
       )}
-      <p class="soft">explains {number(candidate.likelihood_gain_nats)} nats; by chance once in {candidate.familywise_p > 0 ? number(1 / candidate.familywise_p, 2) : "more than 10⁶"} searches</p>
+      <p class="soft">explains {number(candidate.likelihood_gain_nats)} nats; noise alone looks this good in {percent(candidate.familywise_p)} of searches</p>
     </div>
   );
 }
 
 export function Candidates({ store, study, still }: { store: StudyStore; study: Study; still: boolean }) {
-  const [open, show] = useState(0);
+  const nothing = study.diagnosis?.verdict === "none";
+  const [shownHere, show] = useState<number | null>(null);
+  const open = shownHere ?? (nothing ? -1 : 0);
   const all = study.diagnosis?.candidates ?? [];
   const preview = store.preview.value;
   if (!study.diagnosis) {
@@ -49,7 +53,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
   return (
     <section class="candidates" aria-labelledby="candidates-title">
       <h2 id="candidates-title">What may be missing</h2>
-      {study.diagnosis.verdict === "none" && <p class="soft">{study.diagnosis.summary}</p>}
+      {nothing && <p class="soft">{study.diagnosis.summary}</p>}
       <ol>
         {all.map((one, i) => {
           const sure = surety(one);
@@ -65,7 +69,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
                 <span class="fill" />
                 {one.term && <>
                   <button type="button" aria-pressed={shown} disabled={still && !one.next} onClick={() => void store.foresee(shown ? "" : one.term)}>Preview</button>
-                  <button type="button" class="main" disabled={still} onClick={() => void store.add(one.term)}>Add</button>
+                  <button type="button" class={sure.mood === "plain" ? "" : "main"} disabled={still} onClick={() => void store.add(one.term)}>Add</button>
                 </>}
               </div>
               {open === i && <Details candidate={one} />}
@@ -73,7 +77,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
           );
         })}
       </ol>
-      {all.length === 0 && study.diagnosis.verdict !== "none" && <p class="soft">{study.diagnosis.summary}</p>}
+      {all.length === 0 && !nothing && <p class="soft">{study.diagnosis.summary}</p>}
     </section>
   );
 }

@@ -15,11 +15,20 @@ const kinds: Partial<Record<View, readonly string[]>> = {
 
 const units: Partial<Record<View, string>> = { averaging_times: "s", spectrum: "Hz", distribution: "s" };
 
+const about: Record<View, string> = {
+  averaging_times: "Circles: measured, with 95 % intervals. Filled ones deviate by more than chance.",
+  spectrum: "Circles: measured, with 95 % intervals. Thin line: the strongest single frequency. Marks: waves that were tested.",
+  time: "Variance of the whitened noise in stretches of each replicate: orange is more than in the whole of it, blue is less.",
+  distribution: "Excess kurtosis of the whitened noise. Grey: where 19 of 20 values lie if it is normal.",
+  witnesses: "What the channel shares with witnesses beyond what the model explains.",
+  replicates: "Each replicate against the model, in standard deviations: orange is more, blue is less.",
+};
+
 /** Under the cursor the failure there, else how the point deviates; without a cursor the worst of the view. */
 export function placeSentence(study: Study, view: View, at: Place | null, variance: boolean): string {
   const here = (study.diagnosis?.misfits ?? []).filter((one) => kinds[view]?.includes(one.kind))
     .sort((one, other) => Math.abs(other.sigma) - Math.abs(one.sigma));
-  if (!at) return here[0]?.sentence ?? "";
+  if (!at) return here[0]?.sentence ?? about[view];
   // Allan deviations stand at half of the averaging time of a wavelet.
   const x = view === "averaging_times" && !variance ? 2 * at.x : at.x;
   const failure = here.find((one) => one.from !== undefined && one.to !== undefined && one.from <= x * 1.001 && x <= one.to * 1.001);
