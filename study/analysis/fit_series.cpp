@@ -97,7 +97,7 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
         "the "
         "model fits.");
   }
-  if (auto note = quantisation_note(fit.estimate.model)) out.add_notes(std::move(*note));
+  if (auto note = quantisation_note(fit->estimate.model)) out.add_notes(std::move(*note));
   progress.report(1.0);
   return out;
 }
