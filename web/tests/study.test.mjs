@@ -75,6 +75,7 @@ test("every view is drawn, and the keyboard alone suffices", { timeout: 180_000 
     await picture(page, `view_${view.toLowerCase()}`);
   }
   await page.keyboard.press("ArrowRight");
+  await page.locator(".figure-canvas .guide").waitFor({ state: "attached" });
   await page.locator(".figure-frame").focus();
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("ArrowRight");
