@@ -114,6 +114,7 @@ void tell(const Placed& at, const Placed& best, double promised, bool forecast) 
   const double scores = to.heldout_scores();
   const auto error = [&](double nats) { return 1.0 + 2.0 * (nats + promised) / scores; };
   const double short_of_best = held_out_nats(*best.rung) - held_out_nats(to);
+  const bool as_good = !(short_of_best > 0.0);  // itself, or the same model tried again
   to.set_unexplained(error(short_of_best));
   to.set_forecast(forecast);
   to.clear_unexplained_lower();
@@ -125,14 +126,13 @@ void tell(const Placed& at, const Placed& best, double promised, bool forecast) 
     if (in_one_replicate(step))
       to.set_single_replicate_nats(std::accumulate(step.begin(), step.end(), 0.0));
   }
-  if (at.rung != best.rung && below.size() > 1 && !in_one_replicate(below)) {
+  if (!as_good && below.size() > 1 && !in_one_replicate(below)) {
     const double reach = reach_of_sum(below);
     to.set_unexplained_lower(error(short_of_best - reach));
     to.set_unexplained_upper(error(short_of_best + reach));
   }
   add_best_drift(*best.rung, to);
-  to.set_consequence(at.rung == best.rung ? best_words(promised, forecast)
-                                          : consequence_of(to, short_of_best));
+  to.set_consequence(as_good ? best_words(promised, forecast) : consequence_of(to, short_of_best));
 }
 
 // Fills all rungs. `settled`: a diagnosis of this rung found nothing more.
