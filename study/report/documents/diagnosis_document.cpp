@@ -52,8 +52,7 @@ Table ladder_table(const v1::DiagnosisReport& report, Digits digits) {
             {}};
   for (const v1::Rung& rung : report.ladder()) {
     out.rows.push_back({name_of(rung), unexplained_of(rung, digits),
-                        nats(rung.log_likelihood(), 4, digits), p_value(rung.misfit_p(), digits),
-                        rung.consequence()});
+                        nats(rung.log_likelihood(), 4, digits), p_value(rung.misfit_p(), digits)});
   }
   return out;
 }
