@@ -57,6 +57,7 @@ TriedTerm tried_term(const Current& current, const Suggestion& suggestion) {
   const std::size_t effects = out.fitted.regression.effects().size();
   const EffectTerm* const term = out.term();
   out.noise_dof = term == nullptr ? INFINITY : noise_dof_of(out.fitted, effects - 1);
+  out.noise_dof = std::min(out.noise_dof, suggestion.noise_dof);
   out.slow = cause_info(out.cause).slow;
   if (term == nullptr) {
     review_noise(current, out);
@@ -64,7 +65,8 @@ TriedTerm tried_term(const Current& current, const Suggestion& suggestion) {
     term->effect->review(current, out);
   }
   const Suggestion& how = out.suggestion;
-  out.log_p = log_p_value(out.likelihood_gain, how.dof, out.noise_dof, how.power, how.search);
+  out.log_p = log_p_value(out.likelihood_gain / how.inflation, how.dof, out.noise_dof, how.power,
+                          how.search);
   out.gain = -out.log_p;
   return out;
 }

@@ -38,9 +38,12 @@ std::vector<double> wavelet_errors(const std::vector<WaveletVariance>& left, con
   return out;
 }
 
+// Of one replicate.
 double log_likelihood_of(const Regression& one, const Eigen::VectorXd& coefficients,
                          const Model& noise) {
-  return -whittle_objective(noise, one.residual(coefficients));
+  const std::vector<double>& nats = one.subject().reshaped_nats;
+  const double reshaped = nats.empty() ? 0.0 : nats[one.replicates().front()];
+  return reshaped - whittle_objective(noise, one.residual(coefficients));
 }
 
 // What the modulated effects of a fit to others gain on one replicate, whose coefficients are

@@ -58,6 +58,9 @@ struct Subject {
   /// Nats that numbers found in a replicate itself (outliers, jumps) would gain by chance; empty:
   /// none were sought.
   std::vector<double> own_nats{};
+  /// Nats of each replicate by which its likelihood exceeds that of its samples as normal numbers,
+  /// where a term changed their distribution; empty: none did.
+  std::vector<double> reshaped_nats{};
 
   std::size_t replicates() const { return samples.size(); }
   /// Samples in a replicate.

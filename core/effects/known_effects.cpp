@@ -17,6 +17,9 @@
   EFFECT(modulated)              \
   EFFECT(telegraph)              \
   EFFECT(outliers)               \
+  EFFECT(heavy_tails)            \
+  EFFECT(variance_wander)        \
+  EFFECT(bursts)                 \
   EFFECT(own_powers)
 
 namespace imunoise {

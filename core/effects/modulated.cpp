@@ -1,5 +1,6 @@
 // modulated: the noise's power follows another channel.
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/effect/columns.h"
@@ -29,15 +30,27 @@ void simulate_modulated(const EffectTerm& term, const SimulatedReplicate& at,
   samples.array() *= (0.5 * term[kModulatedSlope] * course.array()).exp();
 }
 
+// Squares of neighbours are not independent where the power wanders by itself: what the course
+// gains beside that counts.
+double inflation_of(double gain, const PowerView::Explained& explained) {
+  constexpr double kLeast = 1e-3;  // nats
+  if (explained.steady || !(explained.gain < gain)) return 1.0;
+  return gain / std::max(kLeast, explained.gain);
+}
+
 Suggestions search_modulated(const SearchView& view) {
   const std::vector<Witness>& witnesses = view.subject().witnesses;
   if (witnesses.empty()) return {};
   const Innovations& white = view.innovations();
+  const std::vector<PowerView::Explained>& explained = view.power_explained();
   std::vector<std::optional<Suggestion>> each(witnesses.size());
   for_each_index(each.size(), [&](std::size_t w) {
+    const double gain = modulation_by(witnesses[w].samples, white).log_likelihood;
+    const double chance = explained.empty() ? 1.0 : inflation_of(gain, explained[w]);
     each[w] = Suggestion{.cause = "modulated_variance",
                          .added = EffectTerm(modulated(), witnesses[w].name),
-                         .score_nats = modulation_by(witnesses[w].samples, white).log_likelihood};
+                         .score_nats = gain / chance,
+                         .inflation = chance};
   });
   Suggestions out;
   for (auto& one : each) out.push_back(std::move(*one));

@@ -130,6 +130,18 @@ Suggestion suggested(const Current& current, bool shapes, double dof) {
           .dof = dof};
 }
 
+// Where the power wanders within replicates, their means differ, too.
+Suggestions beside_wander(Suggestions all, const SearchView& view) {
+  const PowerView* const power = view.power();
+  const PowerView::Spread spread = power == nullptr ? PowerView::Spread{} : power->of_means();
+  for (Suggestion& one : all) {
+    one.score_nats /= spread.inflation;
+    one.inflation = spread.inflation;
+    one.noise_dof = spread.dof;
+  }
+  return all;
+}
+
 Suggestions search_own_powers(const SearchView& view) {
   const Current& current = view.current();
   // What modulates the noise has made it differ between replicates, and the likelihood of their
@@ -139,7 +151,7 @@ Suggestions search_own_powers(const SearchView& view) {
   const double others = static_cast<double>(view.subject().replicates()) - 1.0;
   const FreeNumbers free = free_numbers(current.fit.model.noise);
   Suggestions out{suggested(current, false, others * free.powers)};
-  if (!(free.shapes > 0.0)) return out;
+  if (!(free.shapes > 0.0)) return beside_wander(std::move(out), view);
   // Shapes are offered where they explain clearly more than powers alone, which are simpler, and
   // than a better spectrum for all could: spectra of their own hide what is missing in all.
   Suggestion shapes = suggested(current, true, others * (free.powers + free.shapes));
@@ -147,7 +159,7 @@ Suggestions search_own_powers(const SearchView& view) {
   const double chance = 0.5 * others * free.shapes;
   const bool clearly = shapes.score_nats - out[0].score_nats > 2.0 * chance + kClearly;
   if (clearly && shapes.score_nats > 2.0 * common_misfit(current)) out.push_back(std::move(shapes));
-  return out;
+  return beside_wander(std::move(out), view);
 }
 
 // Of the noise that each replicate has of its own, white noise alone explains less than half.

@@ -34,6 +34,9 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
   for (const EffectTerm& term : regression.effects()) {
     if (term.effect->own_noise != nullptr) term.effect->own_noise(term, regression, out);
   }
+  if (const auto& nats = regression.subject().reshaped_nats; !nats.empty()) {
+    for (const std::size_t k : regression.replicates()) out.log_likelihood += nats[k];
+  }
   const std::vector<const VarianceCourse*> courses = variance_courses(regression);
   if (courses.empty()) return out;
   // Each explains what those before it leave.

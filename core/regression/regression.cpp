@@ -160,6 +160,10 @@ Regression Regression::in_blocks(std::size_t blocks) const {
   }
   if (!subject_->own_nats.empty())
     parts->own_nats.assign(blocks, subject_->own_nats[0] / static_cast<double>(blocks));
+  if (!subject_->reshaped_nats.empty()) {
+    const double each = subject_->reshaped_nats[0] / static_cast<double>(blocks);
+    parts->reshaped_nats.assign(blocks, each);
+  }
   Regression out(parts);
   out.effects_ = effects_;
   out.first_ = first_;

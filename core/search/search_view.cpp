@@ -1,5 +1,7 @@
 #include "core/search/search_view.h"
 
+#include "core/support/parallel.h"
+
 namespace imunoise {
 
 const SlowView& SearchView::slow() const {
@@ -28,6 +30,23 @@ const std::vector<StepProducts>& SearchView::steps() const {
 const Innovations& SearchView::innovations() const {
   if (!innovations_) innovations_ = imunoise::innovations(current_.regression, current_.fit);
   return *innovations_;
+}
+
+const PowerView* SearchView::power() const {
+  if (!power_) power_.emplace(PowerView::of(innovations(), subject().rate));
+  return *power_ ? &**power_ : nullptr;
+}
+
+const std::vector<PowerView::Explained>& SearchView::power_explained() const {
+  if (explained_) return *explained_;
+  explained_.emplace();
+  const PowerView* const view = power();
+  if (view == nullptr) return *explained_;
+  explained_->resize(subject().witnesses.size());
+  for_each_index(explained_->size(), [&](std::size_t w) {
+    (*explained_)[w] = view->explained(subject().witnesses[w].samples);
+  });
+  return *explained_;
 }
 
 }  // namespace imunoise

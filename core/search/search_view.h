@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/regression/current.h"
+#include "core/search/power_view.h"
 #include "core/search/slow_view.h"
 #include "core/search/step_products.h"
 #include "core/search/suggestion.h"
@@ -24,12 +25,18 @@ class SearchView {
   SlowView::Means over_time(const std::function<double(double seconds)>& function) const;
   const std::vector<StepProducts>& steps() const;
   const Innovations& innovations() const;
+  /// Null where a replicate is too short for it.
+  const PowerView* power() const;
+  /// What each witness explains of the power's course, in their order; none without a power view.
+  const std::vector<PowerView::Explained>& power_explained() const;
 
  private:
   const Current& current_;
   mutable std::optional<SlowView> slow_;
   mutable std::optional<std::vector<StepProducts>> steps_;
   mutable std::optional<Innovations> innovations_;
+  mutable std::optional<std::optional<PowerView>> power_;
+  mutable std::optional<std::vector<PowerView::Explained>> explained_;
 };
 
 }  // namespace imunoise

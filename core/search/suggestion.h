@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <variant>
 
@@ -29,9 +30,13 @@ enum class PlainCoupling {
 struct Suggestion {
   std::string_view cause;  ///< its id, see Cause
   AddedTerm added;
-  double score_nats = 0.0;  ///< log-likelihood that it would gain, to first order
+  double score_nats = 0.0;  ///< log-likelihood that it would gain, to first order, as it counts
   double dof = 1.0;         ///< coefficients, or powers, that it adds
   bool power = false;       ///< it is a power: one-sided
+  /// How much more such a search gains by chance than under the fitted noise: likelihood gained
+  /// counts divided by it.
+  double inflation = 1.0;
+  double noise_dof = INFINITY;  ///< degrees of freedom behind the inflation
   Search search{};
   /// 1/variance of its coefficient or power under the current noise; 0 where that has no meaning.
   double information = 0.0;

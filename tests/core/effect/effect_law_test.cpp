@@ -149,6 +149,9 @@ const std::vector<std::string>& simulated_terms() {
       "modulated(temperature, log_variance_slope=0.3)",
       "telegraph(height=1.5, dwell=25)",
       "outliers(above=6, share=5e-4, size=12)",
+      "heavy_tails(dof=4, size=2)",
+      "variance_wander(tau=8, deviation=0.6)",
+      "bursts(length=2, every=20, ratio=6)",
       "own_powers(spread=0.4)",
   };
   return kTerms;

@@ -14,14 +14,26 @@ namespace {
 constexpr Hertz kEffectRate{100.0};
 
 TEST(EffectTerm, EveryKindIsReadAsItIsPrinted) {
-  for (const char* text :
-       {"WN + RW", "WN + RW + ramp", "WN + ramp(own)", "WN + warm_up(tau=600)",
-        "WN + warm_up(tau=0.25, own)", "WN + RW + line(f=23.4)", "WN + line(f=0.5, harmonics=3)",
-        "WN + step(replicate=2, t=1234.5)", "WN + RW + witness(temperature)",
-        "WN + witness(acc x, lag=300)", "WN + witness(gyro_y, from=0.1, to=10)",
-        "WN + witness(temperature, quadratic)", "WN + witness(temperature, lag=2, own)",
-        "WN + modulated(temperature)", "WN + RW + telegraph", "WN + outliers(above=6)",
-        "AR1 + WN + own_powers"}) {
+  for (const char* text : {"WN + RW",
+                           "WN + RW + ramp",
+                           "WN + ramp(own)",
+                           "WN + warm_up(tau=600)",
+                           "WN + warm_up(tau=0.25, own)",
+                           "WN + RW + line(f=23.4)",
+                           "WN + line(f=0.5, harmonics=3)",
+                           "WN + step(replicate=2, t=1234.5)",
+                           "WN + RW + witness(temperature)",
+                           "WN + witness(acc x, lag=300)",
+                           "WN + witness(gyro_y, from=0.1, to=10)",
+                           "WN + witness(temperature, quadratic)",
+                           "WN + witness(temperature, lag=2, own)",
+                           "WN + modulated(temperature)",
+                           "WN + RW + telegraph",
+                           "WN + outliers(above=6)",
+                           "WN + heavy_tails(dof=4)",
+                           "WN + variance_wander(tau=30)",
+                           "WN + bursts(length=2, every=30)",
+                           "AR1 + WN + own_powers"}) {
     const Result<FullModel> read = parse_full_model(text, kEffectRate);
     ASSERT_TRUE(read) << text << ": " << read.error().message;
     EXPECT_EQ(print(*read), text);

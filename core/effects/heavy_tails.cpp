@@ -1,0 +1,90 @@
+// heavy_tails: large deviations are more frequent than in normal noise.
+
+#include <cmath>
+
+#include "core/effect/columns.h"
+#include "core/effects/reshaped_noise.h"
+#include "core/effects/student.h"
+#include "core/search/search_view.h"
+
+namespace imunoise::effects {
+
+const Effect& heavy_tails();
+
+namespace {
+
+enum HeavyTailsParameter : std::size_t { kHeavyTailsDof, kHeavyTailsSize };
+
+std::shared_ptr<const Subject> of_normal_tails(const EffectTerm& term, const Current& current) {
+  const SizeCounts sizes = count_sizes(innovations(current.regression, current.fit).white);
+  const Student student = student_of(sizes, term[kHeavyTailsDof]);
+  const NormalFromStudent table(student);
+  return reshaped(current, [&](const Eigen::VectorXd& white, std::size_t) {
+    Reshaping out{Eigen::ArrayXd(white.size())};
+    for (Eigen::Index t = 0; t < white.size(); ++t) {
+      const double size = std::abs(white(t));
+      out.factor(t) = table.factor(size);
+      out.nats += log_density(student, size) - log_normal_density(size);
+    }
+    return out;
+  });
+}
+
+std::string_view heavy_tails_fault(const EffectTerm& term) {
+  return term[kHeavyTailsDof] > 2.0 ? "" : "dof must lie above 2: below, the power is infinite";
+}
+
+void simulate_heavy_tails(const EffectTerm& term, const SimulatedReplicate& at,
+                          Eigen::VectorXd& samples) {
+  const double dof = term[kHeavyTailsDof];
+  for (double& x : samples) x += term[kHeavyTailsSize] * student_number(dof, at.random);
+}
+
+Suggestions search_heavy_tails(const SearchView& view) {
+  const SizeCounts sizes = count_sizes(view.innovations().white);
+  const Student best = best_student(sizes);
+  const double gain = gain_of(sizes, best);
+  if (!(gain > 0.0)) return {};
+  return {{.cause = "heavy_tails",
+           .added = EffectTerm(heavy_tails(), "", {{"dof", best.dof}}),
+           .score_nats = gain,
+           .power = true,
+           .information = 0.0}};
+}
+
+}  // namespace
+
+const Effect& heavy_tails() {
+  static const Effect kHeavyTails{
+      .name = "heavy_tails",
+      .title = "heavy tails",
+      .meaning =
+          "The noise has Student's distribution: large deviations are more frequent than "
+          "in normal noise.",
+      .parameters = {{.name = "dof",
+                      .meaning = "degrees of freedom of Student's distribution, above 2",
+                      .unit = "1",
+                      .required = true,
+                      .reported = "dof",
+                      .rounding = Rounding::kFourDigits},
+                     {.name = "size",
+                      .meaning = "standard deviation of the noise that has them",
+                      .reported = "size",
+                      .truth = true}},
+      .causes = {{.id = "heavy_tails",
+                  .title = "heavy tails",
+                  .physics = "Large deviations of all sizes are more frequent than in normal "
+                             "noise: the noise of single events, or of a power that changes from "
+                             "sample to sample.",
+                  .record_next = "the raw samples before any filter, at the highest rate",
+                  .looks_like = {"outliers", "variance_wander"},
+                  .family = "heavy_tails"}},
+      .fault = heavy_tails_fault,
+      .cleaned = of_normal_tails,
+      .simulate = simulate_heavy_tails,
+      .search = search_heavy_tails,
+  };
+  return kHeavyTails;
+}
+
+}  // namespace imunoise::effects

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/regression/current.h"
+
+namespace imunoise {
+
+/// How one replicate's innovations become normal numbers of one variance.
+struct Reshaping {
+  Eigen::ArrayXd factor;  ///< of each innovation
+  double nats = 0.0;      ///< that the distribution behind it gains over the normal one
+};
+
+/// The subject with the innovations of what a fit leaves multiplied by a factor each, and the nats
+/// of that in its reshaped_nats. `reshape`: of a replicate whose innovations are given; called by
+/// several threads.
+std::shared_ptr<Subject> reshaped(
+    const Current& current,
+    const std::function<Reshaping(const Eigen::VectorXd& white, std::size_t replicate)>& reshape);
+
+}  // namespace imunoise

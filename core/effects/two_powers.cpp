@@ -1,0 +1,168 @@
+#include "core/effects/two_powers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr Index kBurstStretch = 16;  // samples
+constexpr auto kBurstSamples = static_cast<double>(kBurstStretch);
+
+double log_density_of(double power, double variance) {
+  return -0.5 * kBurstSamples * (std::log(variance) + power / variance);
+}
+
+}  // namespace
+
+TwoPowers TwoPowers::of(const Innovations& innovations, Hertz rate,
+                        const std::optional<BurstTimes>& times) {
+  TwoPowers start;
+  start.rate_ = rate.value;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const Eigen::VectorXd& white : innovations.white) {
+    Eigen::ArrayXd power(white.size() / kBurstStretch);
+    for (Index i = 0; i < power.size(); ++i)
+      power(i) = white.segment(i * kBurstStretch, kBurstStretch).squaredNorm() / kBurstSamples;
+    sum += power.sum();
+    count += static_cast<double>(power.size());
+    start.replicates_.push_back({std::move(power), {}});
+  }
+  if (!(sum > 0.0)) return start;
+  start.mean_ = sum / count;
+  const auto begun = [&](double stretches_loud, double stretches_every) {
+    TwoPowers out = start;
+    out.variance_[0] = 0.7 * out.mean_;
+    out.variance_[1] = 4.0 * out.mean_;
+    out.change_[1] = std::min(0.9, 1.0 / stretches_loud);
+    out.change_[0] = std::min(0.9, 1.0 / std::max(1.0, stretches_every - stretches_loud));
+    out.climb(!times);
+    return out;
+  };
+  if (times) {
+    const double each = rate.value / kBurstSamples;
+    return begun(times->length_s * each, times->every_s * each);
+  }
+  TwoPowers brief = begun(3.0, 60.0);
+  TwoPowers lasting = begun(40.0, 400.0);
+  return brief.gain() > lasting.gain() ? brief : lasting;
+}
+
+void TwoPowers::climb(bool times) {
+  constexpr int kSteps = 40;
+  constexpr double kSettledNats = 0.01;
+  double before = -INFINITY;
+  for (int step = 0; step < kSteps; ++step) {
+    for_each_index(replicates_.size(), [&](std::size_t k) { expect(replicates_[k]); });
+    if (likelihood() - before < kSettledNats) return;
+    before = likelihood();
+    if (step + 1 < kSteps) maximise(times);
+  }
+}
+
+// Forward and backward, each stretch scaled to a sum of 1.
+void TwoPowers::expect(Replicate& one) const {
+  const Index n = one.power.size();
+  const double loud_share = change_[0] / (change_[0] + change_[1]);
+  Eigen::ArrayXXd forward(n, 2);
+  Eigen::ArrayXXd density(n, 2);
+  Eigen::ArrayXd scale(n);
+  one.likelihood = 0.0;
+  one.gain = 0.0;
+  double before[2] = {1.0 - loud_share, loud_share};
+  for (Index i = 0; i < n; ++i) {
+    const double quiet = log_density_of(one.power(i), variance_[0]);
+    const double loud = log_density_of(one.power(i), variance_[1]);
+    const double top = std::max(quiet, loud);
+    density(i, 0) = std::exp(quiet - top);
+    density(i, 1) = std::exp(loud - top);
+    const double reached[2] = {
+        i == 0 ? before[0] : before[0] * (1.0 - change_[0]) + before[1] * change_[1],
+        i == 0 ? before[1] : before[0] * change_[0] + before[1] * (1.0 - change_[1])};
+    forward(i, 0) = reached[0] * density(i, 0);
+    forward(i, 1) = reached[1] * density(i, 1);
+    scale(i) = forward(i, 0) + forward(i, 1);
+    forward.row(i) /= scale(i);
+    before[0] = forward(i, 0);
+    before[1] = forward(i, 1);
+    const double here = top + std::log(scale(i));
+    one.likelihood += here;
+    one.gain += here - log_density_of(one.power(i), mean_);
+  }
+  one.loud.resize(n);
+  one.starts = 0.0;
+  one.ends = 0.0;
+  double back[2] = {1.0, 1.0};
+  for (Index i = n; i-- > 0;) {
+    one.loud(i) = forward(i, 1) * back[1] / (forward(i, 0) * back[0] + forward(i, 1) * back[1]);
+    if (i == 0) break;
+    const double quiet = density(i, 0) * back[0] / scale(i);
+    const double loud = density(i, 1) * back[1] / scale(i);
+    one.starts += forward(i - 1, 0) * change_[0] * loud;
+    one.ends += forward(i - 1, 1) * change_[1] * quiet;
+    back[0] = (1.0 - change_[0]) * quiet + change_[0] * loud;
+    back[1] = change_[1] * quiet + (1.0 - change_[1]) * loud;
+  }
+}
+
+void TwoPowers::maximise(bool times) {
+  double loud = 0.0;
+  double loud_power = 0.0;
+  double all = 0.0;
+  double power = 0.0;
+  double starts = 0.0;
+  double ends = 0.0;
+  for (const Replicate& one : replicates_) {
+    loud += one.loud.sum();
+    loud_power += (one.loud * one.power).sum();
+    all += static_cast<double>(one.power.size());
+    power += one.power.sum();
+    starts += one.starts;
+    ends += one.ends;
+  }
+  constexpr double kFewest = 1e-6;  // stretches
+  if (!(loud > kFewest) || !(all - loud > kFewest)) return;
+  variance_[1] = loud_power / loud;
+  variance_[0] = (power - loud_power) / (all - loud);
+  if (!times) return;
+  constexpr double kLeastChange = 1e-7;
+  change_[0] = std::clamp(starts / (all - loud), kLeastChange, 0.5);
+  change_[1] = std::clamp(ends / loud, kLeastChange, 0.5);
+}
+
+double TwoPowers::likelihood() const {
+  double out = 0.0;
+  for (const Replicate& one : replicates_) out += one.likelihood;
+  return out;
+}
+
+double TwoPowers::gain() const {
+  double out = 0.0;
+  for (const Replicate& one : replicates_) out += one.gain;
+  return out;
+}
+
+BurstTimes TwoPowers::times() const {
+  const double each = kBurstSamples / rate_;
+  return {each / change_[1], each / change_[1] + each / change_[0]};
+}
+
+Eigen::ArrayXd TwoPowers::factor(std::size_t replicate, Index samples) const {
+  const Replicate& one = replicates_[replicate];
+  const double quiet = std::sqrt(mean_ / variance_[0]);
+  const double loud = std::sqrt(mean_ / variance_[1]);
+  Eigen::ArrayXd out = Eigen::ArrayXd::Ones(samples);
+  const Index n = one.loud.size();
+  for (Index t = 0; n > 0 && t < samples; ++t) {
+    const double share = one.loud(std::min(n - 1, t / kBurstStretch));
+    out(t) = (1.0 - share) * quiet + share * loud;
+  }
+  return out;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/regression/modulation.h"
+#include "core/support/units.h"
+
+namespace imunoise {
+
+/// How long noise stays at its larger power, and how often it gets there.
+struct BurstTimes {
+  double length_s = 1.0;  ///< mean
+  double every_s = 10.0;  ///< mean time from the begin of one to that of the next
+};
+
+/// Noise that switches between two powers at random: a hidden Markov chain over stretches of some
+/// samples, with the likelihood of their power (Rabiner 1989, Proc. IEEE 77:257).
+class TwoPowers {
+ public:
+  /// The fit of most likelihood, of these times or of any. `rate`: of the innovations.
+  static TwoPowers of(const Innovations& innovations, Hertz rate,
+                      const std::optional<BurstTimes>& times = {});
+
+  double gain() const;  ///< nats over one power
+  double gain_in(std::size_t replicate) const { return replicates_[replicate].gain; }
+  BurstTimes times() const;
+  double ratio() const { return variance_[1] / variance_[0]; }
+  /// By what each sample of a replicate is multiplied to have the power of all.
+  Eigen::ArrayXd factor(std::size_t replicate, Eigen::Index samples) const;
+
+ private:
+  struct Replicate {
+    Eigen::ArrayXd power;  // mean squares of the stretches
+    Eigen::ArrayXd loud;   // chance that the stretch has the larger power
+    double likelihood = 0.0;
+    double gain = 0.0;
+    double starts = 0.0;  // expected number of bursts that begin,
+    double ends = 0.0;    // and end
+  };
+
+  void expect(Replicate& one) const;
+  void maximise(bool times);
+  void climb(bool times);
+  double likelihood() const;
+
+  double rate_ = 1.0;
+  std::vector<Replicate> replicates_;
+  double mean_ = 1.0;                // power of all
+  double variance_[2] = {1.0, 4.0};  // the smaller, the larger
+  double change_[2] = {0.01, 0.1};   // chances to leave each, a stretch
+};
+
+}  // namespace imunoise

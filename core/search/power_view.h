@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/model/model.h"
+#include "core/regression/modulation.h"
+#include "core/support/units.h"
+
+namespace imunoise {
+
+/// How the power of the noise moves: the logarithm of the innovations' power over short stretches,
+/// as a series of its own. Under normal noise of constant power it is white, of known variance.
+/// Power that wanders by itself is a Markov process beside it: any slow course explains some of
+/// that, as a walk is explained by another (Granger & Newbold 1974, J. Econometrics 2:111).
+class PowerView {
+ public:
+  /// None where a replicate is too short. `rate`: of the innovations.
+  static std::optional<PowerView> of(const Innovations& innovations, Hertz rate);
+
+  /// What a course of the variance explains.
+  struct Explained {
+    double gain = 0.0;   ///< nats that it gains beside power that wanders by itself,
+    double alone = 0.0;  ///< and were the power constant otherwise
+    double left = 0.0;   ///< nats that wandering power gains beside it
+    bool steady = true;  ///< beside the course, the power is constant but for chance
+  };
+  Explained explained(const VarianceCourse& course) const;
+
+  /// Nats that wandering power gains over constant power, which tails or outliers may disturb.
+  double wander_gain() const;
+  /// The same if the noise is normal at any one time: as any model of the power would gain them.
+  double normal_gain() const;
+  /// Correlation time of the wandering power, s.
+  double correlation_time() const;
+  /// Standard deviation of the logarithm of the power that wanders.
+  double deviation() const;
+  /// The same with this correlation time (s).
+  PowerView with_correlation_time(double seconds) const;
+
+  /// How much more the mean power of replicates varies than that of constant power does, and the
+  /// degrees of freedom that this is known with.
+  struct Spread {
+    double inflation = 1.0;
+    double dof = INFINITY;  ///< infinite where the power is constant
+  };
+  Spread of_means() const;
+
+  /// The course that wandering power took in a replicate, a number a sample (Wiener filter);
+  /// `samples`: so many. By its number among the innovations.
+  Eigen::ArrayXd course(std::size_t replicate, Eigen::Index samples) const;
+  /// Nats that wandering power gains in it.
+  double gain_in(std::size_t replicate) const;
+
+ private:
+  struct Replicate {
+    std::size_t number;       // in the subject
+    Eigen::VectorXd power;    // logarithms, less their mean, of quick_length()
+    Eigen::VectorXd cosines;  // their transform
+  };
+  // A fit to all replicates, with or without a course.
+  struct Fit {
+    Model noise;
+    double log_likelihood = 0.0;
+  };
+
+  Fit fitted(const Model& start, const std::vector<Eigen::VectorXd>* course) const;
+  // The best of some starts. `normal`: chance is that of normal noise.
+  Fit wandering(const std::vector<Eigen::VectorXd>* course, bool normal) const;
+  std::vector<Eigen::VectorXd> stretched(const VarianceCourse& course) const;
+
+  double seconds_ = 0.0;  // of a stretch
+  std::vector<Replicate> replicates_;
+  Fit chance_;    // white, of the variance that normal noise has
+  Fit constant_;  // white
+  Fit wander_;    // a Markov process beside it,
+  Fit normal_;    // and beside the chance of normal noise
+  std::optional<double> phi_;
+};
+
+}  // namespace imunoise
