@@ -55,11 +55,10 @@ Suggestions search_bursts(const SearchView& view) {
   const double gain = powers.gain();
   const BurstTimes times = powers.times();
   constexpr double kLeastRatio = 1.05;
-  if (!(gain > 0.0) || !(powers.ratio() > kLeastRatio)) return {};
   return {
       {.cause = "bursts",
        .added = EffectTerm(bursts(), "", {{"length", times.length_s}, {"every", times.every_s}}),
-       .score_nats = gain,
+       .score_nats = powers.ratio() > kLeastRatio ? std::max(0.0, gain) : 0.0,
        .dof = 3.0}};
 }
 

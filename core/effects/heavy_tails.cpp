@@ -1,5 +1,6 @@
 // heavy_tails: large deviations are more frequent than in normal noise.
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/effect/columns.h"
@@ -43,13 +44,11 @@ void simulate_heavy_tails(const EffectTerm& term, const SimulatedReplicate& at,
 Suggestions search_heavy_tails(const SearchView& view) {
   const SizeCounts sizes = count_sizes(view.innovations().white);
   const Student best = best_student(sizes);
-  const double gain = gain_of(sizes, best);
-  if (!(gain > 0.0)) return {};
+  const double gain = std::max(0.0, gain_of(sizes, best));
   return {{.cause = "heavy_tails",
            .added = EffectTerm(heavy_tails(), "", {{"dof", best.dof}}),
            .score_nats = gain,
-           .power = true,
-           .information = 0.0}};
+           .power = true}};
 }
 
 }  // namespace

@@ -23,22 +23,19 @@ TwoPowers TwoPowers::of(const Innovations& innovations, Hertz rate,
                         const std::optional<BurstTimes>& times) {
   TwoPowers start;
   start.rate_ = rate.value;
-  double sum = 0.0;
-  double count = 0.0;
   for (const Eigen::VectorXd& white : innovations.white) {
     Eigen::ArrayXd power(white.size() / kBurstStretch);
     for (Index i = 0; i < power.size(); ++i)
       power(i) = white.segment(i * kBurstStretch, kBurstStretch).squaredNorm() / kBurstSamples;
-    sum += power.sum();
-    count += static_cast<double>(power.size());
-    start.replicates_.push_back({std::move(power), {}});
+    // Each replicate against its own level: whether these differ is another question.
+    const double mean = power.size() > 0 ? power.mean() : 0.0;
+    if (!(mean > 0.0)) return {};
+    start.replicates_.push_back({power / mean, {}});
   }
-  if (!(sum > 0.0)) return start;
-  start.mean_ = sum / count;
   const auto begun = [&](double stretches_loud, double stretches_every) {
     TwoPowers out = start;
-    out.variance_[0] = 0.7 * out.mean_;
-    out.variance_[1] = 4.0 * out.mean_;
+    out.variance_[0] = 0.7;
+    out.variance_[1] = 4.0;
     out.change_[1] = std::min(0.9, 1.0 / stretches_loud);
     out.change_[0] = std::min(0.9, 1.0 / std::max(1.0, stretches_every - stretches_loud));
     out.climb(!times);
@@ -92,7 +89,7 @@ void TwoPowers::expect(Replicate& one) const {
     before[1] = forward(i, 1);
     const double here = top + std::log(scale(i));
     one.likelihood += here;
-    one.gain += here - log_density_of(one.power(i), mean_);
+    one.gain += here - log_density_of(one.power(i), 1.0);
   }
   one.loud.resize(n);
   one.starts = 0.0;
@@ -152,10 +149,15 @@ BurstTimes TwoPowers::times() const {
   return {each / change_[1], each / change_[1] + each / change_[0]};
 }
 
+double TwoPowers::gain_in(std::size_t replicate) const {
+  return replicates_.empty() ? 0.0 : replicates_[replicate].gain;
+}
+
 Eigen::ArrayXd TwoPowers::factor(std::size_t replicate, Index samples) const {
+  if (replicates_.empty()) return Eigen::ArrayXd::Ones(samples);
   const Replicate& one = replicates_[replicate];
-  const double quiet = std::sqrt(mean_ / variance_[0]);
-  const double loud = std::sqrt(mean_ / variance_[1]);
+  const double quiet = 1.0 / std::sqrt(variance_[0]);
+  const double loud = 1.0 / std::sqrt(variance_[1]);
   Eigen::ArrayXd out = Eigen::ArrayXd::Ones(samples);
   const Index n = one.loud.size();
   for (Index t = 0; n > 0 && t < samples; ++t) {

@@ -18,20 +18,21 @@ struct BurstTimes {
 /// samples, with the likelihood of their power (Rabiner 1989, Proc. IEEE 77:257).
 class TwoPowers {
  public:
-  /// The fit of most likelihood, of these times or of any. `rate`: of the innovations.
+  /// The fit of most likelihood, of these times or of any; without gain where a replicate is too
+  /// short or silent. `rate`: of the innovations.
   static TwoPowers of(const Innovations& innovations, Hertz rate,
                       const std::optional<BurstTimes>& times = {});
 
-  double gain() const;  ///< nats over one power
-  double gain_in(std::size_t replicate) const { return replicates_[replicate].gain; }
+  double gain() const;  ///< nats over one power in each replicate
+  double gain_in(std::size_t replicate) const;
   BurstTimes times() const;
   double ratio() const { return variance_[1] / variance_[0]; }
-  /// By what each sample of a replicate is multiplied to have the power of all.
+  /// By what each sample of a replicate is multiplied to have the same power all the time.
   Eigen::ArrayXd factor(std::size_t replicate, Eigen::Index samples) const;
 
  private:
   struct Replicate {
-    Eigen::ArrayXd power;  // mean squares of the stretches
+    Eigen::ArrayXd power;  // mean squares of the stretches, over their mean
     Eigen::ArrayXd loud;   // chance that the stretch has the larger power
     double likelihood = 0.0;
     double gain = 0.0;
@@ -46,7 +47,6 @@ class TwoPowers {
 
   double rate_ = 1.0;
   std::vector<Replicate> replicates_;
-  double mean_ = 1.0;                // power of all
   double variance_[2] = {1.0, 4.0};  // the smaller, the larger
   double change_[2] = {0.01, 0.1};   // chances to leave each, a stretch
 };

@@ -67,12 +67,13 @@ Suggestions search_variance_wander(const SearchView& view) {
   }
   constexpr double kSurely = 3.0;  // nats
   if (gain > kSurely) gain += std::max(0.0, power->normal_gain() - power->wander_gain());
+  const double shortest = 2.0 / view.subject().rate.value;
   const double seconds = power->correlation_time();
-  if (!(gain > 0.0) || !(seconds * view.subject().rate.value >= 1.0)) return {};
+  if (!(seconds >= shortest)) gain = 0.0;
   constexpr double kPlaces = 8.0;  // separate correlation times
   return {{.cause = "variance_wander",
-           .added = EffectTerm(variance_wander(), "", {{"tau", seconds}}),
-           .score_nats = gain,
+           .added = EffectTerm(variance_wander(), "", {{"tau", std::max(seconds, shortest)}}),
+           .score_nats = std::max(0.0, gain),
            .power = true,
            .search = {.log_places = std::log(kPlaces)}}};
 }
