@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/causes.h"
 #include "core/diagnosis/missing_noise.h"
+#include "core/diagnosis/placebo.h"
 #include "core/diagnosis/shared_noise.h"
 #include "core/effects/couplings.h"
 #include "core/effects/known_effects.h"
@@ -39,6 +40,9 @@ bool rivals(const RankedTerm& one, const RankedTerm& other, double significant) 
   return both - with.fit.log_likelihood < 0.5 * second.tried.likelihood_gain;
 }
 
+// What rings is mechanical: of all that may couple in, only motion does.
+bool rings(const TriedTerm& tried) { return tried.cause == "resonance"; }
+
 // Candidates whose evidence is as good, and what was not recorded.
 void fill_confusions(std::vector<RankedTerm>& effects, const Subject& subject, double significant) {
   const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
@@ -52,8 +56,9 @@ void fill_confusions(std::vector<RankedTerm>& effects, const Subject& subject, d
       if (alike) add_unique(one.confused_with, other.tried.cause, one.tried.cause);
     }
     for (const std::string_view id : unrecorded) {
-      const bool could =
-          id == "temperature" ? one.tried.slow : cause_info(one.tried.cause).by_spectrum;
+      const bool could = id == "temperature" ? one.tried.slow
+                                             : cause_info(one.tried.cause).by_spectrum &&
+                                                   (is_motion(id) || !rings(one.tried));
       if (could) add_unique(one.confused_with, id, one.tried.cause);
     }
     for (const std::string_view id : one.tried.could_be)
@@ -126,6 +131,7 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
   // Everything that was searched is a chance of a false alarm.
   const auto searched = static_cast<double>(all.size());
   std::vector<TriedTerm> tried = try_all(current, all, progress.part(0.4, 0.75));
+  test_placebos(tried, current, std::log(level / searched), progress);
   name_shared_noise(tried, searched, level, progress);
   if (progress.stopped()) return {};
   Diagnosis out;

@@ -104,6 +104,11 @@ std::vector<std::string_view> unrecorded_couplings(const Subject& subject) {
   return out;
 }
 
+bool is_motion(std::string_view coupling) {
+  return coupling == "g_sensitivity" || coupling == "common_vibration" ||
+         coupling == "cross_axis" || coupling == "tilt";
+}
+
 bool may_share_motion(Quantity subject, const Witness& witness) {
   return quantity_of(witness) == subject;
 }

@@ -16,6 +16,8 @@ std::string_view coupling_effect(Quantity subject, const Witness& witness);
 bool measures_unknown(const Witness& witness);
 /// Couplings to surroundings without a recording; constant ones are excluded.
 std::vector<std::string_view> unrecorded_couplings(const Subject& subject);
+/// True for the couplings, by their ids, through which motion enters.
+bool is_motion(std::string_view coupling);
 /// True where both sensors could feel the same motion, so that it need not be the one leaking into
 /// the other.
 bool may_share_motion(Quantity subject, const Witness& witness);

@@ -1,0 +1,133 @@
+#include "core/diagnosis/placebo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/candidates.h"
+#include "core/effect/columns.h"
+#include "core/search/evidence.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr std::size_t kMostPlacebos = 12;  // terms that are tested
+constexpr double kAsMuch = 3.0;            // nats: less cannot tell two courses apart
+
+// Sums of products of a whitened regressor a and what is left, r.
+struct PlaceboSums {
+  double aa = 0.0;
+  double ar = 0.0;
+  double aaaa = 0.0;
+  double aaar = 0.0;
+  double aarr = 0.0;
+
+  void add(const Eigen::ArrayXd& a, const Eigen::ArrayXd& r) {
+    const Eigen::ArrayXd square = a.square();
+    aa += square.sum();
+    ar += (a * r).sum();
+    aaaa += square.square().sum();
+    aaar += (square * a * r).sum();
+    aarr += (square * r.square()).sum();
+  }
+  double gain() const { return aa > 0.0 ? 0.5 * ar * ar / aa : 0.0; }
+  double dof() const { return aa * aa / aaaa; }
+  // Variance of the score by its scatter once the regressor is fitted, over that by the model.
+  double inflation() const {
+    const double b = ar / aa;
+    return (aarr - 2.0 * b * aaar + b * b * aaaa) / aa;
+  }
+};
+
+// The only column of a regressor that all replicates share, a replicate each; empty where it is
+// not of this kind.
+std::vector<SharedVector> shared_column(const EffectTerm& term, const Subject& subject) {
+  if (term.effect->regressors == nullptr || term.effect->fit_with != nullptr) return {};
+  const Regressors made = regressors_of(term, subject);
+  if (made.coefficients.size() != 1 || made.coefficients[0].replicate != CoefficientName::kAll)
+    return {};
+  std::vector<SharedVector> out;
+  for (const Columns& one : made.replicates) {
+    if (one.cosines.size() != 1) return {};
+    out.push_back(one.cosines[0]);
+  }
+  return out;
+}
+
+// A column as long as another replicate: from the same begin, with nothing behind its end.
+SharedVector as_long_as(const SharedVector& cosines, Index size) {
+  if (cosines.size() == size) return cosines;
+  const Eigen::VectorXd samples = inverse_cosine_transform(cosines);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(size + 1);
+  const Index both = std::min(samples.size(), out.size());
+  out.head(both) = samples.head(both);
+  return cosine_transform(out);
+}
+
+// Sums with the column of the replicate `shift` further on in place of each one's own.
+PlaceboSums sums_of(const Current& current, const std::vector<SharedVector>& columns,
+                    std::size_t shift) {
+  std::vector<PlaceboSums> each(columns.size());
+  for_each_index(columns.size(), [&](std::size_t k) {
+    const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
+    const SharedVector column = as_long_as(columns[(k + shift) % columns.size()], deviation.size());
+    each[k].add(column.array() / deviation, current.cosines[k].array() / deviation);
+  });
+  PlaceboSums out;
+  for (const PlaceboSums& one : each) {
+    out.aa += one.aa;
+    out.ar += one.ar;
+    out.aaaa += one.aaaa;
+    out.aaar += one.aaar;
+    out.aarr += one.aarr;
+  }
+  return out;
+}
+
+bool copies_explain_as_much(const Current& current, const std::vector<SharedVector>& columns,
+                            double own) {
+  for (std::size_t shift = 1; shift < columns.size(); ++shift) {
+    if (sums_of(current, columns, shift).gain() > own - kAsMuch) return true;
+  }
+  return false;
+}
+
+void test_placebo(TriedTerm& tried, const Current& current) {
+  const Subject& subject = current.subject();
+  const std::vector<SharedVector> columns = shared_column(*tried.term(), subject);
+  if (columns.empty()) return;
+  const PlaceboSums own = sums_of(current, columns, 0);
+  if (!(own.aa > 0.0)) return;
+  const bool several = subject.parts.back().recorded > 0;
+  if (several && copies_explain_as_much(current, columns, own.gain()))
+    tried.could_be.push_back("common_course");
+  constexpr double kBeyondChance = 3.0;  // standard deviations
+  const double dof = own.dof();
+  const double inflation = own.inflation();
+  if (!(inflation > 1.0 + kBeyondChance * std::sqrt(2.0 / dof))) return;
+  Suggestion& how = tried.suggestion;
+  how.inflation *= inflation;
+  tried.noise_dof = std::min(tried.noise_dof, std::max(1.0, dof - 1.0));
+  tried.log_p = log_p_value(tried.likelihood_gain / how.inflation, how.dof, tried.noise_dof,
+                            how.power, how.search);
+  tried.gain = -tried.log_p;
+}
+
+}  // namespace
+
+void test_placebos(std::vector<TriedTerm>& tried, const Current& current, double least,
+                   const Progress& progress) {
+  std::size_t tested = 0;
+  for (TriedTerm& one : tried) {
+    if (tested == kMostPlacebos || !(one.log_p < least) || progress.stopped()) break;
+    if (one.term() == nullptr || one.term()->effect->regressors == nullptr) continue;
+    test_placebo(one, current);
+    ++tested;
+  }
+  best_first(tried);
+}
+
+}  // namespace imunoise
