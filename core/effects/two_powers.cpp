@@ -156,13 +156,12 @@ double TwoPowers::gain_in(std::size_t replicate) const {
 Eigen::ArrayXd TwoPowers::factor(std::size_t replicate, Index samples) const {
   if (replicates_.empty()) return Eigen::ArrayXd::Ones(samples);
   const Replicate& one = replicates_[replicate];
-  const double quiet = 1.0 / std::sqrt(variance_[0]);
-  const double loud = 1.0 / std::sqrt(variance_[1]);
+  const double loud = 1.0 / std::sqrt(ratio());
   Eigen::ArrayXd out = Eigen::ArrayXd::Ones(samples);
   const Index n = one.loud.size();
   for (Index t = 0; n > 0 && t < samples; ++t) {
     const double share = one.loud(std::min(n - 1, t / kBurstStretch));
-    out(t) = (1.0 - share) * quiet + share * loud;
+    out(t) = 1.0 - share + share * loud;
   }
   return out;
 }

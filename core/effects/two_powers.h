@@ -27,7 +27,8 @@ class TwoPowers {
   double gain_in(std::size_t replicate) const;
   BurstTimes times() const;
   double ratio() const { return variance_[1] / variance_[0]; }
-  /// By what each sample of a replicate is multiplied to have the same power all the time.
+  /// By what each sample of a replicate is multiplied to have the smaller power all the
+  /// time.
   Eigen::ArrayXd factor(std::size_t replicate, Eigen::Index samples) const;
 
  private:

@@ -50,7 +50,7 @@ const std::vector<Example>& examples() {
       {"outliers(above=6, share=0.004, size=15)", 0.5},  // of some 120
       {"own_powers(spread=0.5)", 1.9},
       {"variance_wander(tau=20, deviation=0.8)", 0.5},
-      {"bursts(length=5, every=50, ratio=6)", 0.3},
+      {"bursts(length=20, every=200, ratio=6)", 0.3},
       {"wander(from=0.6, to=0.8, amplitude=0.8)", 0.3},
       {"two_lags(heat, fast=3, slow=20, coefficient=0.1)"},
   };
