@@ -33,6 +33,13 @@ struct PlaceboSums {
     aaar += (square * a * r).sum();
     aarr += (square * r.square()).sum();
   }
+  void add(const PlaceboSums& more) {
+    aa += more.aa;
+    ar += more.ar;
+    aaaa += more.aaaa;
+    aaar += more.aaar;
+    aarr += more.aarr;
+  }
   double gain() const { return aa > 0.0 ? 0.5 * ar * ar / aa : 0.0; }
   double dof() const { return aa * aa / aaaa; }
   // Variance of the score by its scatter once the regressor is fitted, over that by the model.
@@ -57,40 +64,47 @@ std::vector<SharedVector> shared_column(const EffectTerm& term, const Subject& s
   return out;
 }
 
-// A column as long as another replicate: from the same begin, with nothing behind its end.
-SharedVector as_long_as(const SharedVector& cosines, Index size) {
-  if (cosines.size() == size) return cosines;
-  const Eigen::VectorXd samples = inverse_cosine_transform(cosines);
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(size + 1);
-  const Index both = std::min(samples.size(), out.size());
-  out.head(both) = samples.head(both);
+// The first `extent` samples of a column, less their mean, in a replicate of so many samples.
+SharedVector within(const SharedVector& cosines, Index extent, Index samples) {
+  if (cosines.size() + 1 == samples && extent == samples) return cosines;
+  const Eigen::VectorXd all = inverse_cosine_transform(cosines);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(samples);
+  out.head(extent) = all.head(extent);
+  out.head(extent).array() -= out.head(extent).mean();
   return cosine_transform(out);
 }
 
-// Sums with the column of the replicate `shift` further on in place of each one's own.
-PlaceboSums sums_of(const Current& current, const std::vector<SharedVector>& columns,
-                    std::size_t shift) {
-  std::vector<PlaceboSums> each(columns.size());
+// Each replicate's own column, and that of the replicate `shift` further on, over the time that
+// both have.
+struct Copies {
+  PlaceboSums own;
+  PlaceboSums copied;
+};
+
+Copies copies_of(const Current& current, const std::vector<SharedVector>& columns,
+                 std::size_t shift) {
+  std::vector<Copies> each(columns.size());
   for_each_index(columns.size(), [&](std::size_t k) {
+    const SharedVector& other = columns[(k + shift) % columns.size()];
+    const Index n = columns[k].size() + 1;
+    const Index extent = std::min(n, other.size() + 1);
     const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
-    const SharedVector column = as_long_as(columns[(k + shift) % columns.size()], deviation.size());
-    each[k].add(column.array() / deviation, current.cosines[k].array() / deviation);
+    const Eigen::ArrayXd left = current.cosines[k].array() / deviation;
+    each[k].own.add(within(columns[k], extent, n).array() / deviation, left);
+    if (shift > 0) each[k].copied.add(within(other, extent, n).array() / deviation, left);
   });
-  PlaceboSums out;
-  for (const PlaceboSums& one : each) {
-    out.aa += one.aa;
-    out.ar += one.ar;
-    out.aaaa += one.aaaa;
-    out.aaar += one.aaar;
-    out.aarr += one.aarr;
+  Copies out;
+  for (const Copies& one : each) {
+    out.own.add(one.own);
+    out.copied.add(one.copied);
   }
   return out;
 }
 
-bool copies_explain_as_much(const Current& current, const std::vector<SharedVector>& columns,
-                            double own) {
+bool copies_explain_as_much(const Current& current, const std::vector<SharedVector>& columns) {
   for (std::size_t shift = 1; shift < columns.size(); ++shift) {
-    if (sums_of(current, columns, shift).gain() > own - kAsMuch) return true;
+    const Copies found = copies_of(current, columns, shift);
+    if (found.copied.gain() > found.own.gain() - kAsMuch) return true;
   }
   return false;
 }
@@ -99,10 +113,10 @@ void test_placebo(TriedTerm& tried, const Current& current) {
   const Subject& subject = current.subject();
   const std::vector<SharedVector> columns = shared_column(*tried.term(), subject);
   if (columns.empty()) return;
-  const PlaceboSums own = sums_of(current, columns, 0);
+  const PlaceboSums own = copies_of(current, columns, 0).own;
   if (!(own.aa > 0.0)) return;
   const bool several = subject.parts.back().recorded > 0;
-  if (several && copies_explain_as_much(current, columns, own.gain()))
+  if (several && copies_explain_as_much(current, columns))
     tried.could_be.push_back("common_course");
   constexpr double kBeyondChance = 3.0;  // standard deviations
   const double dof = own.dof();
