@@ -70,7 +70,8 @@ function Campaign({ state }: { state: CampaignState }) {
   const start = (): void => {
     post("/v1/campaigns/{campaign}/start", { campaign: name }, { once: false }).then(() => tell(""), (error: Error) => tell(error.message));
   };
-  const phase = state.running ? phases[state.status?.phase ?? ""] ?? "starts" : "stopped";
+  const told = state.status?.phase ?? "";
+  const phase = state.running || told === "finished" ? phases[told] ?? "starts" : "stopped";
   return (
     <section class="campaign" aria-label={name}>
       <header>

@@ -18,7 +18,8 @@ function useChannels(source: Source): readonly string[] {
   useEffect(() => {
     if ("input" in source.what) return;
     void get("/v1/recordings/{campaign}/{folder}", source.what)
-      .then((manifest) => set(manifest.devices.flatMap((device) => device.streams.flatMap((stream) => stream.channels.map((one) => one.name)))))
+      .then((manifest) => set(manifest.devices.flatMap((device) =>
+        device.streams.flatMap((stream) => stream.channels.map((one) => `${device.name}/${stream.name}/${one.name}`)))))
       .catch(() => undefined);
   }, []);
   return channels;
