@@ -22,7 +22,7 @@ async function signIn(page, url, token) {
 }
 
 test("a campaign records, is stopped knowingly and started again", { timeout: 90_000 }, async (t) => {
-  const { url } = await serve(t, folder(t), campaign, 8471);
+  const { url } = await serve(t, folder(), campaign, 8471);
   const { page, problems } = await browse(t);
   await page.goto(url);
   await page.getByLabel("Token").fill("x".repeat(32));
@@ -46,7 +46,7 @@ test("a campaign records, is stopped knowingly and started again", { timeout: 90
 });
 
 test("a viewer sees everything and changes nothing", { timeout: 60_000 }, async (t) => {
-  const { url } = await serve(t, folder(t), campaign, 8472);
+  const { url } = await serve(t, folder(), campaign, 8472);
   const { page } = await browse(t);
   await signIn(page, url, viewer);
   await page.getByText("read only").waitFor();

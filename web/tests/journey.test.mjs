@@ -23,7 +23,7 @@ options.effect = ["fan(frequency=23, amplitude=3e-3, channel=gyro_x)"]
 `;
 
 test("record, study, find, add", { timeout: 240_000 }, async (t) => {
-  const { url } = await serve(t, folder(t), campaign, 8473);
+  const { url } = await serve(t, folder(), campaign, 8473);
   const { page, problems } = await browse(t);
   await page.goto(url);
   await page.getByLabel("Token").fill(operator);

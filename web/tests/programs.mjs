@@ -11,9 +11,10 @@ const screenshots = fileURLToPath(new URL("screenshots/", import.meta.url));
 const axe = readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
 mkdirSync(screenshots, { recursive: true });
 
-export function folder(test) {
+// Removed at the very end, when every program that writes there has ended.
+export function folder() {
   const path = mkdtempSync(join(tmpdir(), "imunoise_page_"));
-  test.after(() => rmSync(path, { recursive: true, force: true }));
+  process.on("exit", () => rmSync(path, { recursive: true, force: true }));
   return path;
 }
 
@@ -22,7 +23,11 @@ export const simulate = (where, ...options) => execFileSync(imunoise, ["simulate
 // Resolves with the first match in what a program prints.
 function started(test, program, words, pattern, cwd) {
   const child = spawn(program, words, { cwd });
-  test.after(() => child.kill("SIGTERM"));
+  const ended = new Promise((go) => child.once("exit", go));
+  test.after(() => {
+    child.kill("SIGTERM");
+    return ended;
+  });
   return new Promise((go, fail) => {
     let text = "";
     const hear = (bytes) => {

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { browse, folder, open, picture, simulate, violations } from "./programs.mjs";
 
 async function opened(t) {
-  const where = folder(t);
+  const where = folder();
   simulate(where, "--model", "WN(sigma2=2.5e-7) + RW(gamma2=1e-14) + line(f=19.9, amplitude=2e-4)", "--rate", "100", "--samples", "20000",
     "--replicates", "4", "--seed", "4", "--unit", "rad/s", "--channel", "gyro_z", "--out", "g.h5");
   const service = await open(t, where, "g_1.h5", "g_2.h5", "g_3.h5", "g_4.h5");
