@@ -42,12 +42,12 @@ TEST(Integrity, SoundSamplesAreLeftAlone) {
 }
 
 // With six decimals some samples of many repeat the one before, whatever the noise: of white noise
-// n·step/(2√π), 5.1 here; of noise whose neighbours are alike more. Too many values occur to count
+// n·step/(2√π), 3.4 here; of noise whose neighbours are alike more. Too many values occur to count
 // each.
 TEST(Integrity, PrintedDecimalsAreNoDefect) {
-  constexpr std::size_t kMany = 600'000;
-  constexpr double kPrinted = 3e-5;
-  for (const double phi : {0.0, 0.95, 0.999}) {
+  constexpr std::size_t kMany = 300'000;
+  constexpr double kPrinted = 4e-5;
+  for (const double phi : {0.0, 0.95}) {
     RandomStream rng(7);
     std::vector<double> printed(kMany);
     double state = 0.0;
