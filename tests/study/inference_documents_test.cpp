@@ -235,6 +235,41 @@ TEST(InferenceDocuments, NoLineIsWiderThanTheTerminal) {
   }
 }
 
+v1::Rung rung_with(double unexplained, double waves) {
+  v1::Rung out;
+  out.set_model("WN + RW");
+  out.set_unexplained(unexplained);
+  out.set_consequence("The best model.");
+  v1::Drift& drift = *out.add_drift();
+  drift.set_seconds(100.0);
+  drift.set_best(1.0);
+  v1::ErrorView& view = *out.add_views();
+  view.set_view("single_waves");
+  view.set_value(waves);
+  view.set_floor(6.5);
+  view.set_unit("dB");
+  view.set_p(waves > 10.0 ? 1e-9 : 0.4);
+  view.set_sentence("The strongest wave, at 7 Hz, is 20 dB over the noise.");
+  return out;
+}
+
+TEST(InferenceDocuments, ADiagnosisShowsHowTheErrorFalls) {
+  v1::DiagnosisReports reports;
+  v1::DiagnosisReport& report = *reports.add_channels();
+  report.set_channel("gyro_x");
+  *report.add_ladder() = rung_with(15.3, 20.3);
+  *report.add_ladder() = rung_with(1.0, 6.5);
+  report.mutable_ladder(1)->set_added("line(f=7)");
+  const Document shown = document(reports, Digits{});
+  for (const Table& table : shown.sections[0].tables) {
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.head.size()) << table.title;
+  }
+  ASSERT_TRUE(shown.sections[0].panel);
+  const std::string words = text(shown);
+  for (const char* part : {"15.3", "20.3 dB", "6.5 dB", "single waves", "The best model."})
+    EXPECT_NE(words.find(part), std::string::npos) << part;
+}
+
 TEST(InferenceDocuments, BadgeSaysWhatWasRejectedAndWhatWasNotAsked) {
   const auto badge = [](const v1::TestResult& misfit, const v1::TestResult& differ) {
     return document(stationarity(misfit, differ), Digits::kPlain).sections.at(0).badge;

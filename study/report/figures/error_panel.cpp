@@ -14,9 +14,8 @@ double over_floor(const v1::ErrorView& view) {
 }
 
 // Bars of the views that `now` has, in its order.
-figure::Layer bars(const v1::Rung& of, const v1::Rung& now, figure::Role role,
-                   const std::string& key) {
-  figure::Layer out{.shape = figure::Shape::kBars, .role = role, .key = key};
+figure::Layer bars(const v1::Rung& of, const v1::Rung& now, figure::Role role) {
+  figure::Layer out{.shape = figure::Shape::kBars, .role = role};
   for (int row = 0; row < now.views_size(); ++row) {
     for (const v1::ErrorView& one : of.views()) {
       if (one.view() != now.views(row).view() || !(over_floor(one) > 0.0)) continue;
@@ -50,8 +49,8 @@ std::optional<figure::Figure> error_panel(const v1::DiagnosisReport& report) {
                       .y = {.kind = figure::AxisKind::kCategories},
                       .x_reference = 1.0};
   for (const v1::ErrorView& one : now.views()) panel.y.categories.push_back(view_title(one));
-  if (grown) panel.layers.push_back(bars(report.ladder(0), now, figure::Role::kGhost, "before"));
-  panel.layers.push_back(bars(now, now, figure::Role::kMeasured, "now"));
+  if (grown) panel.layers.push_back(bars(report.ladder(0), now, figure::Role::kGhost));
+  panel.layers.push_back(bars(now, now, figure::Role::kMeasured));
   return figure::unless_empty(
       {.title = "How far the model is off",
        .caption = std::string(grown ? "Outlines: the first model. Bars: the last one. " : "") +
