@@ -51,6 +51,14 @@ Suggestions search_heavy_tails(const SearchView& view) {
            .power = true}};
 }
 
+// Standard deviation of the innovations, all of which have such tails: from the mean logarithm of
+// the spectrum (Szegő and Kolmogorov: Brockwell & Davis 1991, Theorem 5.8.1).
+std::vector<ReportedNumber> heavy_tails_numbers(const FittedEffect& effect) {
+  const Eigen::ArrayXd frequency = Eigen::ArrayXd::LinSpaced(1024, 0.5, 1023.5) / 2048.0;
+  const Eigen::ArrayXd power = spectrum(effect.model.fit.model.noise, frequency);
+  return {{"size", std::exp(0.5 * power.log().mean()), unit_of(effect.term(), effect.subject())}};
+}
+
 }  // namespace
 
 const Effect& heavy_tails() {
@@ -82,6 +90,7 @@ const Effect& heavy_tails() {
       .cleaned = of_normal_tails,
       .simulate = simulate_heavy_tails,
       .search = search_heavy_tails,
+      .numbers = heavy_tails_numbers,
   };
   return kHeavyTails;
 }

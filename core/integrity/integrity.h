@@ -26,8 +26,8 @@ struct Defect {
 
 /// What the values alone can tell: samples that repeat the one before more often than samples far
 /// apart are equal, an output that stands still, a pile of samples at an end of the range, codes
-/// that never occur among others that do (`count` of them, `expected` samples), and a step so coarse
-/// that few codes are used. Empty where nothing is wrong.
+/// that never occur among others that do (`count` of them, `expected` samples), and a step so
+/// coarse that few codes are used. Empty where nothing is wrong.
 std::vector<Defect> integrity(const Signal& signal);
 
 /// Stretches in which the output stands still longer than noise of its step and size ever does.

@@ -10,9 +10,9 @@
 #include "core/effects/couplings.h"
 #include "core/inference/normal_scores.h"
 #include "study/analysis/effect_parameters.h"
-#include "study/analysis/error_sentences.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/noise_budget.h"
+#include "study/analysis/sentences/error_sentences.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {

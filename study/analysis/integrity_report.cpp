@@ -23,9 +23,10 @@ std::string defect_words(const Defect& defect, double rate) {
     return fmt::format("{} samples lie at the {} end of the range, {:.0f} next to it", defect.count,
                        defect.wrong.front().beyond > 0 ? "upper" : "lower", defect.expected);
   if (defect.effect == "missing_codes")
-    return fmt::format("{} codes of the converter never occur between others that do; noise like "
-                       "this would give them {:.0f} samples",
-                       defect.count, defect.expected);
+    return fmt::format(
+        "{} codes of the converter never occur between others that do; noise like "
+        "this would give them {:.0f} samples",
+        defect.count, defect.expected);
   return fmt::format("the noise is smaller than the step of the converter: {} codes occur",
                      defect.count);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/support/distributions.h"
-#include "study/analysis/error_sentences.h"
+#include "study/analysis/sentences/error_sentences.h"
 
 namespace imunoise::study {
 namespace {

@@ -89,7 +89,7 @@ TEST_F(Open, ItsAddressLetsOneBrowserStudyTheFiles) {
 
 TEST_F(Open, FilesThatCannotBeReadAreToldAtOnce) {
   const testing::Outcome missing = run("open nothing.h5 --no-browser");
-  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(missing.status, 2);
   EXPECT_NE(missing.errors.find("nothing.h5"), std::string::npos) << missing.errors;
   const testing::Outcome study = run("open nothing.study --no-browser");
   EXPECT_EQ(study.status, 2);

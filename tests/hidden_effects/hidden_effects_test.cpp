@@ -15,8 +15,8 @@ Outcome of(std::vector<std::string> effects, double delta, bool withhold = false
   spec.delta = delta;
   spec.seed = 1;
   spec.withhold = withhold;
-  spec.samples = 1U << 13U;
-  return diagnose(spec);
+  spec.samples = 1U << 14U;
+  return diagnose(spec, {.oracle_from = 0.0});
 }
 
 // Named first; once added, the error falls and the view that failed no longer does.

@@ -11,8 +11,8 @@
 
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/diagnose_series.h"
-#include "study/analysis/ladder_findings.h"
-#include "study/analysis/misfit_sentences.h"
+#include "study/analysis/sentences/ladder_findings.h"
+#include "study/analysis/sentences/misfit_sentences.h"
 
 namespace imunoise::study {
 namespace {

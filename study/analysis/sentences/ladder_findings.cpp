@@ -1,4 +1,4 @@
-#include "study/analysis/ladder_findings.h"
+#include "study/analysis/sentences/ladder_findings.h"
 
 #include <fmt/format.h>
 

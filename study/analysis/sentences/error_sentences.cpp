@@ -1,4 +1,4 @@
-#include "study/analysis/error_sentences.h"
+#include "study/analysis/sentences/error_sentences.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/analysis/misfit_sentences.h"
+#include "study/analysis/sentences/misfit_sentences.h"
 
 #include <fmt/format.h>
 
