@@ -1,5 +1,5 @@
 // Diagnosis of six replicates of a million samples with four witnesses, on two threads as on any
-// laptop: one look, and a model that is judged as `imunoise study add` does, from samples in
+// laptop: one look, and a model that is evaluated as `imunoise study add` does, from samples in
 // memory.
 
 #include <benchmark/benchmark.h>
@@ -8,7 +8,7 @@
 
 #include "core/model/model.h"
 #include "study/analysis/diagnose_series.h"
-#include "study/analysis/judge.h"
+#include "study/analysis/evaluate.h"
 
 namespace imunoise::study {
 namespace {
@@ -66,14 +66,14 @@ BENCHMARK(diagnose_recording)
     ->UseRealTime();
 
 // Once the recordings were seen, as every one is that a study holds.
-void judge_added_line(benchmark::State& state) {
-  const auto look = look_at(recordings(), 0, std::vector<std::string>());
+void evaluate_added_line(benchmark::State& state) {
+  const auto look = prepare_channel(recordings(), 0, std::vector<std::string>());
   for (auto _ : state) {
-    const auto rung = judge("WN + AR1 + RW + line(f=13.7)", look->seen, {});
-    if (!rung) state.SkipWithError("not judged");
+    const auto rung = evaluate("WN + AR1 + RW + line(f=13.7)", look->prepared, {});
+    if (!rung) state.SkipWithError("not evaluated");
   }
 }
-BENCHMARK(judge_added_line)
+BENCHMARK(evaluate_added_line)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(3)
     ->MeasureProcessCPUTime()

@@ -171,7 +171,7 @@ int follow(DaemonClient& client, bool as_json) {
   } else {
     return print_error(json.error());
   }
-  std::size_t seen = 0;  // events; the first of each campaign says what it does
+  std::size_t prepared = 0;  // events; the first of each campaign says what it does
   const auto done = client.follow(
       "/v1/events?topic=campaign",
       [&](std::string_view, const std::string& data) {
@@ -179,7 +179,7 @@ int follow(DaemonClient& client, bool as_json) {
         if (!read_answer(data, state)) return true;
         if (as_json) print(data + "\n");
         const bool runs = as_json ? state.running() : follower.take(state);
-        return ++seen < campaigns || runs;
+        return ++prepared < campaigns || runs;
       },
       interrupt.token());
   return done ? 0 : print_error(done.error());

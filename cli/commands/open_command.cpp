@@ -47,7 +47,7 @@ Result<v1::Study> compute(const v1::JobOrder& order, const Progress& progress) {
     return read_study_input(input, channel, witnesses);
   };
   return study::apply(order.study(), order.request(), read, progress,
-                      study::SeenPlace{study::user_cache_folder()});
+                      study::CachePlace{study::user_cache_folder()});
 }
 
 // The files with the names of their channels, which the first file tells. Error: as reading it, or

@@ -33,7 +33,7 @@ int run(const StudyArguments& arguments) {
     };
     ProgressLine line("study");
     auto done = study::apply(study, arguments.request, read_them, line.progress(),
-                             study::SeenPlace{study::user_cache_folder()});
+                             study::CachePlace{study::user_cache_folder()});
     if (!done) return print_error(done.error());
     if (!opens && changed_since(study, arguments.file))
       return print_error(

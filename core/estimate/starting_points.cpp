@@ -13,7 +13,7 @@ constexpr std::size_t kBeam =
     120;  // partial combinations kept while one term after another is added
 
 // One trial of a nonlinear term's shape, with its column's place in the dictionary.
-struct Trial {
+struct ShapeCandidate {
   std::vector<double> values;  // all parameters of the process, power 1
   Eigen::Index column;
 };
@@ -39,7 +39,7 @@ class Dictionary {
     std::vector<Eigen::VectorXd> columns;
     for (std::size_t t = 0; t < model.terms.size(); ++t) {
       const bool open = is_open(t);
-      std::vector<Trial> trials;
+      std::vector<ShapeCandidate> trials;
       using Tried = std::vector<std::vector<double>>;
       for (const std::vector<double>& v :
            open ? scanned_values(t) : Tried{values(model.terms[t].process)}) {
@@ -61,7 +61,7 @@ class Dictionary {
     moment_ = all.transpose() * target_;
   }
 
-  const std::vector<Trial>& trials(std::size_t term) const { return trials_[term]; }
+  const std::vector<ShapeCandidate>& trials(std::size_t term) const { return trials_[term]; }
 
   bool is_open(std::size_t term) const {
     return std::any_of(profile_.coordinates().begin(), profile_.coordinates().end(),
@@ -106,7 +106,7 @@ class Dictionary {
   }
 
   const Profile& profile_;
-  std::vector<std::vector<Trial>> trials_;
+  std::vector<std::vector<ShapeCandidate>> trials_;
   Eigen::MatrixXd gram_;
   Eigen::VectorXd moment_;
   Eigen::VectorXd target_;

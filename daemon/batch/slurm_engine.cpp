@@ -29,7 +29,7 @@ std::string without_patterns(const std::string& path) {
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // Nothing when the controller did not answer. A job that is long over is unknown to it.
-std::optional<Queue> look_at(const std::string& job) {
+std::optional<Queue> prepare_channel(const std::string& job) {
   const auto said =
       process::ask({"squeue", "--noheader", "--array", "--jobs=" + job, "--format=%T|%r"});
   if (!said) return std::nullopt;
@@ -106,7 +106,7 @@ Result<void> SlurmEngine::run(const std::vector<std::uint32_t>& shards,
       return {};
     }
     const auto now = std::chrono::steady_clock::now();
-    if (const auto queue = look_at(*job)) {
+    if (const auto queue = prepare_channel(*job)) {
       answered = now;
       if (queue->running == 0 && queue->waiting == queue->held) {
         if (queue->held > 0) cancel(*job);

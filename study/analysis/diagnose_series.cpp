@@ -9,8 +9,8 @@
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/comparison.h"
 #include "study/analysis/diagnosis_report.h"
+#include "study/analysis/evaluate.h"
 #include "study/analysis/integrity_report.h"
-#include "study/analysis/judge.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/select_model.h"
@@ -55,14 +55,14 @@ std::string came_back(const Step& step) {
 
 // Works out what the ladder would show were one of the best candidates added, exactly as adding it
 // does.
-void foretell(const SeenChannel& seen, int count, const Progress& progress,
-              v1::DiagnosisReport& to) {
+void forecast_rungs(const PreparedChannel& prepared, int count, const Progress& progress,
+                    v1::DiagnosisReport& to) {
   for (v1::EffectCandidate& one : *to.mutable_candidates()) {
     if (count == 0 || progress.stopped()) return;
     if (one.term().empty()) continue;  // a defect of the samples
     --count;
-    auto next = judge(fmt::format("{} + {}", to.model(), one.term()), seen,
-                      {.added = one.term(), .why = ""});
+    auto next = evaluate(fmt::format("{} + {}", to.model(), one.term()), prepared,
+                         {.added = one.term(), .why = ""});
     if (next) *one.mutable_next() = std::move(*next);  // else the scales are too few for it
   }
 }
@@ -93,7 +93,7 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
   }
   WitnessNames witnesses;
   if (!options.witnesses.empty()) witnesses = options.witnesses;
-  const auto look = look_at(recorded, channel, witnesses, progress.part(0.0, 0.1));
+  const auto look = prepare_channel(recorded, channel, witnesses, progress.part(0.0, 0.1));
   if (!look) return tl::unexpected(look.error());
   return diagnose_channel(*look, options, progress.part(0.1, 1.0));
 }
@@ -101,16 +101,16 @@ Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replica
 Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
                                              const DiagnoseOptions& options,
                                              const Progress& progress) {
-  const SeenChannel& seen = look.seen;
-  const std::shared_ptr<const Subject>& subject = seen.subject;
+  const PreparedChannel& prepared = look.prepared;
+  const std::shared_ptr<const Subject>& subject = prepared.subject;
   const Result<std::string> named =
       options.model ? *options.model : model_for(look, progress.part(0.0, 0.15));
   if (!named) return tl::unexpected(named.error());
-  const Result<FullModel> start = started(*named, seen, progress.part(0.15, 0.2));
+  const Result<FullModel> start = started(*named, prepared, progress.part(0.15, 0.2));
   if (!start) return tl::unexpected(start.error());
 
   v1::DiagnosisReport out;
-  out.set_channel(seen.name);
+  out.set_channel(prepared.name);
   out.set_unit(std::string(si_symbol(subject->quantity)));
   out.set_rate_hz(subject->rate.value);
   for (const Witness& one : subject->witnesses) out.add_witnesses(one.name);
@@ -122,7 +122,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
         "No model was named: of {}, its sub-models and what FN, QN and DR add to them, {} is "
         "the simplest of the best held-out likelihood.",
         kDefaultModel, *named));
-  for (const std::string& note : seen.notes) out.add_notes(note);
+  for (const std::string& note : prepared.notes) out.add_notes(note);
   if (subject->replicates() == 1)
     out.add_notes(
         "One replicate: its four quarters stand in for replicates, each predicted from the others. "
@@ -135,7 +135,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   LeftOver left = left_over(model);
   *out.mutable_before() = budget_of(model, left);
   add_integrity(series_of(look.recorded, look.channel), out);
-  *out.mutable_compared_before() = comparison_of(model, left, seen.name, seen.replicates);
+  *out.mutable_compared_before() = comparison_of(model, left, prepared.name, prepared.replicates);
   const double first = model.fit.log_likelihood;
   Step step{.added = "", .why = "The model as it was given."};
   ModelsSeen models;
@@ -147,15 +147,15 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     Diagnosis diagnosis =
         diagnose(model, {options.level}, progress.part(begin, begin + 0.7 / most));
     if (progress.stopped()) return fail("stopped");
-    *out.add_ladder() =
-        rung_of({model, left, diagnosis.misfit, diagnosis.heldout}, step, first, seen.replicates);
+    *out.add_ladder() = rung_of({model, left, diagnosis.misfit, diagnosis.heldout}, step, first,
+                                prepared.replicates);
     // The verdict is about the model that was asked for; later rounds only climb.
     if (rung == 0) {
       add_diagnosis(diagnosis, *subject, out);
       add_misfits(diagnosis.misfit, out);
-      put_defects_first(seen.changed, out);
+      put_defects_first(prepared.changed, out);
       add_timing(look.recorded, out);
-      foretell(seen, options.foretold, progress, out);
+      forecast_rungs(prepared, options.forecasts, progress, out);
       if (progress.stopped()) return fail("stopped");
     }
     if (!diagnosis.worth_adding) {
@@ -177,7 +177,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     if (rung + 1 < most) continue;
     if (!step.dropped.empty()) best.heldout = held_out_of(model);
     *out.add_ladder() =
-        rung_of({model, left, misfit_of(model), best.heldout}, step, first, seen.replicates);
+        rung_of({model, left, misfit_of(model), best.heldout}, step, first, prepared.replicates);
   }
   if (options.automatic && out.ladder_size() > 1) {
     add_findings(model, out);
@@ -186,7 +186,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   tell_unexplained(out, remaining ? std::optional(out.ladder_size() - 1) : std::nullopt);
   *out.mutable_after() = budget_of(model, left);
   if (out.ladder_size() > 1)
-    *out.mutable_compared_after() = comparison_of(model, left, seen.name, seen.replicates);
+    *out.mutable_compared_after() = comparison_of(model, left, prepared.name, prepared.replicates);
   return out;
 }
 

@@ -7,7 +7,7 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/diagnosis.pb.h"
-#include "study/analysis/seen_channel.h"
+#include "study/analysis/prepared_channel.h"
 
 namespace imunoise::study {
 
@@ -16,7 +16,7 @@ struct DiagnoseOptions {
   std::optional<std::string> model;
   std::vector<std::string> witnesses;  ///< names of channels; empty: all but the one diagnosed
   bool automatic = false;              ///< add what is found, and go on
-  int foretold = 0;                    ///< of so many candidates the next rung is worked out
+  int forecasts = 0;                   ///< of so many candidates the next rung is worked out
   double level = 0.05;                 ///< chance of a false alarm over all candidates
 };
 

@@ -153,12 +153,12 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
   for (std::size_t i = 0; i < std::min(kMostCandidates, diagnosis.effects.size()); ++i)
     *to.add_candidates() = candidate_of(diagnosis.effects[i], diagnosis.heldout, subject);
   for (const DetectionLimit& from : diagnosis.limits) {
-    const bool seen =
+    const bool prepared =
         std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), [&](const RankedTerm& one) {
           constexpr double kSeen = 0.01;
           return one.tried.cause == from.cause && one.familywise_p < kSeen;
         });
-    if (seen) continue;
+    if (prepared) continue;
     v1::DetectionLimit& limit = *to.add_limits();
     limit.set_effect(from.cause);
     limit.set_parameter(from.parameter);
@@ -195,32 +195,32 @@ void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport&
   to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));
 }
 
-v1::Rung rung_of(const Judged& judged, const Step& step, double first,
+v1::Rung rung_of(const EvaluatedModel& evaluated, const Step& step, double first,
                  const std::vector<std::string>& replicates) {
-  const FittedModel& trial = judged.trial;
+  const FittedModel& trial = evaluated.trial;
   v1::Rung out;
   out.set_model(print(trial.fit.model));
   out.set_added(step.added);
   out.set_effect(step.effect);
   for (const std::string& term : step.dropped) out.add_dropped(term);
-  out.set_training_error(training_error(trial, judged.left));
-  if (judged.heldout) {
-    for (const double nats : judged.heldout->nats) out.add_heldout_nats(nats);
-    out.set_heldout_scores(static_cast<std::uint32_t>(judged.heldout->scores));
+  out.set_training_error(training_error(trial, evaluated.left));
+  if (evaluated.heldout) {
+    for (const double nats : evaluated.heldout->nats) out.add_heldout_nats(nats);
+    out.set_heldout_scores(static_cast<std::uint32_t>(evaluated.heldout->scores));
   }
-  out.set_promised_nats(promised_nats(judged.misfit));
-  for (v1::ErrorView& one : views_of(trial, judged.left, judged.misfit, replicates))
+  out.set_promised_nats(promised_nats(evaluated.misfit));
+  for (v1::ErrorView& one : views_of(trial, evaluated.left, evaluated.misfit, replicates))
     *out.add_views() = std::move(one);
   out.set_fitted_model(print_with_values(FullModel{trial.fit.model.noise, sized_effects(trial)}));
   out.set_estimator(
       likelihood_estimator(moments_estimator(trial.regression.subject().replicates())));
   for (v1::FittedEffect& one : fitted_effects(trial)) *out.add_effects() = std::move(one);
   out.set_log_likelihood(trial.fit.log_likelihood - first);
-  out.set_misfit_p(misfit_p_value(judged.misfit));
+  out.set_misfit_p(misfit_p_value(evaluated.misfit));
   out.set_why(step.why);
   const std::string unit = integral_unit(trial.regression.subject().quantity);
-  for (const RunOff& from : judged.left.run_off) {
-    v1::Drift& drift = *out.add_drift();
+  for (const RunOff& from : evaluated.left.run_off) {
+    v1::IntegratedError& drift = *out.add_drift();
     drift.set_seconds(from.seconds);
     drift.set_predicted(from.predicted);
     drift.set_measured(from.measured);

@@ -24,7 +24,7 @@ struct Step {
 };
 
 /// A model that was tried, and all that a look at it showed.
-struct Judged {
+struct EvaluatedModel {
   const FittedModel& trial;
   const LeftOver& left;  ///< left_over() of it
   const MisfitReport& misfit;
@@ -34,7 +34,7 @@ struct Judged {
 /// The same for the ladder, without what only a look at the whole ladder shows
 /// (tell_unexplained()). `first` is the likelihood of the lowest rung; `replicates` are the names
 /// of all.
-v1::Rung rung_of(const Judged& judged, const Step& step, double first,
+v1::Rung rung_of(const EvaluatedModel& evaluated, const Step& step, double first,
                  const std::vector<std::string>& replicates);
 
 /// The measured wavelet variance, with the effects taken out, against the noise of a fit.

@@ -90,9 +90,9 @@ std::string value_and_unit(const v1::Coefficient& c) {
 std::string summary_of(const v1::FitReport& report) {
   std::string known;
   for (const v1::Term& term : report.terms()) {
-    const bool seen =
+    const bool prepared =
         !term.parameters().empty() && term.parameters(0).observability() == v1::observed;
-    if (!seen) continue;
+    if (!prepared) continue;
     bool first = true;
     for (const v1::Coefficient& c : term.coefficients()) {
       const std::string name =

@@ -74,11 +74,11 @@ std::string consequence_of(const v1::Rung& rung, double short_of_best) {
   constexpr double kNoConsequence = 0.05;
   const std::string sure =
       significance_words(std::exp(log_chi_square_tail(2.0 * std::max(0.0, short_of_best), 1.0)));
-  const v1::Drift* worst = nullptr;
-  const auto cost = [](const v1::Drift& one) {
+  const v1::IntegratedError* worst = nullptr;
+  const auto cost = [](const v1::IntegratedError& one) {
     return std::abs(one.measured() / one.best() - 1.0);
   };
-  for (const v1::Drift& one : rung.drift()) {
+  for (const v1::IntegratedError& one : rung.drift()) {
     if (one.has_best() && one.best() > 0.0 && (worst == nullptr || cost(one) > cost(*worst)))
       worst = &one;
   }

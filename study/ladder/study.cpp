@@ -7,7 +7,7 @@
 #include "core/effects/parse_full_model.h"
 #include "recording/store/format/crc32c.h"
 #include "study/analysis/diagnose_series.h"
-#include "study/analysis/judge.h"
+#include "study/analysis/evaluate.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/series.h"
 #include "study/analysis/unexplained.h"
@@ -16,7 +16,7 @@
 namespace imunoise::study {
 namespace {
 
-constexpr int kForetold = 4;  // candidates that are added at once when they are asked for
+constexpr int kForecasts = 4;  // candidates that are added at once when they are asked for
 
 // Tells recordings of other samples apart: by their lengths and every 61st sample.
 std::uint32_t fingerprint(const Series& series) {
@@ -53,7 +53,7 @@ void count_from_first(const v1::Study& study, v1::Rung& rung) {
 class Operation {
  public:
   Operation(v1::Study& study, const ReadInput& read, const Progress& progress,
-            const std::optional<SeenPlace>& keep)
+            const std::optional<CachePlace>& keep)
       : study_(study), read_(read), progress_(progress), keep_(keep) {}
 
   Result<void> open(const v1::StudyRequest::Open& request);
@@ -72,15 +72,15 @@ class Operation {
   Result<WitnessNames> needed_by(const std::string& model,
                                  const recording::Replicate& recording) const;
   Result<RecordedChannel> looked(const std::optional<std::string>& model);
-  Result<std::optional<SeenChannel>> seen_before(const std::string& model) const;
+  Result<std::optional<PreparedChannel>> seen_before(const std::string& model) const;
   Result<v1::Rung> climbed(const std::string& model, const std::string& added,
-                           std::optional<SeenChannel> seen, const Progress& progress);
+                           std::optional<PreparedChannel> prepared, const Progress& progress);
 
   v1::Study& study_;
   const ReadInput& read_;
   const Progress& progress_;
-  const std::optional<SeenPlace>& keep_;
-  std::optional<SeenFolder> folder_;  // of what was read
+  const std::optional<CachePlace>& keep_;
+  std::optional<CacheFolder> folder_;  // of what was read
 };
 
 bool Operation::may_name(const std::string& witness) const {
@@ -116,20 +116,21 @@ Result<RecordedChannel> Operation::looked(const std::optional<std::string>& mode
     return tl::unexpected(known.error());
   const Result<WitnessNames> witnesses = model ? needed_by(*model, recordings->front()) : allowed();
   if (!witnesses) return tl::unexpected(witnesses.error());
-  auto out = look_at(std::move(*recordings), *channel, *witnesses, progress_.part(0.0, 0.1));
+  auto out =
+      prepare_channel(std::move(*recordings), *channel, *witnesses, progress_.part(0.0, 0.1));
   if (!out) return out;
-  out->seen.fingerprint = samples;
+  out->prepared.fingerprint = samples;
   study_.set_fingerprint(samples);
-  study_.set_channel(out->seen.name);
+  study_.set_channel(out->prepared.name);
   return out;
 }
 
 // What was kept, with the witnesses that a model follows; nothing if any of it is missing. Error: a
 // model that cannot be read.
-Result<std::optional<SeenChannel>> Operation::seen_before(const std::string& model) const {
-  const std::optional<SeenChannel> nothing;
+Result<std::optional<PreparedChannel>> Operation::seen_before(const std::string& model) const {
+  const std::optional<PreparedChannel> nothing;
   if (!keep_ || study_.fingerprint() == 0) return nothing;
-  const SeenFolder folder(study_.input(), *keep_);
+  const CacheFolder folder(study_.input(), *keep_);
   auto out = folder.find(study_.channel());
   if (!out || out->fingerprint != study_.fingerprint()) return nothing;
   const auto read = parse_full_model(model, out->subject->rate);
@@ -147,22 +148,23 @@ Result<std::optional<SeenChannel>> Operation::seen_before(const std::string& mod
 
 // Fits a model and judges it. `seen`: where the channel was looked at already.
 Result<v1::Rung> Operation::climbed(const std::string& model, const std::string& added,
-                                    std::optional<SeenChannel> seen, const Progress& progress) {
-  if (!seen) {
+                                    std::optional<PreparedChannel> prepared,
+                                    const Progress& progress) {
+  if (!prepared) {
     auto before = seen_before(model);
     if (!before) return tl::unexpected(before.error());
-    seen = std::move(*before);
+    prepared = std::move(*before);
   }
-  if (!seen) {
+  if (!prepared) {
     auto look = looked(model);
     if (!look) return tl::unexpected(look.error());
-    seen = std::move(look->seen);
+    prepared = std::move(look->prepared);
   }
-  auto rung = judge(model, *seen, {.added = added, .why = ""}, progress);
+  auto rung = evaluate(model, *prepared, {.added = added, .why = ""}, progress);
   if (!rung) return rung;
-  if (folder_) folder_->keep(*seen);
-  study_.set_unit(std::string(si_symbol(seen->subject->quantity)));
-  study_.set_rate_hz(seen->subject->rate.value);
+  if (folder_) folder_->keep(*prepared);
+  study_.set_unit(std::string(si_symbol(prepared->subject->quantity)));
+  study_.set_rate_hz(prepared->subject->rate.value);
   if (study_.attempts_size() == 0) study_.set_first_log_likelihood(rung->log_likelihood());
   count_from_first(study_, *rung);
   return rung;
@@ -199,16 +201,16 @@ Result<void> Operation::open(const v1::StudyRequest::Open& request) {
   study_.set_channel(request.channel());
   *study_.mutable_witnesses() = request.witnesses();
   Result<std::string> model = request.model();
-  std::optional<SeenChannel> seen;
+  std::optional<PreparedChannel> prepared;
   if (model->empty()) {
     auto look = looked("WN");  // no model needs fewer witnesses
     if (!look) return tl::unexpected(look.error());
     model = model_for(*look, progress_.part(0.1, 0.5));
     if (!model) return tl::unexpected(model.error());
-    seen = std::move(look->seen);
+    prepared = std::move(look->prepared);
   }
-  const Progress rest = progress_.part(seen ? 0.5 : 0.1, 1.0);
-  auto rung = climbed(*model, "", std::move(seen), rest);
+  const Progress rest = progress_.part(prepared ? 0.5 : 0.1, 1.0);
+  auto rung = climbed(*model, "", std::move(prepared), rest);
   if (!rung) return tl::unexpected(rung.error());
   append(study_, std::nullopt, std::move(*rung));
   return {};
@@ -263,10 +265,10 @@ Result<void> Operation::try_model(const v1::StudyRequest::TryModel& request) {
 Result<void> Operation::seek() {
   const auto look = looked(std::nullopt);
   if (!look) return tl::unexpected(look.error());
-  if (folder_) folder_->keep(look->seen);
+  if (folder_) folder_->keep(look->prepared);
   DiagnoseOptions options;
   options.model = current_model(study_);
-  options.foretold = kForetold;
+  options.forecasts = kForecasts;
   auto report = diagnose_channel(*look, options, progress_.part(0.1, 1.0));
   if (!report) return tl::unexpected(report.error());
   for (v1::EffectCandidate& one : *report->mutable_candidates()) {
@@ -280,7 +282,7 @@ Result<void> Operation::seek() {
 
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                         const ReadInput& read, const Progress& progress,
-                        const std::optional<SeenPlace>& keep) {
+                        const std::optional<CachePlace>& keep) {
   v1::Study out = study;
   Operation operation(out, read, progress, keep);
   Result<void> done;

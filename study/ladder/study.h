@@ -10,7 +10,7 @@
 #include "core/support/result.h"
 #include "imunoise/v1/study.pb.h"
 #include "recording/import/table/channel.h"
-#include "study/seen/seen_folder.h"
+#include "study/cache/cache_folder.h"
 
 namespace imunoise::study {
 
@@ -24,7 +24,7 @@ using ReadInput = std::function<Result<std::vector<recording::Replicate>>(
 /// is kept where `keep` says; unset: nowhere.
 Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                         const ReadInput& read, const Progress& progress = {},
-                        const std::optional<SeenPlace>& keep = std::nullopt);
+                        const std::optional<CachePlace>& keep = std::nullopt);
 
 /// The current model, in the grammar.
 const std::string& current_model(const v1::Study& study);

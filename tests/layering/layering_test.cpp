@@ -18,7 +18,7 @@ const Tree& house() {
 
 // What the rules say about one file with this text, in a tree that holds a header of every kind of
 // room.
-std::vector<std::string> judge(const std::string& path, const std::string& text) {
+std::vector<std::string> violations(const std::string& path, const std::string& text) {
   Tree tree;
   for (const char* const header :
        {"core/support/result.h", "core/signal/signal.h", "core/wavelet/scales.h",
@@ -35,8 +35,9 @@ std::vector<std::string> judge(const std::string& path, const std::string& text)
   return layering_violations(tree);
 }
 
-std::vector<std::string> judge_include(const std::string& path, const std::string& header) {
-  return judge(path, "#include " + (header.front() == '<' ? header : '"' + header + '"') + "\n");
+std::vector<std::string> include_violations(const std::string& path, const std::string& header) {
+  return violations(path,
+                    "#include " + (header.front() == '<' ? header : '"' + header + '"') + "\n");
 }
 
 TEST(Layering, HoldsInEveryFile) {
@@ -127,7 +128,7 @@ TEST(LayeringRules, RefuseAForbiddenInclude) {
            {"core/wavelet/scales.cpp", "core/wavelet/absent.h"},
            {"attic/old.cpp", "<vector>"},
        }) {
-    EXPECT_FALSE(judge_include(bad.path, bad.header).empty())
+    EXPECT_FALSE(include_violations(bad.path, bad.header).empty())
         << bad.path << " includes " << bad.header;
   }
 }
@@ -159,13 +160,14 @@ TEST(LayeringRules, AcceptWhatTheTableAllows) {
            {"tests/hidden_effects/trial.cpp", "study/study.h"},
            {"bench/wavelet_bench.cpp", "core/wavelet/scales.h"},
        }) {
-    EXPECT_EQ(lines(judge_include(good.path, good.header)), "") << good.path << " " << good.header;
+    EXPECT_EQ(lines(include_violations(good.path, good.header)), "")
+        << good.path << " " << good.header;
   }
 }
 
 TEST(LayeringRules, NameTheFileTheLineAndTheWayOut) {
   const auto found =
-      judge("core/wavelet/scales.cpp", "\n// why\n#include \"core/process/ar1.h\"\n");
+      violations("core/wavelet/scales.cpp", "\n// why\n#include \"core/process/ar1.h\"\n");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front(),
             "core/wavelet/scales.cpp:3: includes core/process/ar1.h; core/wavelet may include "
@@ -189,17 +191,18 @@ TEST(LayeringRules, FollowTheGeneratorsIncludesThroughOtherHeaders) {
 
 TEST(LayeringRules, ReadCodeNotCommentsOrLiterals) {
   const char* const kCore = "core/support/units.cpp";
-  EXPECT_FALSE(judge(kCore, "void f() { std::printf(\"x\"); }\n").empty());
-  EXPECT_FALSE(judge(kCore, "void f() { std::cout << 1; }\n").empty());
-  EXPECT_FALSE(judge(kCore, "auto t = std::chrono::steady_clock::now();\n").empty());
-  EXPECT_FALSE(judge("recording/hdf5/a.cpp", "std::random_device seed;\n").empty());
+  EXPECT_FALSE(violations(kCore, "void f() { std::printf(\"x\"); }\n").empty());
+  EXPECT_FALSE(violations(kCore, "void f() { std::cout << 1; }\n").empty());
+  EXPECT_FALSE(violations(kCore, "auto t = std::chrono::steady_clock::now();\n").empty());
+  EXPECT_FALSE(violations("recording/hdf5/a.cpp", "std::random_device seed;\n").empty());
   EXPECT_FALSE(
-      judge(kCore, "const int n = 1'000'000; int c = '\"'; void g() { puts(a); }\n").empty());
-  EXPECT_FALSE(judge(kCore, "#include /* now */ <iostream>  // why\n").empty());
-  EXPECT_EQ(lines(judge(kCore, "// printf(\"x\") and #include <iostream>\n")), "");
-  EXPECT_EQ(lines(judge(kCore, "/* std::cout\n #include <iostream>\n */\n")), "");
-  EXPECT_EQ(lines(judge(kCore, "auto s = \"printf( \\\" std::cout\"; char c = '\"';\n")), "");
-  EXPECT_EQ(lines(judge(kCore, "auto s = R\"x(\n#include <iostream>\n\" puts(1) )x\";\n")), "");
+      violations(kCore, "const int n = 1'000'000; int c = '\"'; void g() { puts(a); }\n").empty());
+  EXPECT_FALSE(violations(kCore, "#include /* now */ <iostream>  // why\n").empty());
+  EXPECT_EQ(lines(violations(kCore, "// printf(\"x\") and #include <iostream>\n")), "");
+  EXPECT_EQ(lines(violations(kCore, "/* std::cout\n #include <iostream>\n */\n")), "");
+  EXPECT_EQ(lines(violations(kCore, "auto s = \"printf( \\\" std::cout\"; char c = '\"';\n")), "");
+  EXPECT_EQ(lines(violations(kCore, "auto s = R\"x(\n#include <iostream>\n\" puts(1) )x\";\n")),
+            "");
 }
 
 TEST(LayeringRules, FindHeadersWithoutGuardAndLongFiles) {

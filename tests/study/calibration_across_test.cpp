@@ -134,14 +134,15 @@ void expect_truth(const v1::ArrayCalibration& array, bool common) {
   const Eigen::ArrayXd cross_sd = sd_of({0, 1});
   const Eigen::ArrayXd own_sd = sd_of({0, 0});
   for (std::size_t j = 0; j < scales.size(); ++j) {
-    const v1::CrossScale& seen = report.pairs(0).scales(static_cast<int>(j));
+    const v1::CrossScale& prepared = report.pairs(0).scales(static_cast<int>(j));
     const auto m = static_cast<double>(scales[j]);
     const auto at = static_cast<Eigen::Index>(j);
-    ASSERT_NEAR(seen.tau_s(), 2.0 * m / 100.0, 1e-9);
+    ASSERT_NEAR(prepared.tau_s(), 2.0 * m / 100.0, 1e-9);
     const double walked = kWalk * (2.0 * m * m + 1.0) / (12.0 * m) * 0.5 / (m * m);
-    EXPECT_NEAR(seen.covariance(), expected[j](0, 1), 4.5 * cross_sd(at) + (common ? walked : 0.0))
+    EXPECT_NEAR(prepared.covariance(), expected[j](0, 1),
+                4.5 * cross_sd(at) + (common ? walked : 0.0))
         << "m = " << m;
-    EXPECT_NEAR(seen.unit(), expected[j](0, 0), 4.5 * own_sd(at) + walked) << "m = " << m;
+    EXPECT_NEAR(prepared.unit(), expected[j](0, 0), 4.5 * own_sd(at) + walked) << "m = " << m;
   }
   EXPECT_EQ(report.pairs(0).dependent(), common) << report.pairs(0).p_value();
 }

@@ -104,11 +104,11 @@ TEST(Misfits, AreMergedOverTimeAndReplicates) {
 
 TEST(Ladder, AModelComesBackWhateverTheOrderOfItsTerms) {
   const auto model = [](const char* text) { return *parse_full_model(text, kFifty); };
-  ModelsSeen seen;
-  EXPECT_TRUE(seen.is_new(model("WN + AR1 + RW + line(f=7) + ramp")));
-  EXPECT_TRUE(seen.is_new(model("WN + 2*AR1 + RW + line(f=7) + ramp")));
-  EXPECT_TRUE(seen.is_new(model("WN + AR1 + RW + line(f=8) + ramp")));
-  EXPECT_FALSE(seen.is_new(model("RW + ramp + AR1 + WN + line(f=7)")));
+  ModelsSeen prepared;
+  EXPECT_TRUE(prepared.is_new(model("WN + AR1 + RW + line(f=7) + ramp")));
+  EXPECT_TRUE(prepared.is_new(model("WN + 2*AR1 + RW + line(f=7) + ramp")));
+  EXPECT_TRUE(prepared.is_new(model("WN + AR1 + RW + line(f=8) + ramp")));
+  EXPECT_FALSE(prepared.is_new(model("RW + ramp + AR1 + WN + line(f=7)")));
 }
 
 TEST(Ladder, TheHeadlineNamesAllThatItFoundWithAmplitudes) {

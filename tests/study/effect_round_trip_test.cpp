@@ -11,8 +11,8 @@
 #include "core/effects/known_effects.h"
 #include "core/effects/parse_full_model.h"
 #include "core/effects/simulation.h"
+#include "study/analysis/evaluate.h"
 #include "study/analysis/fit_series.h"
-#include "study/analysis/judge.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
@@ -142,9 +142,9 @@ TEST_P(EffectRoundTrip, WhatIsSimulatedIsFittedAndAStudyAgrees) {
   const double slack = truth.effect->own_noise != nullptr ? 1.0 : 0.1;
   EXPECT_NEAR(white.value(), GetParam().white, slack * GetParam().white) << "the noise beside it";
 
-  const auto look = look_at(replicates, 0, std::nullopt);
+  const auto look = prepare_channel(replicates, 0, std::nullopt);
   ASSERT_TRUE(look) << look.error().message;
-  const auto rung = judge(model, look->seen, {.added = "", .why = ""});
+  const auto rung = evaluate(model, look->prepared, {.added = "", .why = ""});
   ASSERT_TRUE(rung) << rung.error().message;
   EXPECT_EQ(rung->model(), model);
   ASSERT_EQ(rung->effects_size(), 1);

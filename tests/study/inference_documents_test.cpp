@@ -240,7 +240,7 @@ v1::Rung rung_with(double unexplained, double waves) {
   out.set_model("WN + RW");
   out.set_unexplained(unexplained);
   out.set_consequence("The best model.");
-  v1::Drift& drift = *out.add_drift();
+  v1::IntegratedError& drift = *out.add_drift();
   drift.set_seconds(100.0);
   drift.set_best(1.0);
   v1::ErrorView& view = *out.add_views();

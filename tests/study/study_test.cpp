@@ -16,8 +16,8 @@
 
 #include "core/model/model.h"
 #include "study/analysis/diagnose_series.h"
+#include "study/analysis/evaluate.h"
 #include "study/analysis/fit_series.h"
-#include "study/analysis/judge.h"
 #include "study/ladder/study_file.h"
 namespace imunoise::study {
 namespace {
@@ -399,9 +399,9 @@ TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {
   EXPECT_EQ(step.parameters(1).value(), 2.0);
   EXPECT_NE(step.term().find("replicate=2"), std::string::npos) << step.term();
   // The term that was printed means the same when it is read.
-  const auto look = look_at(recordings, 0, {});
+  const auto look = prepare_channel(recordings, 0, {});
   ASSERT_TRUE(look) << look.error().message;
-  const auto with = judge("WN + RW + QN + " + step.term(), look->seen, {});
+  const auto with = evaluate("WN + RW + QN + " + step.term(), look->prepared, {});
   ASSERT_TRUE(with) << with.error().message;
   const auto nats = [](const v1::Rung& rung) {
     return std::accumulate(rung.heldout_nats().begin(), rung.heldout_nats().end(), 0.0);

@@ -16,7 +16,7 @@ v1::Rung rung(const std::vector<double>& nats, double measured = 1.0) {
   v1::Rung out;
   for (const double one : nats) out.add_heldout_nats(one);
   out.set_heldout_scores(kScores);
-  v1::Drift& drift = *out.add_drift();
+  v1::IntegratedError& drift = *out.add_drift();
   drift.set_seconds(100.0);
   drift.set_measured(measured);
   drift.set_unit("rad");

@@ -51,9 +51,9 @@ std::optional<ErrorView> over_averaging_times(const Model& noise,
 }
 
 std::optional<ErrorView> over_spectrum(const MisfitReport& misfit) {
-  double freedom = 0.0;
-  for (const BandMisfit& one : misfit.bands) freedom += one.freedom;
-  auto out = mean_view("spectrum", misfit.spectrum, 0.5 * freedom);
+  double total_dof = 0.0;
+  for (const BandMisfit& one : misfit.bands) total_dof += one.dof;
+  auto out = mean_view("spectrum", misfit.spectrum, 0.5 * total_dof);
   if (!out) return out;
   const BandMisfit& worst =
       *worst_of(misfit.bands, [](const BandMisfit& one) { return std::abs(one.sigma); });
@@ -62,9 +62,9 @@ std::optional<ErrorView> over_spectrum(const MisfitReport& misfit) {
 }
 
 std::optional<ErrorView> over_time(const MisfitReport& misfit, double rate) {
-  double freedom = 0.0;
-  for (const TimeMisfit& one : misfit.times) freedom += (one.to - one.from) * rate;
-  auto out = mean_view("noise_over_time", misfit.time, 0.5 * freedom);
+  double total_dof = 0.0;
+  for (const TimeMisfit& one : misfit.times) total_dof += (one.to - one.from) * rate;
+  auto out = mean_view("noise_over_time", misfit.time, 0.5 * total_dof);
   if (!out) return out;
   const TimeMisfit& worst =
       *worst_of(misfit.times, [](const TimeMisfit& one) { return std::abs(one.sigma); });
@@ -77,7 +77,7 @@ std::optional<ErrorView> over_time(const MisfitReport& misfit, double rate) {
 
 ErrorView of_distribution(const MisfitReport& misfit) {
   double samples = 0.0;
-  for (const ReplicatePower& one : misfit.powers) samples += one.freedom;
+  for (const ReplicatePower& one : misfit.powers) samples += one.dof;
   const double error = std::sqrt(24.0 / samples);
   const double value = std::abs(misfit.excess_within_replicates);
   return {.view = "distribution",
@@ -91,19 +91,19 @@ ErrorView of_distribution(const MisfitReport& misfit) {
 
 std::optional<ErrorView> over_replicates(const MisfitReport& misfit) {
   double power = 0.0;
-  double freedom = 0.0;
+  double total_dof = 0.0;
   for (const ReplicatePower& one : misfit.powers) {
-    power += one.power * one.freedom;
-    freedom += one.freedom;
+    power += one.power * one.dof;
+    total_dof += one.dof;
   }
-  power /= freedom;
+  power /= total_dof;
   const auto score = [&](const ReplicatePower& one) {
-    return normal_score(one.power / power, one.freedom);
+    return normal_score(one.power / power, one.dof);
   };
   double chi = 0.0;
   for (const ReplicatePower& one : misfit.powers) chi += score(one) * score(one);
   const auto dof = static_cast<Eigen::Index>(misfit.powers.size()) - 1;
-  auto out = mean_view("replicates", chi_square_test(chi, dof), 0.5 * freedom);
+  auto out = mean_view("replicates", chi_square_test(chi, dof), 0.5 * total_dof);
   if (!out) return out;
   const ReplicatePower& worst =
       *worst_of(misfit.powers, [&](const ReplicatePower& one) { return std::abs(score(one)); });

@@ -14,12 +14,12 @@ namespace {
 using Index = Eigen::Index;
 
 // Bands are put together until they have this many degrees of freedom and span half an octave.
-constexpr double kFewestFreedom = 8.0;
+constexpr double kFewestDof = 8.0;
 
 // What the replicates of one length say about a narrow band.
 struct Measured {
   double frequency = 0.0;  // Hz
-  double freedom = 0.0;
+  double dof = 0.0;
   double relative = 0.0;  // sum of as many powers over the model's
   Eigen::VectorXd slope;  // of the model's logarithm, by its parameters
 };
@@ -46,23 +46,22 @@ std::vector<Measured> measured(const Model& noise, const std::vector<BandedPower
 void add_bands(const std::vector<Measured>& all, std::vector<BandMisfit>& out,
                std::vector<Eigen::VectorXd>& directions) {
   for (std::size_t begin = 0; begin < all.size();) {
-    double freedom = 0.0;
+    double dof = 0.0;
     double relative = 0.0;
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(all[begin].slope.size());
     std::size_t end = begin;
-    while (end < all.size() && (freedom < kFewestFreedom ||
-                                all[end].frequency < std::sqrt(2.0) * all[begin].frequency)) {
-      freedom += all[end].freedom;
+    while (end < all.size() &&
+           (dof < kFewestDof || all[end].frequency < std::sqrt(2.0) * all[begin].frequency)) {
+      dof += all[end].dof;
       relative += all[end].relative;
-      direction += std::sqrt(0.5 * all[end].freedom) * all[end].slope;
+      direction += std::sqrt(0.5 * all[end].dof) * all[end].slope;
       ++end;
     }
-    if (freedom >= kFewestFreedom) {
-      BandMisfit one{
-          all[begin].frequency, all[end - 1].frequency, relative / freedom, 0.0, 0, freedom};
-      one.sigma = normal_score(one.ratio, freedom);
+    if (dof >= kFewestDof) {
+      BandMisfit one{all[begin].frequency, all[end - 1].frequency, relative / dof, 0.0, 0, dof};
+      one.sigma = normal_score(one.ratio, dof);
       out.push_back(one);
-      directions.push_back(direction / std::sqrt(0.5 * freedom));
+      directions.push_back(direction / std::sqrt(0.5 * dof));
     }
     begin = end;
   }
@@ -73,15 +72,15 @@ void count_replicates(const Model& noise, const std::vector<BandedPower>& left,
   for (const BandedPower& one : left) {
     const Eigen::ArrayXd power = one.count * one.power / spectrum(noise, one.frequency);
     for (BandMisfit& band : bands) {
-      double freedom = 0.0;
+      double dof = 0.0;
       double relative = 0.0;
       for (Index b = 0; b < one.frequency.size(); ++b) {
         const double f = one.frequency(b) * one.rate.value;
         if (f < band.from || f > band.to) continue;
-        freedom += one.count(b);
+        dof += one.count(b);
         relative += power(b);
       }
-      if (freedom > 0.0 && (relative > freedom) == (band.ratio > 1.0)) ++band.replicates;
+      if (dof > 0.0 && (relative > dof) == (band.ratio > 1.0)) ++band.replicates;
     }
   }
 }

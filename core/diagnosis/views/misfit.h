@@ -9,12 +9,12 @@ namespace imunoise {
 
 /// A stretch of frequencies where the data have more or less power than the model.
 struct BandMisfit {
-  double from = 0.0;     ///< Hz
-  double to = 0.0;       ///< Hz
-  double ratio = 1.0;    ///< measured power over the model's
-  double sigma = 0.0;    ///< normal score of that
-  int replicates = 0;    ///< in how many of them it lies on the same side
-  double freedom = 0.0;  ///< degrees of freedom of the measured power
+  double from = 0.0;   ///< Hz
+  double to = 0.0;     ///< Hz
+  double ratio = 1.0;  ///< measured power over the model's
+  double sigma = 0.0;  ///< normal score of that
+  int replicates = 0;  ///< in how many of them it lies on the same side
+  double dof = 0.0;    ///< degrees of freedom of the measured power
 };
 
 /// A stretch of time in which a replicate's innovations have another variance than the others.
@@ -30,7 +30,7 @@ struct TimeMisfit {
 struct ReplicatePower {
   std::size_t replicate = 0;
   double power = 1.0;
-  double freedom = 0.0;  ///< samples
+  double dof = 0.0;  ///< samples
 };
 
 /// How the current model fails, whatever the cause.

@@ -25,8 +25,8 @@ Result<v1::Study> compute_here(const v1::JobOrder& order, const Progress& progre
   const v1::StudyInput& input = opens ? order.request().open().input() : order.study().input();
   const bool may = input.files_size() == 1 && files->list(input.files(0));
   constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30U;  // recordings need the disk
-  std::optional<study::SeenPlace> keep;
-  if (may) keep = study::SeenPlace{order.cache(), kMost};
+  std::optional<study::CachePlace> keep;
+  if (may) keep = study::CachePlace{order.cache(), kMost};
   return study::apply(order.study(), order.request(), read, progress, keep);
 }
 

@@ -36,7 +36,7 @@ class Outputs {
  public:
   std::size_t messages() const { return messages_; }
 
-  void look_at(const XbusFrame& frame) {
+  void prepare_channel(const XbusFrame& frame) {
     ++messages_;
     drivers::Refusals ignored;
     drivers::decode_mtdata2(frame.payload, data_, ignored);
@@ -87,7 +87,7 @@ struct Beginning {
   bool started = false;  // measurement begins within the capture
 };
 
-Beginning look_at(const std::filesystem::path& path, std::optional<double> rate_hz) {
+Beginning prepare_channel(const std::filesystem::path& path, std::optional<double> rate_hz) {
   Beginning out;
   Outputs outputs;
   bool configured = false;
@@ -105,7 +105,7 @@ Beginning look_at(const std::filesystem::path& path, std::optional<double> rate_
       out.setup.sends = *sent;
       configured = true;
     } else if (message_of(*frame) == XsensMessage::kMtData2 && outputs.messages() < kLook) {
-      outputs.look_at(*frame);
+      outputs.prepare_channel(*frame);
     } else if (acknowledges(*frame, XsensMessage::kGoToMeasurement) && configured) {
       out.started = true;
       return out;
@@ -124,7 +124,7 @@ Beginning look_at(const std::filesystem::path& path, std::optional<double> rate_
 class XbusCodec final : public WireCodec {
  public:
   XbusCodec(const std::filesystem::path& path, std::optional<double> rate_hz)
-      : beginning_(look_at(path, rate_hz)),
+      : beginning_(prepare_channel(path, rate_hz)),
         rows_(make_rows(path, beginning_.setup)),
         rate_hz_(rows_->streams().front().nominal_rate_hz),
         frames_(path),

@@ -55,7 +55,7 @@ void add_sensor_fits(const ArrayFit& fit, const Measured& measured, v1::ArrayRep
 }
 
 // The test of a pair takes its scatter from the model: it means something only where that fits.
-void judge(const PairDependence& from, const v1::ArrayReport& report, v1::SensorPair& to) {
+void evaluate(const PairDependence& from, const v1::ArrayReport& report, v1::SensorPair& to) {
   const bool fit = report.sensor_fits(static_cast<int>(from.pair.a)).fits() &&
                    report.sensor_fits(static_cast<int>(from.pair.b)).fits();
   to.set_withheld(!fit);
@@ -88,7 +88,7 @@ void add_pairs(const ArrayFit& fit, const Measured& measured, const std::vector<
     to.set_degrees_of_freedom(from.test.degrees_of_freedom);
     to.set_p_value(from.test.p_value);
     to.set_adjusted_p_value(from.adjusted_p);
-    judge(from, out, to);
+    evaluate(from, out, to);
     add_scales(mean, alike.size(), model, from.pair, confidence, to);
     if (from.z.size() == 0) continue;
     Eigen::Index strongest = 0;

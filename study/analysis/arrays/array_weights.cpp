@@ -73,7 +73,7 @@ namespace {
 // Sums over the replicates that the weights were not made from.
 struct HeldOutHalf {
   std::vector<Eigen::MatrixXd> covariance;  // a scale each
-  std::vector<bool> seen;                   // whether a replicate is long enough for it
+  std::vector<bool> prepared;               // whether a replicate is long enough for it
 };
 
 HeldOutHalf held_out_half(const Measured& measured, const Scales& scales, Eigen::Index sensors) {
@@ -84,7 +84,7 @@ HeldOutHalf held_out_half(const Measured& measured, const Scales& scales, Eigen:
     const std::size_t common = std::min(scales.size(), measured[k].scales.size());
     for (std::size_t j = 0; j < common; ++j) {
       out.covariance[j] += measured[k].covariance[j];
-      out.seen[j] = true;
+      out.prepared[j] = true;
     }
   }
   return out;
@@ -111,12 +111,12 @@ void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
   for (const double w : scale_weights) to.add_scale_weights(w);
   const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
   const HeldOutHalf held = half ? held_out_half(measured, scales, weighted.rows()) : HeldOutHalf{};
-  const Eigen::ArrayXd seen = half ? gain_over_mean(held.covariance, half->weights) : predicted;
+  const Eigen::ArrayXd prepared = half ? gain_over_mean(held.covariance, half->weights) : predicted;
   for (std::size_t j = 0; j < scales.size(); ++j) {
     v1::ScaleGain& gain = *to.add_scale_gains();
     gain.set_tau_s(2.0 * static_cast<double>(scales[j]) / out.rate_hz());
     gain.set_predicted(predicted(static_cast<Eigen::Index>(j)));
-    if (half && held.seen[j]) gain.set_measured(seen(static_cast<Eigen::Index>(j)));
+    if (half && held.prepared[j]) gain.set_measured(prepared(static_cast<Eigen::Index>(j)));
   }
   // Weights of Σ|c| = 1 are asked for as published; others must be worth it.
   const bool free = options.rule != WeightRule::kUnitLength;

@@ -53,7 +53,7 @@ bool interval_excludes_zero(const v1::ArrayReport& report) {
   });
 }
 
-void judge(const v1::ArrayReport& report, Section& section) {
+void add_verdict(const v1::ArrayReport& report, Section& section) {
   const auto any = [](const auto& all, const auto& is) {
     return std::any_of(all.begin(), all.end(), is);
   };
@@ -111,7 +111,7 @@ std::optional<figure::Figure> gain_figure(const v1::VirtualSensor& sensor) {
 Document document(const v1::ArrayReport& report, Digits digits) {
   Section section;
   section.title = joined(report.sensors());
-  judge(report, section);
+  add_verdict(report, section);
   section.facts = fmt::format("{} · {:g} Hz · {} sensors · {} replicates · {}", report.model(),
                               report.rate_hz(), report.sensors_size(), report.replicates(),
                               report.termination()) +

@@ -150,11 +150,11 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
       "model",
       {"model"},
       {}};
-  for (const v1::Drift& one : report.ladder(0).drift())
+  for (const v1::IntegratedError& one : report.ladder(0).drift())
     out.head.push_back(fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
     std::vector<std::string> row{name_of(rung)};
-    for (const v1::Drift& one : rung.drift()) {
+    for (const v1::IntegratedError& one : rung.drift()) {
       row.push_back(fmt::format("{} / {} {}{}", number(one.predicted(), 3, digits),
                                 number(one.measured(), 3, digits), one.unit(),
                                 one.has_best() && one.best() > 0.0

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kSeed = 20'250;
 constexpr std::size_t kSets = 1000;
 
-struct Trial {
+struct Setting {
   const char* truth;
   std::size_t replicates;
   std::size_t samples = 16'384;
@@ -38,10 +38,10 @@ double covered(const std::vector<Fit>& fits, std::size_t term, const DerivedQuan
   });
 }
 
-class Calibration : public ::testing::TestWithParam<Trial> {
+class Calibration : public ::testing::TestWithParam<Setting> {
  protected:
   static std::vector<Fit> fits(Weighting weighting) {
-    const Trial& trial = GetParam();
+    const Setting& trial = GetParam();
     const Model truth = testing::model_of(trial.truth);
     std::vector<Fit> out(kSets);
     for_each_index(kSets, [&](std::size_t i) {
@@ -108,14 +108,14 @@ TEST_P(Calibration, DiagonalWeights) {
 
 INSTANTIATE_TEST_SUITE_P(
     Models, Calibration,
-    ::testing::Values(Trial{"WN(sigma2=1) + RW(gamma2=1e-3)", 1},
-                      Trial{"WN(sigma2=1) + RW(gamma2=1e-3)", 3},
-                      Trial{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 1},
-                      Trial{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 3},
-                      Trial{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 1},
-                      Trial{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 3},
-                      Trial{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 1},
-                      Trial{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 3}));
+    ::testing::Values(Setting{"WN(sigma2=1) + RW(gamma2=1e-3)", 1},
+                      Setting{"WN(sigma2=1) + RW(gamma2=1e-3)", 3},
+                      Setting{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 1},
+                      Setting{"AR1(sigma2=0.05, phi=0.97) + WN(sigma2=1)", 3},
+                      Setting{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 1},
+                      Setting{"WN(sigma2=1) + QN(q2=3) + RW(gamma2=1e-3)", 3},
+                      Setting{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 1},
+                      Setting{"AR1(sigma2=0.2, phi=0.9) + WN(sigma2=1) + RW(gamma2=1e-4)", 3}));
 
 // Between the octaves the moments are strongly correlated; the test must stand that.
 TEST(CalibrationDense, FourScalesAnOctave) {

@@ -1,4 +1,4 @@
-#include "study/seen/seen_file.h"
+#include "study/cache/cache_file.h"
 
 #include <unistd.h>
 
@@ -36,7 +36,7 @@ std::string_view bytes_of(const SharedVector& array) {
 }
 
 Result<void> write_all(recording::FileSystem& disk, const std::filesystem::path& path,
-                       const v1::SeenHeader& header, const std::vector<SharedVector>& arrays) {
+                       const v1::CacheHeader& header, const std::vector<SharedVector>& arrays) {
   auto out = disk.create(path);
   if (!out) return tl::unexpected(out.error());
   Result<void> done = (*out)->write(seen_front(header));
@@ -49,10 +49,10 @@ Result<void> write_all(recording::FileSystem& disk, const std::filesystem::path&
 }
 
 // Where each array begins; none where they do not fit.
-std::vector<std::size_t> places_of(const v1::SeenHeader& header, std::size_t begin,
+std::vector<std::size_t> places_of(const v1::CacheHeader& header, std::size_t begin,
                                    std::size_t end) {
   std::vector<std::size_t> out;
-  for (const v1::SeenArray& one : header.arrays()) {
+  for (const v1::CachedArray& one : header.arrays()) {
     if (begin > end || one.size() > (end - begin) / sizeof(double)) return {};
     out.push_back(begin);
     begin = aligned(begin + one.size() * sizeof(double));
@@ -62,7 +62,7 @@ std::vector<std::size_t> places_of(const v1::SeenHeader& header, std::size_t beg
 
 }  // namespace
 
-std::string seen_front(const v1::SeenHeader& header) {
+std::string seen_front(const v1::CacheHeader& header) {
   const std::string text = header.SerializeAsString();
   Front front;
   front.header_size = static_cast<std::uint32_t>(text.size());
@@ -74,12 +74,12 @@ std::string seen_front(const v1::SeenHeader& header) {
   return out;
 }
 
-Result<void> write_seen_file(const std::filesystem::path& path, SeenFile file) {
-  v1::SeenHeader& header = file.header;
+Result<void> write_cache_file(const std::filesystem::path& path, CacheFile file) {
+  v1::CacheHeader& header = file.header;
   const std::vector<SharedVector>& arrays = file.arrays;
   header.clear_arrays();
   for (const SharedVector& array : arrays) {
-    v1::SeenArray& one = *header.add_arrays();
+    v1::CachedArray& one = *header.add_arrays();
     one.set_size(static_cast<std::uint64_t>(array.size()));
   }
   for_each_index(arrays.size(), [&](std::size_t i) {
@@ -93,7 +93,7 @@ Result<void> write_seen_file(const std::filesystem::path& path, SeenFile file) {
   return done;
 }
 
-Result<SeenFile> parse_seen_file(std::string_view bytes, std::shared_ptr<const void> owner) {
+Result<CacheFile> parse_cache_file(std::string_view bytes, std::shared_ptr<const void> owner) {
   const auto damaged = [] { return fail("is damaged, or from another program"); };
   Front front;
   if (bytes.size() < sizeof front) return damaged();
@@ -102,7 +102,7 @@ Result<SeenFile> parse_seen_file(std::string_view bytes, std::shared_ptr<const v
       front.header_size > bytes.size() - sizeof front)
     return damaged();
   const std::string_view text = bytes.substr(sizeof front, front.header_size);
-  SeenFile out;
+  CacheFile out;
   if (recording::crc32c(text) != front.header_crc ||
       !out.header.ParseFromArray(text.data(), static_cast<int>(text.size())))
     return damaged();
@@ -113,7 +113,7 @@ Result<SeenFile> parse_seen_file(std::string_view bytes, std::shared_ptr<const v
   out.arrays.resize(count);
   std::vector<char> whole(count);
   for_each_index(count, [&](std::size_t i) {
-    const v1::SeenArray& one = out.header.arrays(static_cast<int>(i));
+    const v1::CachedArray& one = out.header.arrays(static_cast<int>(i));
     out.arrays[i] = SharedVector(owner, reinterpret_cast<const double*>(bytes.data() + places[i]),
                                  static_cast<Eigen::Index>(one.size()));
     whole[i] = recording::crc32c(bytes_of(out.arrays[i])) == one.crc() ? 1 : 0;
@@ -124,11 +124,11 @@ Result<SeenFile> parse_seen_file(std::string_view bytes, std::shared_ptr<const v
   return out;
 }
 
-Result<SeenFile> read_seen_file(const std::filesystem::path& path) try {
+Result<CacheFile> read_cache_file(const std::filesystem::path& path) try {
   const ipc::file_mapping file(path.c_str(), ipc::read_only);
   const auto region = std::make_shared<const ipc::mapped_region>(file, ipc::read_only);
-  auto out = parse_seen_file({static_cast<const char*>(region->get_address()), region->get_size()},
-                             region);
+  auto out = parse_cache_file({static_cast<const char*>(region->get_address()), region->get_size()},
+                              region);
   if (!out) return fail(path.string() + ": " + out.error().message);
   return out;
 } catch (const ipc::interprocess_exception& wrong) {

@@ -1,4 +1,4 @@
-#include "study/seen/seen_folder.h"
+#include "study/cache/cache_folder.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 
 #include "recording/import/table/sidecar.h"
 #include "recording/store/format/crc32c.h"
-#include "study/seen/seen_record.h"
+#include "study/cache/cache_record.h"
 
 namespace imunoise::study {
 namespace {
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // program's own version.
 constexpr int kVersion = 1;
 constexpr std::string_view kSuffix = ".seen";
-constexpr std::string_view kPartSuffix = ".part";  // write_seen_file()'s
+constexpr std::string_view kPartSuffix = ".part";  // write_cache_file()'s
 
 // Identifies the contents of a file that is not being written.
 std::string stamp(const fs::path& file) {
@@ -101,34 +101,34 @@ fs::path file_in(const fs::path& folder, const std::string& name) {
 }
 
 // The file of this name that was made of files with these stamps, if it is there and whole.
-std::optional<SeenFile> find_file(const fs::path& folder, const std::string& name,
-                                  const std::string& stamps) {
+std::optional<CacheFile> find_file(const fs::path& folder, const std::string& name,
+                                   const std::string& stamps) {
   if (folder.empty() || !is_own(folder)) return std::nullopt;
   const fs::path path = file_in(folder, name);
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(path, ignored))) return std::nullopt;
-  auto file = read_seen_file(path);
+  auto file = read_cache_file(path);
   if (!file || file->header.key() != name + stamps) return std::nullopt;
   fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // it was used
   return std::move(*file);
 }
 
-std::uintmax_t bytes_of(const SeenFile& file) {
+std::uintmax_t bytes_of(const CacheFile& file) {
   std::uintmax_t out = 0;
   for (const SharedVector& one : file.arrays)
     out += static_cast<std::uintmax_t>(one.size()) * sizeof(double);
   return out;
 }
 
-void keep_file(const SeenPlace& place, const std::string& name, const std::string& stamps,
-               SeenFile file) {
+void keep_file(const CachePlace& place, const std::string& name, const std::string& stamps,
+               CacheFile file) {
   if (place.folder.empty() || find_file(place.folder, name, stamps)) return;
   file.header.set_key(name + stamps);
   std::error_code wrong;
   fs::create_directories(place.folder, wrong);
   if (wrong || !is_own(place.folder)) return;
   if (make_room(place.folder, bytes_of(file), place.most_bytes))
-    (void)write_seen_file(file_in(place.folder, name), file);
+    (void)write_cache_file(file_in(place.folder, name), file);
 }
 
 // With paths that mean the same wherever the program runs.
@@ -148,7 +148,7 @@ fs::path user_cache_folder() {
   return {};
 }
 
-SeenFolder::SeenFolder(const v1::StudyInput& input, SeenPlace place) : place_(std::move(place)) {
+CacheFolder::CacheFolder(const v1::StudyInput& input, CachePlace place) : place_(std::move(place)) {
   const v1::StudyInput here = absolute(input);
   input_ = fmt::format("{} {}\n{}", IMUNOISE_VERSION, kVersion, here.SerializeAsString());
   for (const std::string& file : here.files()) {
@@ -158,31 +158,31 @@ SeenFolder::SeenFolder(const v1::StudyInput& input, SeenPlace place) : place_(st
   }
 }
 
-std::string SeenFolder::name_of(const std::string& channel, const std::string& witness) const {
+std::string CacheFolder::name_of(const std::string& channel, const std::string& witness) const {
   return fmt::format("{}\n{}\n{}\n", input_, channel, witness);
 }
 
-std::optional<SeenChannel> SeenFolder::find(const std::string& channel) const {
+std::optional<PreparedChannel> CacheFolder::find(const std::string& channel) const {
   const auto file = find_file(place_.folder, name_of(channel, ""), stamps_);
   return file ? channel_of(*file) : std::nullopt;
 }
 
-std::optional<Witness> SeenFolder::find_witness(const std::string& channel,
-                                                const std::string& witness) const {
+std::optional<Witness> CacheFolder::find_witness(const std::string& channel,
+                                                 const std::string& witness) const {
   const auto file = find_file(place_.folder, name_of(channel, witness), stamps_);
   return file ? witness_of(*file) : std::nullopt;
 }
 
-void SeenFolder::keep(const SeenChannel& seen) const {
-  SeenFile own = record_of(seen);
+void CacheFolder::keep(const PreparedChannel& prepared) const {
+  CacheFile own = record_of(prepared);
   std::uintmax_t bytes = bytes_of(own);
   if (bytes > place_.most_bytes / 2) return;
-  keep_file(place_, name_of(seen.name, ""), stamps_, std::move(own));
-  for (const Witness& witness : seen.subject->witnesses) {
-    SeenFile other = record_of(witness, seen.subject->rate);
+  keep_file(place_, name_of(prepared.name, ""), stamps_, std::move(own));
+  for (const Witness& witness : prepared.subject->witnesses) {
+    CacheFile other = record_of(witness, prepared.subject->rate);
     bytes += bytes_of(other);
     if (bytes > place_.most_bytes / 2) return;
-    keep_file(place_, name_of(seen.name, witness.name), stamps_, std::move(other));
+    keep_file(place_, name_of(prepared.name, witness.name), stamps_, std::move(other));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "study/analysis/judge.h"
+#include "study/analysis/evaluate.h"
 
 #include "core/diagnosis/heldout.h"
 #include "core/diagnosis/views/misfit.h"
@@ -8,13 +8,13 @@
 
 namespace imunoise::study {
 
-Result<FullModel> started(const std::string& model, const SeenChannel& seen,
+Result<FullModel> started(const std::string& model, const PreparedChannel& prepared,
                           const Progress& progress) {
-  const auto written = parse_full_model(model, seen.subject->rate);
+  const auto written = parse_full_model(model, prepared.subject->rate);
   if (!written) return tl::unexpected(written.error());
   auto out = as_fitted(*written);
   if (!out) return out;
-  return start_of(std::move(*out), *seen.subject, seen.moments, progress);
+  return start_of(std::move(*out), *prepared.subject, prepared.moments, progress);
 }
 
 std::optional<HeldOut> held_out_of(const FittedModel& model) {
@@ -22,18 +22,18 @@ std::optional<HeldOut> held_out_of(const FittedModel& model) {
   return held_out(model);
 }
 
-Result<v1::Rung> judge(const std::string& model, const SeenChannel& seen, const Step& step,
-                       const Progress& progress) {
-  const Result<FullModel> start = started(model, seen, progress.part(0.0, 0.1));
+Result<v1::Rung> evaluate(const std::string& model, const PreparedChannel& prepared,
+                          const Step& step, const Progress& progress) {
+  const Result<FullModel> start = started(model, prepared, progress.part(0.0, 0.1));
   if (!start) return tl::unexpected(start.error());
-  const FittedModel trial = fit_full_model(seen.subject, *start, progress.part(0.1, 0.3));
+  const FittedModel trial = fit_full_model(prepared.subject, *start, progress.part(0.1, 0.3));
   const std::optional<HeldOut> heldout = held_out_of(trial);
   progress.report(0.7);
   const MisfitReport misfit = misfit_of(trial);
   if (progress.stopped()) return fail("stopped");
   const LeftOver left = left_over(trial);
-  v1::Rung out = rung_of({trial, left, misfit, heldout}, step, 0.0, seen.replicates);
-  *out.mutable_picture() = picture_of(trial, left, seen.name, seen.replicates);
+  v1::Rung out = rung_of({trial, left, misfit, heldout}, step, 0.0, prepared.replicates);
+  *out.mutable_picture() = picture_of(trial, left, prepared.name, prepared.replicates);
   return out;
 }
 

@@ -9,10 +9,10 @@
 #include <fstream>
 
 #include "core/model/model.h"
+#include "study/cache/cache_folder.h"
+#include "study/cache/cache_record.h"
 #include "study/ladder/study.h"
 #include "study/ladder/study_file.h"
-#include "study/seen/seen_folder.h"
-#include "study/seen/seen_record.h"
 
 namespace imunoise::study {
 namespace {
@@ -68,8 +68,8 @@ class Seen : public testing::Test {
   Result<v1::Study> apply(const v1::Study& study, const v1::StudyRequest& request,
                           const std::optional<fs::path>& cache) {
     const auto reading = [this](const v1::StudyInput&, const std::string&) { return read(); };
-    std::optional<SeenPlace> keep;
-    if (cache) keep = SeenPlace{*cache};
+    std::optional<CachePlace> keep;
+    if (cache) keep = CachePlace{*cache};
     return study::apply(study, request, reading, {}, keep);
   }
 
@@ -98,7 +98,7 @@ class Seen : public testing::Test {
     return out;
   }
 
-  fs::path root_ = fs::temp_directory_path() / ("imunoise_seen_" + std::to_string(getpid()));
+  fs::path root_ = fs::temp_directory_path() / ("imunoise_cache_" + std::to_string(getpid()));
   fs::path home_ = root_ / "home";
   v1::StudyInput input_;
   int reads_ = 0;
@@ -316,21 +316,21 @@ TEST_F(Seen, AnotherRecordingInItsPlaceIsRefused) {
 }
 
 TEST_F(Seen, ARecordSaysWhatItWasMadeOf) {
-  auto look = look_at(*read(), 0, WitnessNames());
+  auto look = prepare_channel(*read(), 0, WitnessNames());
   ASSERT_TRUE(look) << look.error().message;
-  look->seen.fingerprint = 77;
-  const auto back = channel_of(record_of(look->seen));
+  look->prepared.fingerprint = 77;
+  const auto back = channel_of(record_of(look->prepared));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->name, "gyro");
-  EXPECT_EQ(back->replicates, look->seen.replicates);
+  EXPECT_EQ(back->replicates, look->prepared.replicates);
   EXPECT_EQ(back->replicates.size(), 4U) << "each was cut in two";
-  EXPECT_EQ(back->notes, look->seen.notes);
+  EXPECT_EQ(back->notes, look->prepared.notes);
   EXPECT_TRUE(back->changed);
   EXPECT_EQ(back->fingerprint, 77U);
-  EXPECT_EQ(back->subject->parts[1].first, look->seen.subject->parts[1].first);
+  EXPECT_EQ(back->subject->parts[1].first, look->prepared.subject->parts[1].first);
   EXPECT_EQ(back->subject->quantity, Quantity::kAngularRate);
-  EXPECT_TRUE((back->moments[3].upper == look->seen.moments[3].upper).all());
-  const Witness& heat = look->seen.subject->witnesses.at(0);
+  EXPECT_TRUE((back->moments[3].upper == look->prepared.moments[3].upper).all());
+  const Witness& heat = look->prepared.subject->witnesses.at(0);
   const auto witness = witness_of(record_of(heat, kRate));
   ASSERT_TRUE(witness);
   EXPECT_EQ(witness->quantity, Quantity::kTemperature);

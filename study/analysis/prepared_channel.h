@@ -17,7 +17,7 @@
 namespace imunoise::study {
 
 /// A channel's replicates without their defects, and their moments and transforms.
-struct SeenChannel {
+struct PreparedChannel {
   std::string name;
   std::vector<std::string> replicates;   ///< their names
   std::vector<std::string> notes;        ///< what was cut or mended, a sentence each
@@ -32,7 +32,7 @@ struct RecordedChannel {
   std::vector<recording::Replicate> recorded;
   std::size_t channel = 0;
   SoundParts parts;
-  SeenChannel seen;
+  PreparedChannel prepared;
 };
 
 /// Names of witnesses; unset: all channels but the one under study.
@@ -43,7 +43,8 @@ Result<void> check_witnesses(const WitnessNames& witnesses, const recording::Rep
 
 /// Error: a witness that was not recorded, replicates that are too short or tell nothing, or the
 /// caller stopped it.
-Result<RecordedChannel> look_at(std::vector<recording::Replicate> recorded, std::size_t channel,
-                                const WitnessNames& witnesses, const Progress& progress = {});
+Result<RecordedChannel> prepare_channel(std::vector<recording::Replicate> recorded,
+                                        std::size_t channel, const WitnessNames& witnesses,
+                                        const Progress& progress = {});
 
 }  // namespace imunoise::study

@@ -1,4 +1,4 @@
-#include "study/analysis/seen_channel.h"
+#include "study/analysis/prepared_channel.h"
 
 #include <fmt/format.h>
 
@@ -32,8 +32,9 @@ Result<void> check_witnesses(const WitnessNames& witnesses, const recording::Rep
   return {};
 }
 
-Result<RecordedChannel> look_at(std::vector<recording::Replicate> recorded, std::size_t channel,
-                                const WitnessNames& witnesses, const Progress& progress) {
+Result<RecordedChannel> prepare_channel(std::vector<recording::Replicate> recorded,
+                                        std::size_t channel, const WitnessNames& witnesses,
+                                        const Progress& progress) {
   const Series whole = series_of(recorded, channel);
   for (std::size_t k = 0; k < whole.replicates.size(); ++k) {
     if (whole.replicates[k].size() < kFewestSamples)
@@ -42,20 +43,21 @@ Result<RecordedChannel> look_at(std::vector<recording::Replicate> recorded, std:
   }
   if (auto known = check_witnesses(witnesses, recorded.front()); !known)
     return tl::unexpected(known.error());
-  RecordedChannel out{.recorded = std::move(recorded), .channel = channel, .parts = {}, .seen = {}};
+  RecordedChannel out{
+      .recorded = std::move(recorded), .channel = channel, .parts = {}, .prepared = {}};
   out.parts = sound_parts(out.recorded, channel);
   const Series series = series_of(out.parts.replicates, channel);
   auto moments = measure(series, {}, progress.part(0.0, 0.3));
   if (!moments) return tl::unexpected(moments.error());
   if (auto sound = check_replicates(series, *moments); !sound) return tl::unexpected(sound.error());
-  out.seen = {.name = series.channel,
-              .replicates = series.names,
-              .notes = out.parts.notes,
-              .changed = out.parts.changed,
-              .moments = std::move(*moments),
-              .subject = std::make_shared<const Subject>(
-                  make_subject(series.replicates, only(witnesses, series.beside), out.parts.places,
-                               progress.part(0.3, 1.0)))};
+  out.prepared = {.name = series.channel,
+                  .replicates = series.names,
+                  .notes = out.parts.notes,
+                  .changed = out.parts.changed,
+                  .moments = std::move(*moments),
+                  .subject = std::make_shared<const Subject>(
+                      make_subject(series.replicates, only(witnesses, series.beside),
+                                   out.parts.places, progress.part(0.3, 1.0)))};
   if (progress.stopped()) return fail("stopped");  // the subject is then not whole
   return out;
 }

@@ -1,4 +1,4 @@
-#include "study/seen/seen_record.h"
+#include "study/cache/cache_record.h"
 
 #include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/cross_power.h"
@@ -7,7 +7,7 @@ namespace imunoise::study {
 namespace {
 
 // Whether each replicate has samples and as many cosines as a transform of them gives.
-bool hangs_together(const SeenFile& file) {
+bool hangs_together(const CacheFile& file) {
   const auto count = static_cast<std::size_t>(file.header.replicates_size());
   if (count == 0 || file.arrays.size() != 2 * count) return false;
   for (std::size_t k = 0; k < count; ++k) {
@@ -19,7 +19,7 @@ bool hangs_together(const SeenFile& file) {
   return true;
 }
 
-std::optional<WaveletVariance> moments_of(const v1::SeenReplicate& from, Hertz rate,
+std::optional<WaveletVariance> moments_of(const v1::CachedReplicate& from, Hertz rate,
                                           Quantity quantity) {
   WaveletVariance out;
   out.samples = from.samples();
@@ -32,10 +32,10 @@ std::optional<WaveletVariance> moments_of(const v1::SeenReplicate& from, Hertz r
   return out;
 }
 
-SeenFile file_of(const std::string& channel, Quantity quantity, Hertz rate,
-                 const std::vector<SharedVector>& samples,
-                 const std::vector<SharedVector>& cosines) {
-  SeenFile out;
+CacheFile file_of(const std::string& channel, Quantity quantity, Hertz rate,
+                  const std::vector<SharedVector>& samples,
+                  const std::vector<SharedVector>& cosines) {
+  CacheFile out;
   out.header.set_channel(channel);
   out.header.set_quantity(std::string(si_symbol(quantity)));
   out.header.set_rate_hz(rate.value);
@@ -55,32 +55,32 @@ std::vector<SharedVector> every_second(const std::vector<SharedVector>& arrays, 
 
 }  // namespace
 
-SeenFile record_of(const SeenChannel& seen) {
-  const Subject& subject = *seen.subject;
-  SeenFile out =
-      file_of(seen.name, subject.quantity, subject.rate, subject.samples, subject.cosines);
-  for (const std::string& note : seen.notes) out.header.add_notes(note);
-  out.header.set_changed(seen.changed);
-  out.header.set_fingerprint(seen.fingerprint);
+CacheFile record_of(const PreparedChannel& prepared) {
+  const Subject& subject = *prepared.subject;
+  CacheFile out =
+      file_of(prepared.name, subject.quantity, subject.rate, subject.samples, subject.cosines);
+  for (const std::string& note : prepared.notes) out.header.add_notes(note);
+  out.header.set_changed(prepared.changed);
+  out.header.set_fingerprint(prepared.fingerprint);
   for (std::size_t k = 0; k < subject.replicates(); ++k) {
-    v1::SeenReplicate& one = *out.header.mutable_replicates(static_cast<int>(k));
-    one.set_name(seen.replicates[k]);
+    v1::CachedReplicate& one = *out.header.mutable_replicates(static_cast<int>(k));
+    one.set_name(prepared.replicates[k]);
     one.set_recorded(subject.parts[k].recorded);
     one.set_first(static_cast<std::uint64_t>(subject.parts[k].first));
-    one.set_samples(seen.moments[k].samples);
-    for (const double variance : seen.moments[k].variance) one.add_variance(variance);
+    one.set_samples(prepared.moments[k].samples);
+    for (const double variance : prepared.moments[k].variance) one.add_variance(variance);
   }
   return out;
 }
 
-SeenFile record_of(const Witness& witness, Hertz rate) {
-  SeenFile out = file_of(witness.name, witness.quantity, rate, witness.samples, witness.cosines);
+CacheFile record_of(const Witness& witness, Hertz rate) {
+  CacheFile out = file_of(witness.name, witness.quantity, rate, witness.samples, witness.cosines);
   out.header.set_unit(witness.unit);
   return out;
 }
 
-std::optional<SeenChannel> channel_of(const SeenFile& file) {
-  const v1::SeenHeader& header = file.header;
+std::optional<PreparedChannel> channel_of(const CacheFile& file) {
+  const v1::CacheHeader& header = file.header;
   const auto unit = parse_unit(header.quantity());
   if (!unit || !(header.rate_hz() > 0.0) || !hangs_together(file)) return std::nullopt;
   auto subject = std::make_shared<Subject>(Subject{Hertz{header.rate_hz()},
@@ -89,12 +89,12 @@ std::optional<SeenChannel> channel_of(const SeenFile& file) {
                                                    every_second(file.arrays, 1),
                                                    {},
                                                    {}});
-  SeenChannel out;
+  PreparedChannel out;
   out.name = header.channel();
   out.notes.assign(header.notes().begin(), header.notes().end());
   out.changed = header.changed();
   out.fingerprint = header.fingerprint();
-  for (const v1::SeenReplicate& one : header.replicates()) {
+  for (const v1::CachedReplicate& one : header.replicates()) {
     auto moments = moments_of(one, subject->rate, unit->quantity);
     if (!moments) return std::nullopt;
     out.moments.push_back(std::move(*moments));
@@ -105,7 +105,7 @@ std::optional<SeenChannel> channel_of(const SeenFile& file) {
   return out;
 }
 
-std::optional<Witness> witness_of(const SeenFile& file) {
+std::optional<Witness> witness_of(const CacheFile& file) {
   const auto unit = parse_unit(file.header.quantity());
   if (!unit || !hangs_together(file)) return std::nullopt;
   return Witness{file.header.channel(), unit->quantity, every_second(file.arrays, 0),

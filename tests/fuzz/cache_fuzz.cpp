@@ -10,7 +10,7 @@
 #include <string>
 
 #include "recording/store/format/crc32c.h"
-#include "study/seen/seen_record.h"
+#include "study/cache/cache_record.h"
 
 namespace {
 
@@ -21,18 +21,18 @@ void require(bool holds) {
 }
 
 // Copied to where a mapped file would lie.
-Result<study::SeenFile> parsed(const std::string& bytes) {
+Result<study::CacheFile> parsed(const std::string& bytes) {
   struct alignas(64) Line {
     char bytes[64];
   };
   const std::shared_ptr<Line[]> place(new Line[bytes.size() / sizeof(Line) + 1]);
   std::memcpy(place.get(), bytes.data(), bytes.size());
-  return study::parse_seen_file({place[0].bytes, bytes.size()}, place);
+  return study::parse_cache_file({place[0].bytes, bytes.size()}, place);
 }
 
 volatile double read;  // all of it can be
 
-void check(const study::SeenFile& file) {
+void check(const study::CacheFile& file) {
   if (const auto channel = study::channel_of(file)) {
     const Subject& subject = *channel->subject;
     require(subject.replicates() > 0 && subject.replicates() == channel->moments.size());
@@ -53,11 +53,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   // The first two bytes: how long the header is. Its numbers' checksums are put right.
   const std::size_t length = std::min(std::size_t{data[0]} + 256U * std::size_t{data[1]}, size - 2);
-  v1::SeenHeader header;
+  v1::CacheHeader header;
   if (!header.ParseFromString(raw.substr(2, length))) return 0;
   std::string numbers = raw.substr(2 + length);
   std::size_t at = 0;
-  for (v1::SeenArray& one : *header.mutable_arrays()) {
+  for (v1::CachedArray& one : *header.mutable_arrays()) {
     const std::size_t bytes = std::min<std::size_t>(one.size(), numbers.size()) * sizeof(double);
     if (at + bytes > numbers.size()) break;
     one.set_crc(recording::crc32c(std::string_view(numbers).substr(at, bytes)));

@@ -4,18 +4,18 @@
 
 #include <optional>
 
-#include "study/analysis/seen_channel.h"
-#include "study/seen/seen_file.h"
+#include "study/analysis/prepared_channel.h"
+#include "study/cache/cache_file.h"
 
 namespace imunoise::study {
 
 /// A channel without its witnesses; the key is left empty.
-SeenFile record_of(const SeenChannel& seen);
+CacheFile record_of(const PreparedChannel& prepared);
 /// A witness, recorded at this rate.
-SeenFile record_of(const Witness& witness, Hertz rate);
+CacheFile record_of(const Witness& witness, Hertz rate);
 
 /// What a file was made of; nothing where it does not hang together. Shares the file's arrays.
-std::optional<SeenChannel> channel_of(const SeenFile& file);
-std::optional<Witness> witness_of(const SeenFile& file);
+std::optional<PreparedChannel> channel_of(const CacheFile& file);
+std::optional<Witness> witness_of(const CacheFile& file);
 
 }  // namespace imunoise::study
