@@ -1,11 +1,11 @@
 // Every model on the way to the current one, and what was tried beside it.
-import type { Drift, Study } from "../../api/schema";
+import type { IntegratedError, Study } from "../../api/schema";
 import { number, withUnit } from "../../parts/numbers";
 import { brief, currentRung, errorOf, path, type Step } from "./model";
 import type { StudyStore } from "./study_store";
 
 const degrees = 180 / Math.PI;
-const inDegrees = (drift: Drift, value: number): string =>
+const inDegrees = (drift: IntegratedError, value: number): string =>
   drift.unit === "rad" ? withUnit(value * degrees, "°") : withUnit(value, drift.unit);
 
 function name(step: Step): string {
