@@ -21,7 +21,7 @@ class Open : public testing::Program {
   // Starts it on files, and reads the address that it prints.
   void open(const std::string& arguments) {
     const std::string command = "cd '" + folder_.string() +
-                                "' && sh -c 'echo $$; exec \"$0\" open --no-browser --studies s " +
+                                "' && sh -c 'echo $$; exec \"$0\" open --no-browser --studies new/s " +
                                 arguments + " 2> stderr' '" IMUNOISE_BINARY "'";
     pipe_ = popen(command.c_str(), "r");
     ASSERT_NE(pipe_, nullptr);
@@ -81,7 +81,7 @@ TEST_F(Open, ItsAddressLetsOneBrowserStudyTheFiles) {
                                              {cookie})
                                    .body);
   EXPECT_EQ(job["state"], "done") << job;
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "s/s.study"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "new/s/s.study"));
   EXPECT_EQ(testing::get(where_, "/v1/studies/s/figure?view=averaging_times", {cookie}).status,
             200);
   EXPECT_EQ(end(), 0);

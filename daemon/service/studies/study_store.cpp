@@ -105,7 +105,7 @@ Answer<void> StudyStore::remove(const std::string& name) {
 }
 
 Result<void> StudyStore::write(const std::string& name, const v1::Study& study) const {
-  if (auto made = disk_.make_folder(folder_); !made) return made;
+  if (auto made = recording::make_folders(disk_, folder_); !made) return made;
   return recording::replace_file(disk_, file_of(name), study::study_text(study));
 }
 
