@@ -10,6 +10,7 @@ interface Row {
   readonly now: number | undefined;
   readonly then: number | undefined;
   readonly floor: number | undefined;
+  readonly limit: number; // a true model seldom exceeds it
   readonly sentence: string;
 }
 
@@ -22,14 +23,14 @@ function viewRows(first: Rung, now: Rung, next: Rung | undefined): Row[] {
   const of = (rung: Rung | undefined, view: string): number | undefined => rung?.views.find((one) => one.view === view)?.value;
   return now.views.map((one) => ({
     name: titles[one.view] ?? one.view, unit: one.unit === "1" ? "" : one.unit, before: of(first, one.view), now: one.value,
-    then: of(next, one.view), floor: one.floor, sentence: one.sentence,
+    then: of(next, one.view), floor: one.floor, limit: one.chance_limit, sentence: one.sentence,
   }));
 }
 
 // What a study knew before there were views.
 function errorRows(first: Rung, now: Rung, next: Rung | undefined): Row[] {
   const row = (name: string, sentence: string, value: (rung: Rung) => number | undefined): Row => ({
-    name, unit: "", before: value(first), now: value(now), then: next && value(next), floor: 1, sentence,
+    name, unit: "", before: value(first), now: value(now), then: next && value(next), floor: 1, limit: 1, sentence,
   });
   return [
     row("held-out error", "On replicates that the model was not fitted to.", (rung) => rung.heldout_error),
@@ -40,11 +41,11 @@ function errorRows(first: Rung, now: Rung, next: Rung | undefined): Row[] {
 const text = (value: number | undefined, unit: string): string =>
   value === undefined ? "–" : `${number(value, value < 10 ? 2 : 3)}${unit && ` ${unit}`}`;
 
-// What is above the floor, as part of what was there at first.
+// What is beyond chance, as part of what was there at first.
 const share = (value: number | undefined, row: Row): number => {
   const floor = row.floor ?? 0;
   const most = Math.max(row.before ?? 0, row.now ?? 0) - floor;
-  return value === undefined || most <= 0 ? 0 : Math.min(1, Math.max(0, (value - floor) / most));
+  return value === undefined || value <= row.limit ? 0 : Math.min(1, (value - floor) / most);
 };
 
 function Bar({ row }: { row: Row }) {
