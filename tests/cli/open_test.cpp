@@ -20,9 +20,10 @@ class Open : public testing::Program {
 
   // Starts it on files, and reads the address that it prints.
   void open(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() +
-                                "' && sh -c 'echo $$; exec \"$0\" open --no-browser --studies new/s " +
-                                arguments + " 2> stderr' '" IMUNOISE_BINARY "'";
+    const std::string command =
+        "cd '" + folder_.string() +
+        "' && sh -c 'echo $$; exec \"$0\" open --no-browser --studies new/s " + arguments +
+        " 2> stderr' '" IMUNOISE_BINARY "'";
     pipe_ = popen(command.c_str(), "r");
     ASSERT_NE(pipe_, nullptr);
     char line[512];
