@@ -2,6 +2,8 @@
 import { Empty, Skeleton } from "./parts/states";
 import { SignIn } from "./parts/sign_in";
 import { Bench } from "./rooms/bench/bench";
+import { Devices } from "./rooms/devices/devices";
+import { History } from "./rooms/devices/history";
 import { Studies } from "./rooms/study/studies";
 import { StudyRoom } from "./rooms/study/study_room";
 import { campaigns, connected, knownHere, mayChange, place, session, trouble } from "./state";
@@ -9,6 +11,7 @@ import { campaigns, connected, knownHere, mayChange, place, session, trouble } f
 const rooms = [
   { word: "bench", title: "Bench", ifBench: true },
   { word: "studies", title: "Studies", ifBench: false },
+  { word: "devices", title: "Devices", ifBench: true },
 ];
 
 const here = (): string => place.value[0] ?? (session.value?.bench ? "bench" : "studies");
@@ -19,6 +22,7 @@ function Room() {
   if (!knownHere.value) return <SignIn />;
   const name = place.value[1];
   if (here() === "studies") return name ? <StudyRoom key={name} name={name} /> : <Studies />;
+  if (here() === "devices" && session.value.bench) return name ? <History key={name} device={name} /> : <Devices />;
   if (here() === "bench" && session.value.bench) return <Bench />;
   return <Empty title="There is no such page" sentence="Choose a room at the top." />;
 }

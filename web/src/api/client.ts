@@ -30,8 +30,8 @@ const query = (fields: Fields): string => {
   return known.length ? "?" + new URLSearchParams(known.map(([name, value]) => [name, String(value)])) : "";
 };
 
-export const get = async <Path extends keyof Gets>(path: Path, fields: Fields = {}): Promise<Gets[Path]> =>
-  (await send(place(path, fields))).json() as Promise<Gets[Path]>;
+export const get = async <Path extends keyof Gets>(path: Path, fields: Fields = {}, asked: Fields = {}): Promise<Gets[Path]> =>
+  (await send(place(path, fields) + query(asked))).json() as Promise<Gets[Path]>;
 
 export const getText = async (path: string, fields: Fields, asked: Fields, signal?: AbortSignal): Promise<string> =>
   (await send(place(path, fields) + query(asked), signal ? { signal } : {})).text();

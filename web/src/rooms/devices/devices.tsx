@@ -1,0 +1,42 @@
+// Every device of the bench: how often it was recorded and calibrated, and what it does now.
+import { get } from "../../api/client";
+import { useLoaded } from "../../parts/loaded";
+import { Empty, Skeleton } from "../../parts/states";
+import { campaigns, live } from "../../state";
+import { type DeviceRow, deviceRows, deviceState, liveOf, minute } from "./device_rows";
+
+const titles = ["device", "name", "recordings", "calibrated", "newest (UTC)", "now"];
+
+function Row({ row }: { row: DeviceRow }) {
+  const state = deviceState(liveOf(row, live.value));
+  return (
+    <tr>
+      <th scope="row"><a href={`#/devices/${encodeURIComponent(row.id)}`}>{row.id}</a></th>
+      <td>{row.name}</td>
+      <td>{row.recordings}</td>
+      <td>{row.calibrated}</td>
+      <td>{minute(row.newest)}</td>
+      <td class={state.alarm ? "alarm" : "soft"}>{state.words}</td>
+    </tr>
+  );
+}
+
+export function Devices() {
+  const recordings = [...(campaigns.value?.values() ?? [])].map((one) => one.recording).join(" ");
+  const { answer, problem } = useLoaded(() => get("/v1/recordings"), recordings);
+  if (problem) return <Empty title="The devices cannot be listed" sentence={problem} />;
+  if (!answer) return <Skeleton lines={8} />;
+  const rows = deviceRows(answer.recordings);
+  if (rows.length === 0) return <Empty title="No device was recorded yet" sentence="Start a campaign on the bench; its devices then stand here." />;
+  return (
+    <div class="list">
+      <h1>Devices</h1>
+      <div class="scroll" tabIndex={0} role="group" aria-label="devices">
+        <table class="rows">
+          <thead><tr>{titles.map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
+          <tbody>{rows.map((one) => <Row key={one.id} row={one} />)}</tbody>
+        </table>
+      </div>
+    </div>
+  );
+}

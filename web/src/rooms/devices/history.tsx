@@ -1,0 +1,60 @@
+// A device's parameters over its recordings, and whether the newest calibration fits the earlier ones.
+import { get } from "../../api/client";
+import type { History as Answer, ParameterHistory } from "../../api/schema";
+import { useLoaded } from "../../parts/loaded";
+import { Empty, Skeleton } from "../../parts/states";
+import { minute } from "./device_rows";
+import { parameterRow, pointRows } from "./parameter_rows";
+
+const moods = { drift: "alarm", compatible: "good", "not compared": "plain" } as const;
+
+function Overview({ history }: { history: Answer }) {
+  return (
+    <div class="scroll" tabIndex={0} role="group" aria-label="newest calibration">
+      <table class="rows">
+        <caption>The newest calibration against the earlier ones, with 95 % intervals</caption>
+        <thead><tr>{["parameter", "newest", "expected", "unit", "change", "verdict"].map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
+        <tbody>
+          {history.parameters.map(parameterRow).map((one) => (
+            <tr key={one.name}>
+              <th scope="row">{one.name}</th><td>{one.newest}</td><td>{one.expected}</td><td>{one.unit}</td><td>{one.change}</td>
+              <td><span class={`badge ${moods[one.verdict]}`}>{one.verdict}</span></td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+const Points = ({ one }: { one: ParameterHistory }) => (
+  <details>
+    <summary>{one.channel}: {one.title || one.parameter}, {one.points.length === 1 ? "one calibration" : `${one.points.length} calibrations`}</summary>
+    <table class="rows">
+      <thead><tr>{["recorded (UTC)", `value, ${parameterRow(one).unit}`, "model"].map((title) => <th scope="col" key={title}>{title}</th>)}</tr></thead>
+      <tbody>
+        {pointRows(one).map((point) => (
+          <tr key={point.started}><th scope="row">{minute(point.started)}</th><td>{point.value}</td><td class="mono">{point.model}</td></tr>
+        ))}
+      </tbody>
+    </table>
+  </details>
+);
+
+export function History({ device }: { device: string }) {
+  const { answer, problem } = useLoaded(() => get("/v1/history", {}, { device }), device);
+  const back = <p><a href="#/devices">All devices</a></p>;
+  if (problem) return <Empty title={`No history of ${device}`} sentence={problem}>{back}</Empty>;
+  if (!answer) return <Skeleton lines={8} />;
+  return (
+    <div class="list">
+      {back}
+      <h1>{answer.device?.id ?? device}</h1>
+      <p class={answer.alarm ? "alarm" : ""} role="status">{answer.summary}</p>
+      <Overview history={answer} />
+      {answer.notes.map((one) => <p class="soft" key={one}>{one}</p>)}
+      <h2>Calibrations</h2>
+      {answer.parameters.map((one) => <Points key={`${one.stream} ${one.channel} ${one.term} ${one.parameter}`} one={one} />)}
+    </div>
+  );
+}

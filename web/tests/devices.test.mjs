@@ -1,0 +1,55 @@
+// Every device of the bench, and the history of one.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { browse, folder, operator, picture, serve, violations } from "./programs.mjs";
+
+const campaign = `name = "bench"
+folder = "recordings"
+replicates = 2
+length = "100 s"
+
+[calibration]
+models = ["WN"]
+diagnose = false
+
+[[device]]
+name = "imu"
+driver = "emulated"
+options.device = "adis16405"
+options.speed = 0
+options.length = 100
+options.seed = 5
+options.model = ["gyro: WN(sigma2=9e-6)"]
+`;
+
+test("a device is listed, and its history is a click away", { timeout: 150_000 }, async (t) => {
+  const { url } = await serve(t, folder(), campaign, 8474);
+  const { page, problems } = await browse(t);
+  await page.goto(url);
+  await page.getByLabel("Token").fill(operator);
+  await page.getByRole("button", { name: "Sign in" }).click();
+  await page.getByText("finished").first().waitFor({ timeout: 90_000 });
+
+  await page.getByRole("link", { name: "Devices" }).click();
+  const row = page.locator(".rows tbody tr").first();
+  await row.waitFor();
+  const [name, recordings, calibrated] = await row.locator("td").allTextContents();
+  assert.deepEqual([name, recordings, calibrated], ["imu", "1", "1"]);
+  assert.deepEqual(await violations(page), []);
+  await picture(page, "devices");
+
+  await row.getByRole("link").click();
+  await page.getByText("The newest calibration against").waitFor();
+  assert.match(await page.locator(".rows tbody tr").first().textContent(), /N of WN.*not compared/);
+  await page.locator("summary").first().click();
+  await page.locator("details .mono").first().waitFor();
+  assert.deepEqual(await violations(page), []);
+  await picture(page, "history");
+
+  await page.goto(`${url}#/devices/nobody`);
+  await page.getByRole("heading", { name: "No history of nobody" }).waitFor();
+  assert.deepEqual(await violations(page), []);
+  await page.getByRole("link", { name: "All devices" }).click();
+  await page.getByRole("heading", { name: "Devices" }).waitFor();
+  assert.deepEqual(problems, []);
+});
