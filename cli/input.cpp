@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "cli/progress_line.h"
+#include "recording/import/table/names.h"
 #include "recording/store/reading/across.h"
 #include "recording/store/reading/places.h"
 #include "recording/store/reading/replicates.h"
@@ -40,7 +41,7 @@ void tell(const recording::JoinedStream& one) {
 
 Result<std::vector<recording::Replicate>> joined(const InputArguments& arguments) {
   const recording::ImportOptions& options = arguments.import;
-  if (options.rate || options.unit || options.split_into > 1)
+  if (options.rate || !options.units.empty() || options.split_into > 1)
     return fail(
         "channels of several devices keep their own rates and units, and their replicates: "
         "--rate, --unit and --split-into are for those of one");
@@ -55,6 +56,23 @@ Result<std::vector<recording::Replicate>> joined(const InputArguments& arguments
   }
   for (const recording::JoinedStream& one : all.streams) tell(one);
   return std::move(all.replicates);
+}
+
+// What was recognised, and every finding, before anything is computed.
+void tell_preflight(const std::vector<recording::Replicate>& replicates) {
+  const recording::Preflight* before = nullptr;
+  for (const recording::Replicate& one : replicates) {
+    const recording::Preflight* const found = one.preflight.get();
+    if (found == nullptr || found == before) continue;
+    before = found;
+    for (const std::string& said : found->recognised)
+      fmt::print(stderr, "{}: {}\n", found->file, said);
+    for (const recording::Finding& finding : found->findings)
+      fmt::print(stderr, "{}: {}\n", found->file, finding.text);
+    if (found->used < found->samples)
+      fmt::print(stderr, "{}: {} of {} samples used, in {} stretches\n", found->file, found->used,
+                 found->samples, found->stretches);
+  }
 }
 
 }  // namespace
@@ -74,10 +92,17 @@ Result<std::vector<recording::Replicate>> read_with_witnesses(
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments) {
   ProgressLine line("reading");
   if (is_recording(arguments)) {
+    const recording::ImportOptions& options = arguments.import;
+    if (options.time_unit || options.from || options.until || !options.exclude.empty() ||
+        options.strict)
+      return fail(
+          "--time-unit, --from, --until, --exclude and --strict are for files, not for folders");
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
                                        arguments.import, line.progress());
   }
-  return recording::import_files(arguments.files, arguments.import, line.progress());
+  auto replicates = recording::import_files(arguments.files, arguments.import, line.progress());
+  if (replicates) tell_preflight(*replicates);
+  return replicates;
 }
 
 Result<Subjects> read_subjects(const InputArguments& arguments,
@@ -96,7 +121,9 @@ Result<Subjects> read_subjects(const InputArguments& arguments,
   for (std::size_t c = 0; c < read.size(); ++c) {
     const bool subject = named.empty()
                              ? !read[c].interpolated && !contains(*witnesses, read[c].name)
-                             : contains(named, read[c].name);
+                             : std::any_of(named.begin(), named.end(), [&](const auto& name) {
+                                 return recording::matches(name, read[c].name);
+                               });
     if (subject) out.series.push_back(study::series_of(out.replicates, c));
   }
   if (out.series.empty())

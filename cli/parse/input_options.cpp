@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "recording/import/table/names.h"
+
 namespace imunoise::cli {
 namespace {
 
@@ -44,8 +46,27 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->type_name("HZ")
       ->check(above_zero());
   command
-      .add_option("--unit", raw.unit, "Unit of the channels, such as deg/s; overrides the file's")
-      ->type_name("UNIT");
+      .add_option("--unit", raw.unit,
+                  "Units of the channels, such as deg/s or 'gyro_*=deg/s,acc_*=g'; they override "
+                  "the file's")
+      ->type_name("UNITS");
+  command.add_option("--time-unit", raw.time_unit, "Unit of the time column of files")
+      ->check(CLI::IsMember({"s", "ms", "us", "ns"}))
+      ->default_str("recognised");
+  command.add_option("--from", raw.from, "Start of the samples to use (s after a file's first)")
+      ->type_name("SECONDS")
+      ->check(zero_or_above());
+  command.add_option("--until", raw.until, "End of the samples to use (s after a file's first)")
+      ->type_name("SECONDS")
+      ->check(above_zero());
+  command
+      .add_option("--exclude", raw.exclude,
+                  "Times to leave out (s after a file's first sample), such as 2990..3010")
+      ->type_name("SPANS")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_flag("--strict", raw.strict,
+                   "Refuse files with faults instead of leaving samples out");
   command
       .add_option("--delimiter", raw.delimiter, "Separator of a text file: one character, or 'tab'")
       ->type_name("CHARACTER")
@@ -87,8 +108,37 @@ Unit unit_from(const std::string& text) {
   return *unit;
 }
 
+// "deg/s", or "gyro_*=deg/s,acc_*=g".
+std::vector<recording::UnitRule> unit_rules_from(const std::string& text) {
+  if (text.find('=') == std::string::npos) return {{"*", unit_from(text)}};
+  std::vector<recording::UnitRule> out;
+  for (const std::string& rule : CLI::detail::split(text, ',')) {
+    const std::size_t equals = rule.find('=');
+    if (equals == std::string::npos || equals == 0)
+      refuse("--unit", "'" + rule + "' is not NAME=UNIT");
+    out.push_back({rule.substr(0, equals), unit_from(rule.substr(equals + 1))});
+  }
+  return out;
+}
+
+std::vector<recording::TimeSpan> spans_from(const std::vector<std::string>& texts) {
+  std::vector<recording::TimeSpan> out;
+  for (const std::string& text : texts) {
+    const std::size_t dots = text.find("..");
+    recording::TimeSpan span;
+    if (dots == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, dots), span.begin) ||
+        !CLI::detail::lexical_cast(text.substr(dots + 2), span.end) || !(span.begin < span.end))
+      refuse("--exclude", "'" + text + "' is not a range of times, such as 2990..3010");
+    out.push_back(span);
+  }
+  return out;
+}
+
 v1::StudyInput study_input_from(const RawInput& raw) {
   static_cast<void>(input_from(raw));  // refuses what cannot be read
+  if (!raw.time_unit.empty() || raw.from || raw.until || !raw.exclude.empty() || raw.strict)
+    refuse("--time-unit, --from, --until, --exclude, --strict",
+           "a study uses whole files: cut them first");
   v1::StudyInput out;
   for (const std::string& file : raw.files) out.add_files(std::filesystem::absolute(file).string());
   out.set_rate_hz(raw.rate);
@@ -110,7 +160,13 @@ InputArguments input_from(const RawInput& raw) {
   }
   if (!(raw.channels.size() == 1 && raw.channels[0] == "all")) out.import.channels = raw.channels;
   if (raw.rate > 0.0) out.import.rate = Hertz{raw.rate};
-  if (!raw.unit.empty()) out.import.unit = unit_from(raw.unit);
+  if (!raw.unit.empty()) out.import.units = unit_rules_from(raw.unit);
+  if (!raw.time_unit.empty())
+    out.import.time_unit = *recording::time_unit("", raw.time_unit).value();
+  out.import.from = raw.from;
+  out.import.until = raw.until;
+  out.import.exclude = spans_from(raw.exclude);
+  out.import.strict = raw.strict;
   if (!raw.delimiter.empty()) {
     const bool tab = raw.delimiter == "tab" || raw.delimiter == "\\t";
     if (!tab && raw.delimiter.size() != 1) refuse("--delimiter", "one character, or 'tab'");

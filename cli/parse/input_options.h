@@ -14,6 +14,11 @@ struct RawInput {
   std::vector<std::string> channels;
   double rate = 0.0;
   std::string unit;
+  std::string time_unit;
+  std::optional<double> from;
+  std::optional<double> until;
+  std::vector<std::string> exclude;
+  bool strict = false;
   std::string delimiter;
   bool header = false;
   bool no_header = false;

@@ -10,12 +10,9 @@
 #include <utility>
 
 #include "core/support/parallel.h"
-#include "recording/import/binary/npy.h"
-#include "recording/import/binary/raw.h"
-#include "recording/import/hdf5/hdf5_table.h"
+#include "recording/import/preflight/preflight.h"
 #include "recording/import/table/format.h"
 #include "recording/import/table/table.h"
-#include "recording/import/text/text_table.h"
 
 namespace imunoise::recording {
 namespace {
@@ -23,26 +20,7 @@ namespace {
 // Clocks of one kind of device differ by less; a wrong rate differs by more.
 constexpr double kRateTolerance = 1e-3;
 
-Result<Table> read_table(const std::filesystem::path& path, const ImportOptions& options,
-                         FileProgress& progress) {
-  const Result<const ImportFormat*> format = detect_format(path);
-  if (!format) return tl::make_unexpected(format.error());
-  return (*format)->read(path, options, progress);
-}
-
-// The edge where exceptions of libraries (no memory above all) become errors.
-Result<Table> read_table_safely(const std::filesystem::path& path, const ImportOptions& options,
-                                FileProgress& progress) {
-  try {
-    Result<Table> table = read_table(path, options, progress);
-    progress.report(1.0);
-    return table;
-  } catch (const std::exception& error) {
-    return fail(fmt::format("{}: cannot be read: {}", path.string(), error.what()));
-  }
-}
-
-Result<void> check_length(const std::string& file, const Table& table, std::size_t split_into) {
+Result<void> check_lengths(const std::string& file, const Table& table) {
   const Column& first = table.columns.front();
   for (const Column& column : table.columns) {
     if (size(column.samples) != size(first.samples)) {
@@ -52,17 +30,48 @@ Result<void> check_length(const std::string& file, const Table& table, std::size
                       file, column.name, size(column.samples), first.name, size(first.samples)));
     }
   }
-  const std::size_t each = size(first.samples) / split_into;
+  if (!table.time || size(table.time->stamps) == size(first.samples)) return {};
+  return fail(fmt::format("{}: {} has {} times for {} samples; give --rate HZ to ignore them", file,
+                          table.time->name, size(table.time->stamps), size(first.samples)));
+}
+
+Result<Judged> read_table(const std::filesystem::path& path, const ImportOptions& options,
+                          FileProgress& progress) {
+  const Result<const ImportFormat*> format = detect_format(path);
+  if (!format) return tl::make_unexpected(format.error());
+  Result<Table> table = (*format)->read(path, options, progress);
+  if (!table) return tl::make_unexpected(table.error());
+  if (auto even = check_lengths(path.string(), *table); !even)
+    return tl::make_unexpected(even.error());
+  return judge(path.string(), std::move(*table), options);
+}
+
+// The edge where exceptions of libraries (no memory above all) become errors.
+Result<Judged> read_table_safely(const std::filesystem::path& path, const ImportOptions& options,
+                                 FileProgress& progress) {
+  try {
+    Result<Judged> table = read_table(path, options, progress);
+    progress.report(1.0);
+    return table;
+  } catch (const std::exception& error) {
+    return fail(fmt::format("{}: cannot be read: {}", path.string(), error.what()));
+  }
+}
+
+// Each stretch gives split_into replicates.
+Result<void> check_parts(const std::string& file, const Judged& table, std::size_t split_into) {
+  std::size_t each = 0;
+  for (const Stretch& one : table.stretches) each = std::max(each, one.count / split_into);
   if (each >= kMinimumSamples) return {};
   return fail(
-      fmt::format("{}: {} samples{} are too few: a replicate needs at least {}; record longer{}",
-                  file, each, split_into > 1 ? fmt::format(" in each of {} parts", split_into) : "",
-                  kMinimumSamples, split_into > 1 ? " or split into fewer" : ""));
+      fmt::format("{}: {} samples in each of {} parts are too few: a replicate needs at least {}; "
+                  "record longer or split into fewer",
+                  file, each, split_into, kMinimumSamples));
 }
 
 // Files are replicates of one another only when they measure the same.
-Result<void> check_agreement(const std::string& first_file, const Table& first,
-                             const std::string& file, const Table& table) {
+Result<void> check_agreement(const std::string& first_file, const Judged& first,
+                             const std::string& file, const Judged& table) {
   if (std::abs(table.rate.value / first.rate.value - 1.0) > kRateTolerance) {
     return fail(
         fmt::format("{}: sampled at {} Hz, but {} at {} Hz; import them separately, or state the "
@@ -79,11 +88,13 @@ Result<void> check_agreement(const std::string& first_file, const Table& first,
           fmt::format("{}: no channel '{}', which {} has; choose common ones with --channel", file,
                       column.name, first_file));
     }
-    if (found->unit.symbol != column.unit.symbol) {
+    const Unit& unit = table.units[static_cast<std::size_t>(found - table.columns.begin())];
+    const Unit& first_unit = first.units[static_cast<std::size_t>(&column - first.columns.data())];
+    if (unit.symbol != first_unit.symbol) {
       return fail(fmt::format(
           "{}: channel {} is in {}, but in {} it is in {}; import them separately, or state "
           "the true unit with --unit",
-          file, column.name, found->unit.symbol, first_file, column.unit.symbol));
+          file, column.name, unit.symbol, first_file, first_unit.symbol));
     }
   }
   for (const Column& column : table.columns) {
@@ -112,22 +123,32 @@ std::vector<std::string> replicate_names(std::span<const std::filesystem::path> 
 
 // Cuts a table into replicates that share its samples.
 void add_replicates(const std::filesystem::path& path, const std::string& name, Hertz rate,
-                    Table table, std::size_t split_into, std::vector<Replicate>& out) {
-  const std::size_t count = size(table.columns.front().samples) / split_into;
+                    Judged table, std::size_t split_into, std::vector<Replicate>& out) {
+  std::vector<Stretch> parts;
+  for (const Stretch& stretch : table.stretches) {
+    const std::size_t each = stretch.count / split_into;
+    for (std::size_t i = 0; i < split_into && each >= kMinimumSamples; ++i)
+      parts.push_back({stretch.begin + i * each, each});
+  }
   const std::size_t first = out.size();
-  for (std::size_t part = 0; part < split_into; ++part) {
-    out.push_back({split_into > 1 ? fmt::format("{}#{}", name, part + 1) : name,
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    out.push_back({parts.size() > 1 ? fmt::format("{}#{}", name, i + 1) : name,
                    path,
                    rate,
                    {},
-                   {.jitter = table.jitter}});
+                   {.jitter = table.jitter},
+                   table.report});
   }
-  for (Column& column : table.columns) {
+  out[first].timing.gaps = table.gaps;
+  out[first].timing.lost = table.lost;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    Column& column = table.columns[c];
+    const Unit& unit = table.units[c];
     const auto samples = std::make_shared<const Samples>(std::move(column.samples));
-    for (std::size_t part = 0; part < split_into; ++part) {
-      out[first + part].channels.push_back(
-          {column.name, samples, part * count, count, column.scale * column.unit.to_si,
-           column.offset * column.unit.to_si + column.unit.si_offset, column.unit, rate});
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      out[first + i].channels.push_back({column.name, samples, parts[i].begin, parts[i].count,
+                                         column.scale * unit.to_si,
+                                         column.offset * unit.to_si + unit.si_offset, unit, rate});
     }
   }
 }
@@ -153,7 +174,7 @@ Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::pat
     return tl::make_unexpected(sound.error());
   }
   std::atomic<double> done = 0.0;
-  std::vector<Result<Table>> tables(paths.size());
+  std::vector<Result<Judged>> tables(paths.size());
   for_each_index(paths.size(), [&](std::size_t i) {
     FileProgress own(progress, done, paths.size());
     tables[i] = read_table_safely(paths[i], options, own);
@@ -161,7 +182,7 @@ Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::pat
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!tables[i]) return tl::make_unexpected(tables[i].error());
     const std::string file = paths[i].string();
-    const Result<void> long_enough = check_length(file, *tables[i], options.split_into);
+    const Result<void> long_enough = check_parts(file, *tables[i], options.split_into);
     if (!long_enough) return tl::make_unexpected(long_enough.error());
     const Result<void> same =
         check_agreement(paths.front().string(), *tables.front(), file, *tables[i]);
@@ -175,6 +196,8 @@ Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::pat
       const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
         return column.name == order[c].name;
       });
+      std::swap(tables[i]->units[c],
+                tables[i]->units[static_cast<std::size_t>(found - columns.begin())]);
       std::swap(columns[c], *found);
     }
   }

@@ -1,8 +1,10 @@
-// Any bytes as a text table: no crash, no number that is not finite, and the size of the blocks in
-// which the file is read changes nothing.
+// Any bytes as a text table, judged: no crash, no number that is not finite in a stretch, and the
+// size of the blocks in which the file is read changes nothing.
 
+#include <cmath>
 #include <cstdint>
 
+#include "recording/import/preflight/preflight.h"
 #include "recording/import/text/text_table.h"
 #include "tests/fuzz/memory_file.h"
 
@@ -29,10 +31,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (whole.error().message != pieces.error().message) std::abort();
     return 0;
   }
-  if (!(whole->rate == pieces->rate) || !(whole->rate.value > 0.0)) std::abort();
-  for (std::size_t c = 0; c < whole->columns.size(); ++c) {
-    require_finite(whole->columns[c].samples);
-    if (whole->columns[c].samples != pieces->columns[c].samples) std::abort();
+  if (whole->columns.size() != pieces->columns.size()) std::abort();
+  const auto judged = judge("f", *whole, options);
+  const auto again = judge("f", *pieces, options);
+  if (judged.has_value() != again.has_value()) std::abort();
+  if (!judged) {
+    if (judged.error().message != again.error().message) std::abort();
+    return 0;
+  }
+  if (!(judged->rate == again->rate) || !(judged->rate.value > 0.0)) std::abort();
+  for (std::size_t c = 0; c < judged->columns.size(); ++c) {
+    const auto& values = std::get<std::vector<double>>(judged->columns[c].samples);
+    const auto& same = std::get<std::vector<double>>(again->columns[c].samples);
+    for (const Stretch& stretch : judged->stretches) {
+      for (std::size_t i = stretch.begin; i < stretch.begin + stretch.count; ++i) {
+        if (!std::isfinite(values.at(i)) || values[i] != same.at(i)) std::abort();
+      }
+    }
   }
   return 0;
 }

@@ -68,6 +68,7 @@ const std::vector<Room>& rooms() {
       {"recording/hdf5", {"core/support"}},
       {"recording/export", {"core/support", "proto", "recording/hdf5"}},
       {"recording/import/table", {"core/support", "core/signal", "proto"}},
+      {"recording/import/preflight", {"core/support", "recording/import/table"}},
       {"recording/import/text", {"core/support", "recording/import/table"}},
       {"recording/import/binary", {"core/support", "proto", "recording/import/table"}},
       {"recording/import/hdf5", {"core/support", "recording/import/table", "recording/hdf5"}},

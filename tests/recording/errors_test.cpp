@@ -13,21 +13,21 @@ const std::string kRows = "x,y\n" + repeated("1,2\n");
 
 TEST_F(Refused, FlawsInRowsOfText) {
   const auto flaw = [&](const std::string& row) {
-    return error_of(write("run3.csv", kRows + row + "\n" + repeated("1,2\n")), at_rate(10));
+    ImportOptions options = at_rate(10);
+    options.strict = true;
+    return error_of(write("run3.csv", kRows + row + "\n" + repeated("1,2\n")), options);
   };
-  expect_parts(flaw("1,abc"),
-               {"run3.csv: row 22: 'abc' is not a number in column y", "delete the row", "split"});
-  expect_parts(flaw("nan,1"), {"run3.csv: row 22", "'nan' is not a finite number", "column x"});
-  expect_parts(flaw("1,-inf"), {"row 22", "'-inf' is not a finite number", "column y"});
-  expect_parts(flaw("1,1e999"), {"row 22", "'1e999' is not a finite number"});
-  expect_parts(flaw("1,"), {"row 22", "no value", "column y"});
-  expect_parts(flaw("1"), {"row 22", "1 values where the table has 2 columns", "delete"});
-  expect_parts(flaw("1,2,3"), {"row 22", "3 values where the table has 2 columns"});
-  expect_parts(flaw("1,2x"), {"row 22", "'2x' is not a number"});
-  expect_parts(flaw("1,+-2"), {"row 22", "'+-2' is not a number"});
-  expect_parts(flaw("1,0x10"), {"row 22", "'0x10' is not a number"});
-  expect_parts(flaw("1,\x01\x02"), {"row 22",
-                                    "'?"
+  expect_parts(flaw("1,abc"), {"run3.csv: --strict", "row 22: 'abc' is not a number in column y"});
+  expect_parts(flaw("nan,1"), {"channel x misses 1 values", "row 22"});
+  expect_parts(flaw("1,-inf"), {"channel y misses 1 values", "row 22"});
+  expect_parts(flaw("1,1e999"), {"row 22: '1e999' is not a finite number"});
+  expect_parts(flaw("1,"), {"channel y misses 1 values", "row 22"});
+  expect_parts(flaw("1"), {"row 22: 1 values where the table has 2 columns"});
+  expect_parts(flaw("1,2,3"), {"row 22: 3 values where the table has 2 columns"});
+  expect_parts(flaw("1,2x"), {"row 22: '2x' is not a number"});
+  expect_parts(flaw("1,+-2"), {"row 22: '+-2' is not a number"});
+  expect_parts(flaw("1,0x10"), {"row 22: '0x10' is not a number"});
+  expect_parts(flaw("1,\x01\x02"), {"row 22: '?"
                                     "?' is not a number"});
 }
 

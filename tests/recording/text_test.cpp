@@ -153,7 +153,7 @@ TEST_F(Text, ChannelsComeInTheOrderWantedAndOnce) {
 
 TEST_F(Text, TheUsersWordWinsOverTheFiles) {
   ImportOptions options = at_rate(50);
-  options.unit = *parse_unit("mg");
+  options.units = {{"*", *parse_unit("mg")}};
   std::string text = "t;x [furlong]\n";
   const auto got = import_one(write("a.csv", text + repeated("7;2\n")), options);  // t stands still
   ASSERT_TRUE(got) << got.error().message;
@@ -196,7 +196,7 @@ TEST_F(Text, TinyBlocksReadWhatBigOnesRead) {
   FileProgress file_progress(progress, done, 1);
   const auto big = read_text_table(file, options, file_progress);
   ASSERT_TRUE(big) << big.error().message;
-  EXPECT_EQ(big->rate.value, 8.0);
+  ASSERT_TRUE(big->time);
   ASSERT_EQ(size(big->columns[0].samples), 200000U);
   for (const std::size_t block : {13U, 64U, 4099U}) {
     FileProgress own(progress, done, 1);

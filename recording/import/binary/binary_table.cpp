@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "recording/import/table/select.h"
@@ -49,27 +47,21 @@ Result<std::vector<Meaning>> meanings(const File& file, std::size_t columns,
   return out;
 }
 
-// Appends `count` numbers that lie `stride` bytes apart; the index of the first that is not finite.
+// Appends `count` numbers that lie `stride` bytes apart.
 template <class Stored, class Kept>
-std::optional<std::size_t> append(const char* from, std::size_t stride, std::size_t count,
-                                  std::vector<Kept>& to) {
+void append(const char* from, std::size_t stride, std::size_t count, std::vector<Kept>& to) {
   const std::size_t old = to.size();
   to.resize(old + count);
   for (std::size_t i = 0; i < count; ++i) {
     Stored number;
     std::memcpy(&number, from + i * stride, sizeof(Stored));
-    if constexpr (std::is_floating_point_v<Stored>) {
-      if (!std::isfinite(number)) return old + i;
-    }
     to[old + i] = number;
   }
-  return std::nullopt;
 }
 
 struct Source {
   const File& file;
   const BinaryLayout& layout;
-  const std::vector<Meaning>& meaning;
   const std::vector<std::size_t>& wanted;
   FileProgress& progress;
 };
@@ -102,12 +94,7 @@ Result<std::vector<Samples>> read_as(const Source& source) {
       const std::size_t end = layout.column_major ? pass + 1 : columns.size();
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t shift = layout.column_major ? 0 : source.wanted[k] * sizeof(Stored);
-        if (const auto bad = append<Stored>(block.data() + shift, row_bytes, rows, columns[k])) {
-          return fail(
-              fmt::format("{}: sample {}: the value in channel {} is not finite; split the "
-                          "file there",
-                          source.file.name(), *bad, source.meaning[source.wanted[k]].name));
-        }
+        append<Stored>(block.data() + shift, row_bytes, rows, columns[k]);
       }
       source.progress.report((static_cast<double>(pass) +
                               static_cast<double>(row + rows) / static_cast<double>(layout.rows)) /
@@ -162,14 +149,13 @@ Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
                                 const std::optional<v1::Sidecar>& sidecar,
                                 const ImportOptions& options, FileProgress& progress) {
   Table table;
-  if (options.rate) {
-    table.rate = *options.rate;
-  } else if (sidecar && sidecar->rate_hz() > 0.0) {
-    table.rate = {sidecar->rate_hz()};
-  } else {
+  if (!options.rate && sidecar && sidecar->rate_hz() > 0.0) {
+    table.rate = {sidecar->rate_hz(), "rate_hz of the sidecar"};
+  } else if (!options.rate) {
     return fail(fmt::format("{}: no sampling rate; give it with --rate HZ or as rate_hz in {}.json",
                             file.name(), file.name()));
   }
+  table.row = [](std::size_t i) { return fmt::format("sample {}", i); };
   const Result<std::vector<Meaning>> meaning = meanings(file, layout.columns, sidecar);
   if (!meaning) return tl::make_unexpected(meaning.error());
   std::vector<Offer> offers;
@@ -178,11 +164,9 @@ Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
   if (!wanted) return tl::make_unexpected(wanted.error());
   for (const std::size_t c : *wanted) {
     const Meaning& column = (*meaning)[c];
-    Result<Unit> unit = resolve_unit(file.name(), column.name, column.unit, options);
-    if (!unit) return tl::make_unexpected(unit.error());
-    table.columns.push_back({column.name, {}, column.scale, column.offset, std::move(*unit)});
+    table.columns.push_back({column.name, {}, column.scale, column.offset, column.unit});
   }
-  Result<std::vector<Samples>> samples = read_numbers({file, layout, *meaning, *wanted, progress});
+  Result<std::vector<Samples>> samples = read_numbers({file, layout, *wanted, progress});
   if (!samples) return tl::make_unexpected(samples.error());
   for (std::size_t k = 0; k < samples->size(); ++k) {
     table.columns[k].samples = std::move((*samples)[k]);

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-#include <type_traits>
+#include <algorithm>
+#include <limits>
 
 #include "recording/hdf5/attributes.h"
 #include "recording/hdf5/dataset.h"
@@ -37,20 +37,14 @@ Result<Samples> Hdf5Dataset::read_as(hid_t memory_type) const {
   }
   const Result<std::optional<double>> fill = read_number_attribute(id(), "_FillValue");
   if (!fill) return fail(fmt::format("dataset {}: {}", name_, fill.error().message));
-  for (std::size_t i = 0; i < size_; ++i) {
-    const auto value = static_cast<double>(values[i]);
-    if (std::is_floating_point_v<Number> && !std::isfinite(value)) {
-      return fail(
-          fmt::format("dataset {}: sample {} is not finite; split the recording there", name_, i));
-    }
-    if (*fill && value == **fill) {
-      return fail(
-          fmt::format("dataset {}: sample {} is missing (it equals _FillValue); split the "
-                      "recording there",
-                      name_, i));
-    }
+  if (!*fill) return Samples(std::move(values));
+  const auto missing = [&](Number value) { return static_cast<double>(value) == **fill; };
+  if (std::none_of(values.begin(), values.end(), missing)) return Samples(std::move(values));
+  std::vector<double> out(values.begin(), values.end());
+  for (double& value : out) {
+    if (value == **fill) value = std::numeric_limits<double>::quiet_NaN();
   }
-  return Samples(std::move(values));
+  return Samples(std::move(out));
 }
 
 Result<Samples> Hdf5Dataset::read() const {

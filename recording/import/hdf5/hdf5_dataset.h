@@ -19,9 +19,8 @@ class Hdf5Dataset {
 
   std::size_t size() const { return size_; }
   hid_t id() const { return dataset_.get(); }
-  /// All samples; integers keep their type. Error, with the sample's index: a number that is not
-  /// finite, one that equals the attribute _FillValue (CF: a missing sample), a chunk that cannot
-  /// be read.
+  /// All samples; integers keep their type. One that equals the attribute _FillValue (CF: a missing
+  /// sample) is a NaN, integers are then doubles. Error: a chunk that cannot be read.
   Result<Samples> read() const;
 
  private:

@@ -10,8 +10,8 @@
 #include "recording/import/hdf5/hdf5_process.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/format.h"
+#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
-#include "recording/import/table/time_column.h"
 
 namespace imunoise::recording {
 namespace {
@@ -43,32 +43,24 @@ Result<bool> claims_hdf5(const UnknownFile& file) {
                   file.content.name()));
 }
 
-// What a dataset of times shows, when there is one.
-Result<EvenTimes> times_of_dataset(const std::string& file, Hdf5Reader& reader) {
+// The dataset of times, when there is one.
+Result<std::optional<TimeColumn>> time_of(const std::string& file, Hdf5Reader& reader) {
   const std::vector<Hdf5Column>& datasets = reader.facts().datasets;
   const auto found = std::find_if(datasets.begin(), datasets.end(),
                                   [](const Hdf5Column& one) { return is_time_name(one.name); });
-  if (found == datasets.end()) {
-    return fail(
-        fmt::format("{}: no root attribute rate_hz and so no sampling rate; give it with "
-                    "--rate HZ",
-                    file));
-  }
+  if (found == datasets.end()) return std::optional<TimeColumn>();
   const auto trouble = [&](const std::string& what) {
     return fail(fmt::format("{}: {} (--rate HZ ignores the times)", file, what));
   };
   if (!found->trouble.empty()) return trouble(found->trouble);
   if (!found->unit) return trouble(found->unit.error().message);
-  const auto seconds = time_unit(found->name, found->unit->value_or(""));
-  if (!seconds) return trouble(fmt::format("dataset {}: {}", found->name, seconds.error().message));
   const Result<Samples> samples = reader.read(static_cast<std::size_t>(found - datasets.begin()));
   if (!samples) return trouble(samples.error().message);
-  const std::vector<double> times = std::visit(
-      [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-      *samples);
-  const std::string place = fmt::format("{}: dataset {}", file, found->name);
-  return even_times(times,
-                    {place, *seconds, [](std::size_t i) { return fmt::format("sample {}", i); }});
+  return std::optional(TimeColumn{
+      found->name, found->unit->value_or(""),
+      std::visit(
+          [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+          *samples)});
 }
 
 // As it is written. What cannot be read is told once the dataset is wanted.
@@ -76,8 +68,7 @@ std::string written_unit(const Hdf5Column& dataset) {
   return dataset.trouble.empty() && dataset.unit ? dataset.unit->value_or("") : "";
 }
 
-Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::size_t index,
-                           const ImportOptions& options) {
+Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::size_t index) {
   const Hdf5Column& dataset = reader.facts().datasets[index];
   if (!dataset.trouble.empty()) return fail(fmt::format("{}: {}", file, dataset.trouble));
   const auto trouble = [&](const std::string& what) {
@@ -86,16 +77,17 @@ Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::siz
   if (!dataset.scale) return trouble(dataset.scale.error().message);
   if (!dataset.offset) return trouble(dataset.offset.error().message);
   if (!dataset.unit) return trouble(dataset.unit.error().message);
-  Column column{dataset.name, {}, dataset.scale->value_or(1.0), dataset.offset->value_or(0.0), {}};
+  Column column{dataset.name,
+                {},
+                dataset.scale->value_or(1.0),
+                dataset.offset->value_or(0.0),
+                dataset.unit->value_or("")};
   if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset)) {
     return trouble(
         fmt::format("scale_factor {} and add_offset {} must be finite, the factor not 0; "
                     "correct the attributes",
                     column.scale, column.offset));
   }
-  Result<Unit> unit = resolve_unit(file, dataset.name, dataset.unit->value_or(""), options);
-  if (!unit) return tl::make_unexpected(unit.error());
-  column.unit = std::move(*unit);
   Result<Samples> samples = reader.read(index);
   if (!samples) return fail(fmt::format("{}: {}", file, samples.error().message));
   column.samples = std::move(*samples);
@@ -114,24 +106,21 @@ Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
   if (!wanted) return tl::make_unexpected(wanted.error());
 
   Table table;
-  if (options.rate) {
-    table.rate = *options.rate;
-  } else if (!facts.rate) {
+  if (!options.rate && !facts.rate) {
     return fail(
         fmt::format("{}: root {}; give the rate with --rate HZ", name, facts.rate.error().message));
-  } else if (*facts.rate) {
-    const Result<Hertz> rate = checked_rate(name, "the root attribute rate_hz", **facts.rate);
-    if (!rate) return tl::make_unexpected(rate.error());
-    table.rate = *rate;
-  } else {
-    const Result<EvenTimes> times = times_of_dataset(name, reader);
-    if (!times) return tl::make_unexpected(times.error());
-    table.rate = times->rate;
-    table.jitter = times->jitter;
   }
+  if (!options.rate && *facts.rate) {
+    table.rate = {**facts.rate, "the root attribute rate_hz"};
+  } else if (!options.rate) {
+    Result<std::optional<TimeColumn>> time = time_of(name, reader);
+    if (!time) return tl::make_unexpected(time.error());
+    table.time = std::move(*time);
+  }
+  table.row = [](std::size_t i) { return fmt::format("sample {}", i); };
   for (std::size_t i = 0; i < wanted->size(); ++i) {
     if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", name));
-    Result<Column> column = read_column(name, reader, (*wanted)[i], options);
+    Result<Column> column = read_column(name, reader, (*wanted)[i]);
     if (!column) return tl::make_unexpected(column.error());
     table.columns.push_back(std::move(*column));
     progress.report(static_cast<double>(i + 1) / static_cast<double>(wanted->size()));

@@ -12,6 +12,7 @@
 
 #include "core/signal/signal.h"
 #include "core/support/units.h"
+#include "recording/import/table/findings.h"
 
 namespace imunoise::recording {
 
@@ -62,6 +63,7 @@ struct Replicate {
   Hertz rate;
   std::vector<Channel> channels;  ///< All of the same length.
   Timing timing{};
+  std::shared_ptr<const Preflight> preflight{};  ///< of the file; null for a recording
 };
 
 }  // namespace imunoise::recording

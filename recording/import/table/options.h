@@ -14,6 +14,18 @@ namespace imunoise::recording {
 /// A replicate with fewer samples has nothing to say about noise.
 inline constexpr std::size_t kMinimumSamples = 16;
 
+/// The unit of the channels whose name matches.
+struct UnitRule {
+  std::string pattern;  ///< '*' and '?' are wildcards; names of the file or common ones (gyro_x)
+  Unit unit;
+};
+
+/// Seconds after the first sample.
+struct TimeSpan {
+  double begin = 0.0;
+  double end = 0.0;
+};
+
 /// What the user states about the files. Everything left out is taken from the files.
 struct ImportOptions {
   /// Names of the channels wanted, in this order. Empty: every channel of the first file.
@@ -27,8 +39,18 @@ struct ImportOptions {
   std::vector<std::string> witnesses;
   /// Sampling rate. Wins over what a file states; a time column is then ignored, gaps included.
   std::optional<Hertz> rate;
-  /// Unit of every channel read. Wins over what a file states.
-  std::optional<Unit> unit;
+  /// Units of channels. They win over what a file states; the first pattern that matches counts.
+  std::vector<UnitRule> units;
+  /// Seconds per number of the time column. Wins over what a file states.
+  std::optional<double> time_unit;
+  /// Uses only samples from this time on (s after the first sample of each file).
+  std::optional<double> from;
+  /// Uses only samples before this time.
+  std::optional<double> until;
+  /// Leaves these times out.
+  std::vector<TimeSpan> exclude;
+  /// Refuses a file where the preflight would leave samples out or has doubts.
+  bool strict = false;
   /// What separates the values of a text file; ' ' stands for any run of blanks. Unset: detected.
   std::optional<char> delimiter;
   /// Whether the first row of a text file names its columns. Unset: detected.

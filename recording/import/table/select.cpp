@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recording/import/table/names.h"
+
 namespace imunoise::recording {
 namespace {
 
@@ -18,6 +20,24 @@ std::string listed(const std::vector<Offer>& offers) {
   }
   if (offers.size() > shown) out += fmt::format(", and {} more", offers.size() - shown);
   return out.empty() ? "none" : out;
+}
+
+// The column of that name; else those that match it.
+std::vector<std::size_t> called(const std::string& name, const std::vector<Offer>& offers) {
+  std::vector<std::size_t> matching;
+  for (std::size_t i = 0; i < offers.size(); ++i) {
+    if (offers[i].name == name) return {i};
+    if (matches(name, offers[i].name)) matching.push_back(i);
+  }
+  return matching;
+}
+
+// What the file says of the unit, or the name.
+Result<Unit> stated_unit(std::string_view text, const Role& role) {
+  if (text.empty() || text == "-") {
+    return role.unit.empty() ? Unit{"1", Quantity::kUnknown, 1.0} : parse_unit(role.unit);
+  }
+  return parse_unit(text);
 }
 
 }  // namespace
@@ -34,14 +54,14 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
   std::vector<std::string> named = wanted;
   if (options.beside) named.insert(named.end(), options.witnesses.begin(), options.witnesses.end());
   for (const std::string& name : named) {
-    const auto same = [&](const Offer& offer) { return offer.name == name; };
-    const auto found = std::find_if(offers.begin(), offers.end(), same);
-    if (found == offers.end()) {
+    const std::vector<std::size_t> found = called(name, offers);
+    if (found.empty()) {
       return fail(fmt::format("{}: no channel '{}' (it has: {}); choose with --channel", file, name,
                               listed(offers)));
     }
-    const auto index = static_cast<std::size_t>(found - offers.begin());
-    if (std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);
+    for (const std::size_t index : found) {
+      if (std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);
+    }
   }
   for (std::size_t i = 0; i < offers.size() && (wanted.empty() || options.beside); ++i) {
     if (!offers[i].by_default || std::find(out.begin(), out.end(), i) != out.end()) continue;
@@ -67,9 +87,22 @@ bool beside_them(const Offer& offer, const ImportOptions& options) {
 
 Result<Unit> resolve_unit(std::string_view file, std::string_view channel, std::string_view text,
                           const ImportOptions& options) {
-  if (options.unit) return *options.unit;
-  if (text.empty() || text == "-") return Unit{"1", Quantity::kUnknown, 1.0};
-  Result<Unit> unit = parse_unit(text);
+  const Role role = role_of(channel);
+  const auto rule =
+      std::find_if(options.units.begin(), options.units.end(),
+                   [&](const UnitRule& one) { return matches(one.pattern, channel); });
+  if (rule != options.units.end()) {
+    const Quantity quantity = rule->unit.quantity;
+    if (role.quantity != Quantity::kUnknown && quantity != Quantity::kUnknown &&
+        quantity != role.quantity) {
+      return fail(fmt::format(
+          "{}: --unit {} does not suit channel {}; give each kind its own, such as --unit "
+          "'gyro_*=deg/s,acc_*=g'",
+          file, rule->unit.symbol, channel));
+    }
+    return rule->unit;
+  }
+  Result<Unit> unit = stated_unit(text, role);
   const auto& named = options.channels;
   const bool only_beside =
       options.beside && std::find(named.begin(), named.end(), channel) == named.end();

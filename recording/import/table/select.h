@@ -23,10 +23,10 @@ struct Offer {
   std::string unit{};      ///< As the file writes it.
 };
 
-/// Indices of the columns that `options` want: those that it names, in that order, else all by
-/// default; where what stands beside_them() is wanted, those too. Error: a channel that the file
-/// has not (those that exist are listed), two columns of one wanted name, no channel at all. `file`
-/// is for messages.
+/// Indices of the columns that `options` want: those that it names (as the file does, as imunoise
+/// does, or with wildcards), in that order, else all by default; where what stands beside_them() is
+/// wanted, those too. Error: a channel that the file has not (those that exist are listed), two
+/// columns of one wanted name, no channel at all. `file` is for messages.
 Result<std::vector<std::size_t>> select_columns(std::string_view file,
                                                 const std::vector<Offer>& offers,
                                                 const ImportOptions& options);
@@ -35,8 +35,9 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
 /// it is a witness that is asked for.
 bool beside_them(const Offer& offer, const ImportOptions& options);
 
-/// The unit of a channel: the user's, else what the file writes ("" and "-" state none).
-/// Error: an unknown unit of a channel that is not only a witness.
+/// The unit of a channel: the user's, else what the file writes ("" and "-" state none), else what
+/// the name implies. Error: an unknown unit of a channel that is not only a witness; a unit of
+/// another quantity than the name's.
 Result<Unit> resolve_unit(std::string_view file, std::string_view channel, std::string_view text,
                           const ImportOptions& options);
 

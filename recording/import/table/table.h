@@ -1,10 +1,11 @@
 #pragma once
 
-// What each format's reader hands to import_files: numbers as stored, with what the file says of
-// them.
+// What each format's reader hands to the preflight: columns as they are stored, with what the file
+// says of them. Readers do not judge: units, steps of time and missing values are the preflight's.
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,23 +13,39 @@
 #include "core/support/progress.h"
 #include "core/support/units.h"
 #include "recording/import/table/channel.h"
+#include "recording/import/table/time_column.h"
 
 namespace imunoise::recording {
 
-/// One channel as stored: value in `unit` = offset + scale · sample.
+/// One column as stored: value in `unit` = offset + scale · sample. A value that is missing or not
+/// finite is a NaN (columns of integers that miss values become doubles).
 struct Column {
   std::string name;
   Samples samples;
   double scale = 1.0;
   double offset = 0.0;
-  Unit unit;
+  std::string unit;  ///< As the file writes it; empty: it does not say.
 };
 
-/// The wanted channels of one file, all of one length.
+/// A sampling rate that a file states.
+struct StatedRate {
+  double hertz = 0.0;
+  std::string where;  ///< For messages: "the root attribute rate_hz".
+};
+
+/// The wanted columns of one file, all of one length, and what tells the rate: a time column, else
+/// a rate that is stated. A reader leaves both out where the user states the rate.
 struct Table {
-  Hertz rate;
   std::vector<Column> columns;
-  double jitter = 0.0;  ///< of a time column, see EvenTimes
+  std::optional<TimeColumn> time;
+  std::optional<StatedRate> rate;
+  /// Names a row for messages: "row 17" (line of a text file), "sample 16".
+  std::function<std::string(std::size_t)> row = {};
+  /// What the reader left out or chose, a sentence each: "column frame_id holds text: left out".
+  std::vector<std::string> notes;
+  /// Rows that could not be read; their values are missing.
+  std::size_t unreadable = 0;
+  std::string first_unreadable;  ///< "row 22: 'abc' is not a number in column y"
 };
 
 /// Progress of one file among several that are read at the same time: reports the mean of all.

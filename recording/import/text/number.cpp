@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
 
 namespace imunoise::recording {
 namespace {
@@ -26,7 +29,94 @@ std::string quoted(std::string_view text) {
   return out + (text.size() > shown ? "...'" : "'");
 }
 
+// Takes digits off the front of the text; nothing when there is another number of them.
+std::optional<int> take_digits(std::string_view& text, std::size_t count) {
+  int value = 0;
+  if (text.size() < count) return std::nullopt;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + count, value);
+  if (error != std::errc{} || stop != text.data() + count || text.front() == '-')
+    return std::nullopt;
+  text.remove_prefix(count);
+  return value;
+}
+
+bool take_char(std::string_view& text, std::string_view any_of) {
+  if (text.empty() || any_of.find(text.front()) == std::string_view::npos) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+// "-24", after the digits before it.
+std::optional<int> take_part(std::string_view& text, std::string_view separator) {
+  if (!take_char(text, separator)) return std::nullopt;
+  return take_digits(text, 2);
+}
+
+// ".25", in ns; 0 where there is none.
+std::int64_t take_fraction(std::string_view& text) {
+  std::int64_t out = 0;
+  if (!take_char(text, ".,")) return out;
+  std::int64_t unit = 100'000'000;
+  while (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0) {
+    out += (text.front() - '0') * unit;
+    unit /= 10;
+    text.remove_prefix(1);
+  }
+  return out;
+}
+
+// Days since 1970; nothing where the text does not begin with a date.
+std::optional<std::int64_t> take_date(std::string_view& text) {
+  std::string_view rest = text;
+  const auto year = take_digits(rest, 4);
+  const auto month = year ? take_part(rest, "-/") : std::nullopt;
+  const auto day = month ? take_part(rest, "-/") : std::nullopt;
+  if (!day || !take_char(rest, "T ")) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(*year),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day))};
+  if (!date.ok() || *year < 1700 || *year > 2200) return std::nullopt;
+  text = rest;
+  return std::chrono::sys_days(date).time_since_epoch().count();
+}
+
+// "Z", "+01:00", "-0330": seconds to subtract. Nothing where something else follows.
+std::optional<int> zone_of(std::string_view text) {
+  if (text.empty() || text == "Z" || text == " UTC") return 0;
+  const int sign = text.front() == '-' ? -1 : 1;
+  if (!take_char(text, "+-")) return std::nullopt;
+  const auto hours = take_digits(text, 2);
+  if (!hours) return std::nullopt;
+  take_char(text, ":");
+  const auto minutes = text.empty() ? std::optional(0) : take_digits(text, 2);
+  if (!minutes || !text.empty()) return std::nullopt;
+  return sign * (*hours * 3600 + *minutes * 60);
+}
+
 }  // namespace
+
+bool is_missing(std::string_view text) {
+  constexpr std::array<std::string_view, 8> kWords = {"nan",  "inf", "infinity", "null",
+                                                      "none", "na",  "n/a",      ""};
+  if (text == "-") return true;
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  std::string small(text.substr(0, 10));
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::find(kWords.begin(), kWords.end(), small) != kWords.end();
+}
+
+std::optional<std::int64_t> read_calendar(std::string_view text) {
+  const std::optional<std::int64_t> days = take_date(text);
+  const auto hours = take_digits(text, 2);
+  const auto minutes = hours ? take_part(text, ":") : std::nullopt;
+  const auto seconds = minutes ? take_part(text, ":") : std::nullopt;
+  if (!seconds) return std::nullopt;
+  const std::int64_t fraction = take_fraction(text);
+  const auto zone = zone_of(text);
+  if (!zone || *hours > 24 || *minutes > 59 || *seconds > 60) return std::nullopt;
+  const std::int64_t whole = days.value_or(0) * 86400 + *hours * 3600 + *minutes * 60 + *seconds;
+  return (whole - *zone) * 1'000'000'000 + fraction;
+}
 
 bool is_numeric(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "recording/import/table/time_column.h"
+#include "recording/import/table/names.h"
 #include "recording/import/text/number.h"
 
 namespace imunoise::recording {
@@ -39,7 +39,7 @@ Kind kind_of(const std::vector<std::string>& fields) {
   bool text = false;
   for (const std::string& field : fields) {
     if (field.empty()) continue;
-    (is_numeric(field) ? number : text) = true;
+    (is_numeric(field) || read_calendar(field) ? number : text) = true;
   }
   return number && text ? Kind::kMixed : number ? Kind::kNumbers : Kind::kText;
 }
@@ -56,7 +56,7 @@ Result<bool> has_header(const TextHead& head, char delimiter, const ImportOption
       break;
   }
   const auto text = std::find_if(fields.begin(), fields.end(), [](const std::string& field) {
-    return !field.empty() && !is_numeric(field);
+    return !field.empty() && !is_numeric(field) && !read_calendar(field);
   });
   return fail(
       fmt::format("{}: row {}: {} while other values are numbers; correct the row, or say "

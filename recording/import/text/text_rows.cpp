@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "recording/import/text/number.h"
 
@@ -15,29 +16,70 @@ std::size_t RowMap::line_of(std::size_t sample) const {
   return sample + std::prev(after)->second;
 }
 
-RowParser::RowParser(std::string file, const TextLayout& layout, const std::vector<bool>& wanted)
+RowParser::RowParser(std::string file, const TextLayout& layout, const std::vector<bool>& wanted,
+                     std::optional<std::size_t> time)
     : file_(std::move(file)),
       layout_(layout),
       wanted_(wanted),
+      time_(time),
       values_(layout.columns.size()),
       row_(layout.columns.size()) {}
 
 void RowParser::reserve(std::size_t rows, std::size_t spare) {
+  const auto more = [&](auto& values) {
+    if (values.capacity() - rows_ < spare) values.reserve(std::max(rows, rows_ + rows_ / 8));
+  };
   for (std::size_t c = 0; c < values_.size(); ++c) {
-    if (!wanted_[c] || values_[c].capacity() - rows_ >= spare) continue;
-    values_[c].reserve(std::max(rows, rows_ + rows_ / 8));
+    if (wanted_[c]) more(values_[c]);
   }
+  if (time_) std::visit(more, stamps_);
 }
 
 std::optional<Error> RowParser::add(std::string_view line, std::size_t line_number) {
   if (!parse_plain(line)) {
+    const std::size_t unreadable = unreadable_;
     if (std::optional<Error> error = parse_with_care(line, line_number)) return error;
+    if (time_ && unreadable_ > unreadable) return std::nullopt;  // the times show the hole
   }
   for (std::size_t c = 0; c < values_.size(); ++c) {
     if (wanted_[c]) values_[c].push_back(row_[c]);
   }
+  if (time_) {
+    if (auto* const whole = std::get_if<std::vector<std::int64_t>>(&stamps_)) {
+      whole->push_back(whole_stamp_);
+    } else {
+      std::get<std::vector<double>>(stamps_).push_back(stamp_);
+    }
+  }
   row_map_.add(rows_++, line_number);
   return std::nullopt;
+}
+
+// Whole numbers stay whole until a stamp has a fraction.
+const char* RowParser::read_stamp(const char* begin, const char* end) {
+  if (calendar_) return nullptr;
+  if (auto* const whole = std::get_if<std::vector<std::int64_t>>(&stamps_)) {
+    const auto [stop, error] = std::from_chars(begin, end, whole_stamp_);
+    if (error == std::errc{} && (stop == end || (*stop != '.' && *stop != 'e' && *stop != 'E')))
+      return stop;
+    const char* const as_double = read_number(begin, end, stamp_);
+    if (as_double != nullptr && (as_double == end || (*as_double != ':' && *as_double != '-')))
+      stamps_ = std::vector<double>(whole->begin(), whole->end());
+    return as_double;
+  }
+  return read_number(begin, end, stamp_);
+}
+
+bool RowParser::read_stamp_with_care(std::string_view text) {
+  if (const auto calendar = read_calendar(text);
+      calendar && std::holds_alternative<std::vector<std::int64_t>>(stamps_) &&
+      (calendar_ || rows_ == 0)) {
+    calendar_ = true;
+    whole_stamp_ = *calendar;
+    return true;
+  }
+  const char* const end = text.data() + text.size();
+  return !text.empty() && read_stamp(text.data(), end) == end;
 }
 
 // The row as nearly all are: unquoted numbers. False sends the row to parse_with_care().
@@ -53,6 +95,9 @@ bool RowParser::parse_plain(std::string_view line) {
     if (wanted_[c]) {
       at = read_number(at, end, row_[c]);
       if (at == nullptr) return false;
+    } else if (c == time_) {
+      at = read_stamp(at, end);
+      if (at == nullptr) return false;
     } else {
       while (at != end && *at != '"' && *at != delimiter && !(blanks && is_blank(*at))) ++at;
     }
@@ -65,31 +110,40 @@ bool RowParser::parse_plain(std::string_view line) {
   return at == end;
 }
 
-// Quoted numbers, and every kind of trouble.
+void RowParser::leave_out(std::size_t line_number, const std::string& what) {
+  if (unreadable_++ == 0) first_unreadable_ = fmt::format("row {}: {}", line_number, what);
+  std::fill(row_.begin(), row_.end(), std::numeric_limits<double>::quiet_NaN());
+}
+
+// Quoted numbers, missing values, and every kind of trouble.
 std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size_t line_number) {
   const std::vector<std::string> fields = split_fields(line, layout_.delimiter);
-  const auto trouble = [&](const std::string& what) {
-    return Error{fmt::format("{}: row {}: {}", file_, line_number, what)};
-  };
   if (fields.size() != row_.size()) {
-    return trouble(
-        fmt::format("{} values where the table has {} columns; delete the row or split the "
-                    "file there (columns are separated by {})",
-                    fields.size(), row_.size(),
-                    layout_.delimiter == ' '    ? std::string("blanks")
-                    : layout_.delimiter == '\t' ? std::string("tabs")
-                                                : fmt::format("'{}'", layout_.delimiter)));
+    leave_out(line_number,
+              fmt::format("{} values where the table has {} columns (separated by {})",
+                          fields.size(), row_.size(),
+                          layout_.delimiter == ' '    ? std::string("blanks")
+                          : layout_.delimiter == '\t' ? std::string("tabs")
+                                                      : fmt::format("'{}'", layout_.delimiter)));
+    return std::nullopt;
   }
   for (std::size_t c = 0; c < fields.size(); ++c) {
-    if (!wanted_[c] || is_number(fields[c], row_[c])) continue;
-    std::string what = explain_no_number(fields[c]);
-    const bool comma = what.ends_with("decimal comma");
-    return trouble(fmt::format(
-        "{} in column {}; {}", what, layout_.columns[c].name,
-        comma
-            ? "write decimal points (sed 's/,/./g' does it where ',' separates nothing)"
-            : "delete the row or split the file there, or leave the column out with --channel (and "
-              "--witness)"));
+    if (c == time_ ? read_stamp_with_care(fields[c])
+                   : (!wanted_[c] || is_number(fields[c], row_[c])))
+      continue;
+    if (c != time_ && is_missing(fields[c])) {
+      row_[c] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    const std::string what =
+        fmt::format("{} in column {}", explain_no_number(fields[c]), layout_.columns[c].name);
+    if (what.find("decimal comma") == std::string::npos) {
+      leave_out(line_number, what);
+      return std::nullopt;
+    }
+    return Error{fmt::format(
+        "{}: row {}: {}; write decimal points (sed 's/,/./g' does it where ',' separates nothing)",
+        file_, line_number, what)};
   }
   return std::nullopt;
 }

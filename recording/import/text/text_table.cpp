@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "recording/import/table/format.h"
+#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
-#include "recording/import/table/time_column.h"
 #include "recording/import/text/number.h"
 #include "recording/import/text/text_layout.h"
 #include "recording/import/text/text_rows.h"
@@ -65,49 +65,54 @@ Head read_head(LineReader& lines, const std::string& file) {
 // Which columns are kept, and which one of them is the time.
 struct Plan {
   std::vector<std::size_t> channels;  // in the order wanted
-  std::vector<Unit> units;            // of the channels
   std::optional<std::size_t> time;
-  std::optional<double> time_unit;  // s
-  std::vector<bool> wanted;         // one a column
+  std::vector<bool> wanted;  // one a column
+  std::vector<std::string> notes;
 };
 
-Result<Plan> make_plan(const std::string& file, const TextLayout& layout, bool rate_in_head,
+// Columns whose first rows hold text: names of frames, states.
+std::vector<bool> columns_of_text(const TextHead& head, const TextLayout& layout) {
+  std::vector<bool> out(layout.columns.size(), false);
+  for (std::size_t r = layout.header_rows; r < head.rows.size(); ++r) {
+    const std::vector<std::string> fields = split_fields(head.rows[r].text, layout.delimiter);
+    if (fields.size() != out.size()) continue;
+    for (std::size_t c = 0; c < out.size(); ++c)
+      out[c] = out[c] || !(is_missing(fields[c]) || is_numeric(fields[c]));
+  }
+  return out;
+}
+
+// The stamp of the measurement rather than that of the file that holds it.
+std::optional<std::size_t> time_of(const TextLayout& layout) {
+  std::optional<std::size_t> first;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const std::string& name = layout.columns[c].name;
+    if (!is_time_name(name)) continue;
+    if (name.find("header") != std::string::npos) return c;
+    if (!first) first = c;
+  }
+  return first;
+}
+
+Result<Plan> make_plan(const TextHead& head, const TextLayout& layout,
                        const ImportOptions& options) {
   Plan plan;
   std::vector<Offer> offers;
+  const std::vector<bool> text = columns_of_text(head, layout);
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const HeaderField& column = layout.columns[c];
-    offers.push_back({column.name, !is_time_name(column.name) && !layout.unnamed[c], column.unit});
+    const bool channel = !is_time_name(column.name) && !layout.unnamed[c];
+    offers.push_back({column.name, channel && !text[c], column.unit});
+    if (channel && text[c])
+      plan.notes.push_back(fmt::format("column {} holds text: left out", column.name));
   }
-  Result<std::vector<std::size_t>> channels = select_columns(file, offers, options);
+  Result<std::vector<std::size_t>> channels = select_columns(head.file, offers, options);
   if (!channels) return tl::make_unexpected(channels.error());
   plan.channels = std::move(*channels);
   plan.wanted.assign(offers.size(), false);
-  for (const std::size_t c : plan.channels) {
-    const HeaderField& column = layout.columns[c];
-    Result<Unit> unit = resolve_unit(file, column.name, column.unit, options);
-    if (!unit) return tl::make_unexpected(unit.error());
-    plan.units.push_back(std::move(*unit));
-    plan.wanted[c] = true;
-  }
-  if (options.rate) return plan;
-  for (std::size_t c = 0; c < offers.size() && !plan.time; ++c) {
-    if (is_time_name(layout.columns[c].name)) plan.time = c;
-  }
-  if (!plan.time) {
-    if (rate_in_head) return plan;
-    return fail(
-        fmt::format("{}: no time column (t, time, timestamp) and so no sampling rate; give it "
-                    "with --rate HZ",
-                    file));
-  }
-  const HeaderField& column = layout.columns[*plan.time];
-  const Result<std::optional<double>> unit = time_unit(column.name, column.unit);
-  if (!unit) {
-    return fail(fmt::format("{}: column {}: {}", file, column.name, unit.error().message));
-  }
-  plan.time_unit = *unit;
-  plan.wanted[*plan.time] = true;
+  for (const std::size_t c : plan.channels) plan.wanted[c] = true;
+  if (!options.rate) plan.time = time_of(layout);
+  if (plan.time) plan.wanted[*plan.time] = false;
   return plan;
 }
 
@@ -157,10 +162,10 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   if (lines.error()) return tl::make_unexpected(*lines.error());
   const Result<TextLayout> layout = detect_layout(head.text, options);
   if (!layout) return tl::make_unexpected(layout.error());
-  const Result<Plan> plan = make_plan(file->name(), *layout, head.rate.has_value(), options);
+  Result<Plan> plan = make_plan(head.text, *layout, options);
   if (!plan) return tl::make_unexpected(plan.error());
 
-  RowParser rows(file->name(), *layout, plan->wanted);
+  RowParser rows(file->name(), *layout, plan->wanted, plan->time);
   if (const Result<void> read =
           read_rows(*file, head.text, layout->header_rows, lines, rows, progress);
       !read) {
@@ -168,28 +173,22 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   }
 
   Table table;
-  if (options.rate) {
-    table.rate = *options.rate;
-  } else if (plan->time) {
-    const std::string place =
-        fmt::format("{}: column {}", file->name(), layout->columns[*plan->time].name);
-    const RowMap& map = rows.row_map();
-    const Result<EvenTimes> times =
-        even_times(rows.values(*plan->time), {place, plan->time_unit, [&](std::size_t i) {
-                                                return fmt::format("row {}", map.line_of(i));
-                                              }});
-    if (!times) return tl::make_unexpected(times.error());
-    table.rate = times->rate;
-    table.jitter = times->jitter;
-  } else {
-    const Result<Hertz> rate = checked_rate(file->name(), "the comment rate_hz", *head.rate);
-    if (!rate) return tl::make_unexpected(rate.error());
-    table.rate = *rate;
+  if (plan->time) {
+    const HeaderField& column = layout->columns[*plan->time];
+    table.time = {column.name, column.unit, rows.take_stamps(), rows.calendar()};
+  } else if (!options.rate && head.rate) {
+    table.rate = {*head.rate, "the comment rate_hz"};
   }
-  for (std::size_t i = 0; i < plan->channels.size(); ++i) {
-    const std::size_t c = plan->channels[i];
-    table.columns.push_back({layout->columns[c].name, rows.take(c), 1.0, 0.0, plan->units[i]});
+  for (const std::size_t c : plan->channels) {
+    table.columns.push_back(
+        {layout->columns[c].name, rows.take(c), 1.0, 0.0, layout->columns[c].unit});
   }
+  table.row = [map = rows.row_map()](std::size_t i) {
+    return fmt::format("row {}", map.line_of(i));
+  };
+  table.notes = std::move(plan->notes);
+  table.unreadable = rows.unreadable();
+  table.first_unreadable = rows.first_unreadable();
   return table;
 }
 

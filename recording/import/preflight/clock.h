@@ -1,0 +1,50 @@
+#pragma once
+
+// The unit of a time column, and its stamps in seconds.
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/support/result.h"
+#include "recording/import/table/time_column.h"
+
+namespace imunoise::recording {
+
+/// Stamps in seconds after the first. Borrows the column. Thread-safe to read.
+class Clock {
+ public:
+  /// `unit` (s per number) is the user's; unset: the column's, its name's, or what values and steps
+  /// show: numbers that are dates since 1970, else the unit whose rate is the nearest to 200 Hz,
+  /// and seconds for steps up to 1. `place` is for messages. Error: an unknown unit, fewer than two
+  /// stamps, stamps that never rise.
+  static Result<Clock> read(const std::string& place, const TimeColumn& column,
+                            std::optional<double> unit);
+
+  std::size_t size() const { return size_; }
+  /// s
+  double at(std::size_t i) const {
+    return whole_ != nullptr ? static_cast<double>(whole_[i] - whole_[0]) * unit_
+                             : (numbers_[i] - numbers_[0]) * unit_;
+  }
+  double step(std::size_t i) const { return at(i) - at(i - 1); }
+  /// s; what a stamp is rounded to at least.
+  double rounding() const { return rounding_; }
+  /// "column t, milliseconds (by its steps)"
+  const std::string& said() const { return said_; }
+  /// The mean step of most of the blocks of the column (s): gaps and bursts hardly change it.
+  double period() const { return period_; }
+
+ private:
+  const double* numbers_ = nullptr;
+  const std::int64_t* whole_ = nullptr;
+  std::size_t size_ = 0;
+  double unit_ = 1.0;
+  double rounding_ = 0.0;
+  double period_ = 0.0;
+  std::string said_;
+};
+
+}  // namespace imunoise::recording

@@ -1,0 +1,128 @@
+#include "recording/import/preflight/pace.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace imunoise::recording {
+namespace {
+
+constexpr std::size_t kMedian = 8;
+constexpr std::size_t kMean = 64;
+
+struct Side {
+  double median = 0.0;
+  double mean = 0.0;
+  double spread = 0.0;
+};
+
+// Lateness (s) of samples [begin, end) against a clock that ticks from sample `about`.
+Side side_of(const Clock& clock, double period, std::size_t about, std::size_t begin,
+             std::size_t end, bool near_end) {
+  std::array<double, kMean> late;
+  const std::size_t count = end - begin;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto ticks = static_cast<double>(begin + i) - static_cast<double>(about);
+    late[i] = clock.at(begin + i) - ticks * period;
+  }
+  Side out;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) sum += late[i];
+  out.mean = sum / static_cast<double>(count);
+  const auto [low, high] = std::minmax_element(late.begin(), late.begin() + count);
+  out.spread = *high - *low;
+  const std::size_t few = std::min(count, kMedian);
+  auto* const from = near_end ? late.data() + count - few : late.data();
+  std::nth_element(from, from + few / 2, from + few);
+  out.median = from[few / 2];
+  return out;
+}
+
+struct Shift {
+  double seconds = 0.0;  // 0: the pace goes on
+  double mean = 0.0;
+  bool clean = false;
+};
+
+Shift shift_at(const Clock& clock, double period, std::size_t at) {
+  const std::size_t begin = at > kMean ? at - kMean : 0;
+  const std::size_t end = std::min(clock.size(), at + kMean);
+  const Side before = side_of(clock, period, at, begin, at, true);
+  const Side after = side_of(clock, period, at, at, end, false);
+  const double median = after.median - before.median;
+  const double mean = after.mean - before.mean;
+  const double step = clock.step(at) - period;
+  // Beside a border the means cover no whole bursts.
+  const bool whole = at - begin == kMean && end - at == kMean;
+  const double least = 0.5 * period + (whole ? 0.0 : std::min(before.spread, after.spread));
+  const bool same_way = (median > 0.0) == (mean > 0.0);
+  if (!same_way || std::abs(median) < least || std::abs(mean) < least) return {};
+  const bool clean = std::abs(median - step) < 0.5 * period;
+  return {clean ? median : mean, mean, clean};
+}
+
+struct Candidate {
+  std::size_t at;
+  Shift shift;
+};
+
+// Where stamps come in bursts, every burst beside a gap shows a part of it: the largest counts.
+void add_leap(const Candidate& one, std::vector<Candidate>& leaps) {
+  if (!leaps.empty() && one.at - leaps.back().at < kMean && !one.shift.clean &&
+      !leaps.back().shift.clean) {
+    if (std::abs(one.shift.mean) > std::abs(leaps.back().shift.mean)) leaps.back() = one;
+    return;
+  }
+  leaps.push_back(one);
+}
+
+}  // namespace
+
+Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {
+  Pace out;
+  out.period = clock.period();
+  const std::size_t count = clock.size();
+  std::vector<Candidate> leaps;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double step = clock.step(i);
+    const bool twice = step == 0.0 && same(i);
+    if (step >= 0.0 && step < 1.5 * out.period && !twice) continue;
+    const Shift shift = shift_at(clock, out.period, i);
+    if (twice) {
+      if (shift.seconds < 0.0) out.twice.push_back(i);
+    } else if (shift.seconds != 0.0) {
+      add_leap({i, shift}, leaps);
+    } else if (step < 0.0) {
+      ++out.backwards;
+    }
+  }
+  for (const Candidate& one : leaps) out.leaps.push_back({one.at, one.shift.seconds});
+  std::size_t begin = 0;
+  std::size_t steps = 0;
+  for (std::size_t l = 0; l <= leaps.size(); ++l) {
+    const std::size_t end = l < leaps.size() ? leaps[l].at : count;
+    out.span += clock.at(end - 1) - clock.at(begin);
+    steps += end - 1 - begin;
+    begin = end;
+  }
+  if (steps > 0 && out.span > 0.0) out.period = out.span / static_cast<double>(steps);
+  for (std::size_t l = 0; l < leaps.size(); ++l) {
+    if (leaps[l].shift.clean) out.leaps[l].seconds = clock.step(leaps[l].at) - out.period;
+  }
+  double squares = 0.0;
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (next < leaps.size() && leaps[next].at == i) {
+      ++next;
+      continue;
+    }
+    const double off = clock.step(i) - out.period;
+    out.scatter = std::max(out.scatter, std::abs(off));
+    squares += off * off;
+  }
+  out.jitter =
+      std::sqrt(0.5 * squares / static_cast<double>(std::max<std::size_t>(1, steps))) / out.period;
+  return out;
+}
+
+}  // namespace imunoise::recording

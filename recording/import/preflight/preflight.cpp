@@ -1,0 +1,288 @@
+#include "recording/import/preflight/preflight.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "recording/import/preflight/gravity.h"
+#include "recording/import/preflight/pace.h"
+#include "recording/import/table/select.h"
+
+namespace imunoise::recording {
+namespace {
+
+// The number with the fewest digits within a relative distance of `value`.
+double shortest(double value, double relative) {
+  for (int digits = 1; digits < 17; ++digits) {
+    const double candidate = std::stod(fmt::format("{:.{}e}", value, digits - 1));
+    if (std::abs(candidate / value - 1.0) <= relative) return candidate;
+  }
+  return value;
+}
+
+bool missing(const Column& column, std::size_t row) {
+  const auto* const numbers = std::get_if<std::vector<double>>(&column.samples);
+  return numbers != nullptr && !std::isfinite((*numbers)[row]);
+}
+
+template <class Value>
+void keep(std::vector<Value>& values, const std::vector<bool>& dropped) {
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!dropped[i]) values[to++] = values[i];
+  }
+  values.resize(to);
+}
+
+class Judge {
+ public:
+  Judge(const std::string& file, Table table, const ImportOptions& options)
+      : file_(file), table_(std::move(table)), options_(options) {}
+
+  Result<Judged> judged() {
+    rows_ = recording::size(table_.columns.front().samples);
+    report_.file = file_;
+    report_.samples = rows_;
+    report_.recognised = table_.notes;
+    const auto readable = check_readable();
+    if (!readable) return tl::make_unexpected(readable.error());
+    const auto paced = table_.time ? follow_time() : take_rate();
+    if (!paced) return tl::make_unexpected(paced.error());
+    out_.units.reserve(table_.columns.size());
+    for (const Column& column : table_.columns) {
+      Result<Unit> unit = resolve_unit(file_, column.name, column.unit, options_);
+      if (!unit) return tl::make_unexpected(unit.error());
+      out_.units.push_back(std::move(*unit));
+    }
+    for (std::string& said : judge_acceleration(table_.columns, out_.units, report_.findings))
+      report_.recognised.push_back(std::move(said));
+    find_missing();
+    leave_out_times();
+    const auto cut = cut_stretches();
+    if (!cut) return tl::make_unexpected(cut.error());
+    if (options_.strict && !report_.findings.empty()) return refuse("--strict refuses the file");
+    out_.columns = std::move(table_.columns);
+    out_.report = std::make_shared<const Preflight>(std::move(report_));
+    return std::move(out_);
+  }
+
+ private:
+  void find(Severity severity, std::string text) {
+    report_.findings.push_back({severity, std::move(text)});
+  }
+
+  tl::unexpected<Error> refuse(const std::string& what) const {
+    std::string text = fmt::format("{}: {}", file_, what);
+    for (const Finding& one : report_.findings) text += "\n  " + one.text;
+    return fail(std::move(text));
+  }
+
+  // The row as the file counts it: rows before it may have been dropped.
+  std::string row(std::size_t i) const {
+    std::size_t before = 0;
+    for (const std::size_t one : dropped_) {
+      if (one - before > i) break;
+      ++before;
+    }
+    return table_.row(i + before);
+  }
+
+  // s
+  double time_of(std::size_t i) const {
+    return clock_ ? clock_->at(i) : static_cast<double>(i) / out_.rate.value;
+  }
+
+  void drop(const std::vector<std::size_t>& rows) {
+    std::vector<bool> dropped(rows_, false);
+    for (const std::size_t one : rows) dropped[one] = true;
+    for (Column& column : table_.columns)
+      std::visit([&](auto& values) { keep(values, dropped); }, column.samples);
+    std::visit([&](auto& values) { keep(values, dropped); }, table_.time->stamps);
+    rows_ -= rows.size();
+    dropped_ = rows;
+  }
+
+  Result<void> check_readable() {
+    if (table_.unreadable == 0) return {};
+    find(Severity::kLeftOut, fmt::format("{} rows cannot be read: left out; the first is {}",
+                                         table_.unreadable, table_.first_unreadable));
+    if (2 * table_.unreadable <= rows_) return {};
+    return fail(fmt::format("{}: {}; delete the row, or leave the column out with --channel", file_,
+                            table_.first_unreadable));
+  }
+
+  Result<void> take_rate() {
+    if (options_.rate) {
+      out_.rate = *options_.rate;
+      return {};
+    }
+    if (!table_.rate) {
+      return fail(fmt::format(
+          "{}: no time column (t, time, timestamp), no rate_hz and so no sampling rate; "
+          "give it with --rate HZ",
+          file_));
+    }
+    const auto rate = checked_rate(file_, table_.rate->where, table_.rate->hertz);
+    if (!rate) return tl::make_unexpected(rate.error());
+    out_.rate = *rate;
+    report_.recognised.push_back(
+        fmt::format("time: {:.6g} Hz ({})", rate->value, table_.rate->where));
+    return {};
+  }
+
+  Result<void> read_clock() {
+    auto clock = Clock::read(fmt::format("{}: column {}", file_, table_.time->name), *table_.time,
+                             options_.time_unit);
+    if (!clock) return tl::make_unexpected(clock.error());
+    clock_ = std::move(*clock);
+    return {};
+  }
+
+  Pace pace() const {
+    return pace_of(*clock_, [&](std::size_t i) {
+      return std::all_of(table_.columns.begin(), table_.columns.end(), [&](const Column& one) {
+        return std::visit([&](const auto& v) { return v[i] == v[i - 1]; }, one.samples);
+      });
+    });
+  }
+
+  Result<void> follow_time() {
+    if (auto read = read_clock(); !read) return read;
+    Pace pace = this->pace();
+    if (!pace.twice.empty()) {
+      find(Severity::kLeftOut,
+           fmt::format("{} rows repeat the row before, time included: left out; the first is {}",
+                       pace.twice.size(), row(pace.twice.front())));
+      drop(pace.twice);
+      if (auto read = read_clock(); !read) return read;
+      pace = this->pace();
+    }
+    const double relative = (pace.scatter + 4.0 * clock_->rounding()) / pace.span;
+    out_.rate = {shortest(1.0 / pace.period, std::max(1e-12, relative))};
+    out_.jitter = pace.jitter;
+    std::string said = fmt::format("time: {}; {:.8g} Hz", clock_->said(), out_.rate.value);
+    if (pace.jitter > 0.01) said += fmt::format(", jitter {:.2g} periods", pace.jitter);
+    report_.recognised.push_back(std::move(said));
+    if (pace.jitter > 0.5)
+      find(Severity::kDoubt, fmt::format("stamps are coarse or come in bursts (jitter {:.2g} "
+                                         "periods): short gaps may stay hidden",
+                                         pace.jitter));
+    if (pace.backwards > 0)
+      find(Severity::kDoubt,
+           fmt::format("{} stamps go back for a moment: are rows out of order?", pace.backwards));
+    tell_leaps(pace);
+    return {};
+  }
+
+  void tell_leaps(const Pace& pace) {
+    std::size_t told = 0;
+    for (const Leap& leap : pace.leaps) {
+      cuts_.push_back({leap.at, leap.at});
+      const bool back = leap.seconds < 0.0;
+      if (!back) {
+        ++out_.gaps;
+        out_.lost += static_cast<std::uint64_t>(
+            std::max(1.0, std::min(1e15, std::round(leap.seconds / pace.period))));
+      }
+      if (told++ >= kTold) continue;
+      find(Severity::kLeftOut,
+           back ? fmt::format("time goes backwards by {:.6g} s at {:.6g} s ({}): cut there",
+                              -leap.seconds, clock_->at(leap.at - 1), row(leap.at))
+                : fmt::format("gap of {:.6g} s at {:.6g} s ({}), about {:.0f} samples: cut there",
+                              leap.seconds, clock_->at(leap.at - 1), row(leap.at),
+                              std::max(1.0, std::round(leap.seconds / pace.period))));
+    }
+    if (told > kTold)
+      find(Severity::kLeftOut, fmt::format("{} more gaps: cut there", told - kTold));
+  }
+
+  void find_missing() {
+    for (const Column& column : table_.columns) {
+      std::size_t count = 0;
+      std::size_t first = 0;
+      for (std::size_t i = 0; i < rows_; ++i) {
+        if (!missing(column, i)) continue;
+        if (count++ == 0) first = i;
+        if (cuts_.empty() || cuts_.back().end != i || cuts_.back().begin == i)
+          cuts_.push_back({i, i + 1});
+        else
+          cuts_.back().end = i + 1;
+      }
+      if (count == 0) continue;
+      std::string text =
+          fmt::format("channel {} misses {} values, the first at {:.6g} s ({}): left out",
+                      column.name, count, time_of(first), row(first));
+      if (10 * count > rows_)
+        text += "; if the file mixes sensors of two rates, read each with --channel";
+      find(Severity::kLeftOut, std::move(text));
+    }
+  }
+
+  // Rows from the first at or after each border.
+  std::size_t row_at(double seconds) const {
+    std::size_t low = 0;
+    std::size_t high = rows_;
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      (time_of(middle) < seconds ? low : high) = time_of(middle) < seconds ? middle + 1 : middle;
+    }
+    return low;
+  }
+
+  void leave_out_times() {
+    if (options_.from) cuts_.push_back({0, row_at(*options_.from)});
+    if (options_.until) cuts_.push_back({row_at(*options_.until), rows_});
+    for (const TimeSpan& one : options_.exclude)
+      cuts_.push_back({row_at(one.begin), row_at(one.end)});
+  }
+
+  Result<void> cut_stretches() {
+    std::sort(cuts_.begin(), cuts_.end(),
+              [](const Cut& a, const Cut& b) { return a.begin < b.begin; });
+    cuts_.push_back({rows_, rows_});
+    std::size_t begin = 0;
+    std::size_t longest = 0;
+    std::vector<Stretch> all;
+    for (const Cut& cut : cuts_) {
+      if (cut.begin > begin) all.push_back({begin, cut.begin - begin});
+      begin = std::max(begin, cut.end);
+    }
+    for (const Stretch& one : all) longest = std::max(longest, one.count);
+    for (const Stretch& one : all) {
+      if (one.count < kMinimumSamples || 10 * one.count < longest) continue;
+      out_.stretches.push_back(one);
+      report_.used += one.count;
+    }
+    report_.stretches = out_.stretches.size();
+    if (!out_.stretches.empty()) return {};
+    return refuse(
+        fmt::format("{} samples{} are too few: a replicate needs at least {}; record longer",
+                    longest, all.size() > 1 ? " in the longest stretch" : "", kMinimumSamples));
+  }
+
+  struct Cut {
+    std::size_t begin;
+    std::size_t end;
+  };
+  static constexpr std::size_t kTold = 5;
+
+  const std::string& file_;
+  Table table_;
+  const ImportOptions& options_;
+  std::size_t rows_ = 0;
+  std::vector<std::size_t> dropped_;
+  std::optional<Clock> clock_;
+  std::vector<Cut> cuts_;
+  Preflight report_;
+  Judged out_;
+};
+
+}  // namespace
+
+Result<Judged> judge(const std::string& file, Table table, const ImportOptions& options) {
+  return Judge(file, std::move(table), options).judged();
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,32 @@
+#pragma once
+
+// What the preflight recognised in a file, and what it found wrong with it.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace imunoise::recording {
+
+enum class Severity {
+  kDoubt,    ///< The numbers may mislead; they are used all the same.
+  kLeftOut,  ///< Samples are left out, or the recording is cut.
+};
+
+/// One finding: a sentence, with the time, the row and what to do.
+struct Finding {
+  Severity severity = Severity::kDoubt;
+  std::string text;
+};
+
+/// The preflight of one file.
+struct Preflight {
+  std::string file;
+  std::vector<std::string> recognised;  ///< "time: column t, ms; 100 Hz"
+  std::vector<Finding> findings;
+  std::size_t samples = 0;  ///< rows of the file
+  std::size_t used = 0;     ///< rows of all stretches
+  std::size_t stretches = 0;
+};
+
+}  // namespace imunoise::recording

@@ -1,0 +1,227 @@
+#include "recording/import/table/names.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <vector>
+
+namespace imunoise::recording {
+namespace {
+
+struct Stem {
+  std::string_view text;
+  Quantity quantity;
+  bool whole = false;  // the name has nothing before it
+  bool increment = false;
+  std::string_view unit = {};
+};
+
+// The end of a name without its axis. The first that fits counts.
+constexpr std::array kStems = {
+    Stem{"deltaangle", Quantity::kAngularRate, false, true},
+    Stem{"deltatheta", Quantity::kAngularRate, false, true},
+    Stem{"dtheta", Quantity::kAngularRate, false, true},
+    Stem{"deltavelocity", Quantity::kAcceleration, false, true},
+    Stem{"deltav", Quantity::kAcceleration, false, true},
+    Stem{"dv", Quantity::kAcceleration, true, true},
+    Stem{"dvel", Quantity::kAcceleration, false, true},
+    Stem{"dang", Quantity::kAngularRate, false, true},
+    Stem{"angularvelocity", Quantity::kAngularRate, false, false, "rad/s"},
+    Stem{"linearacceleration", Quantity::kAcceleration, false, false, "m/s^2"},
+    Stem{"gyrorad", Quantity::kAngularRate, false, false, "rad/s"},
+    Stem{"accelerometerms2", Quantity::kAcceleration, false, false, "m/s^2"},
+    Stem{"angularrate", Quantity::kAngularRate},
+    Stem{"rotationrate", Quantity::kAngularRate},
+    Stem{"turnrate", Quantity::kAngularRate},
+    Stem{"angvel", Quantity::kAngularRate},
+    Stem{"gyroscope", Quantity::kAngularRate},
+    Stem{"gyros", Quantity::kAngularRate},
+    Stem{"gyro", Quantity::kAngularRate},
+    Stem{"gyr", Quantity::kAngularRate},
+    Stem{"omega", Quantity::kAngularRate},
+    Stem{"wrss", Quantity::kAngularRate, true},
+    Stem{"w", Quantity::kAngularRate, true},
+    Stem{"g", Quantity::kAngularRate, true},
+    Stem{"specificforce", Quantity::kAcceleration},
+    Stem{"acceleration", Quantity::kAcceleration},
+    Stem{"accelerometer", Quantity::kAcceleration},
+    Stem{"accel", Quantity::kAcceleration},
+    Stem{"acc", Quantity::kAcceleration},
+    Stem{"arss", Quantity::kAcceleration, true},
+    Stem{"a", Quantity::kAcceleration, true},
+    Stem{"f", Quantity::kAcceleration, true},
+    Stem{"magneticfield", Quantity::kMagneticFluxDensity},
+    Stem{"magnetometer", Quantity::kMagneticFluxDensity},
+    Stem{"mag", Quantity::kMagneticFluxDensity},
+    Stem{"m", Quantity::kMagneticFluxDensity, true},
+    Stem{"temperature", Quantity::kTemperature},
+    Stem{"temp", Quantity::kTemperature}};
+
+struct Suffix {
+  std::string_view text;
+  double seconds;
+};
+constexpr std::array kTimeSuffixes = {
+    Suffix{"s", 1.0},   Suffix{"sec", 1.0},   Suffix{"secs", 1.0},   Suffix{"seconds", 1.0},
+    Suffix{"ms", 1e-3}, Suffix{"msec", 1e-3}, Suffix{"us", 1e-6},    Suffix{"usec", 1e-6},
+    Suffix{"ns", 1e-9}, Suffix{"nsec", 1e-9}, Suffix{"nsecs", 1e-9}, Suffix{"nanosec", 1e-9}};
+
+constexpr std::array<std::string_view, 20> kTimeNames = {"t",
+                                                         "time",
+                                                         "timestamp",
+                                                         "stamp",
+                                                         "headerstamp",
+                                                         "fieldheaderstamp",
+                                                         "rosbagtimestamp",
+                                                         "timestampsample",
+                                                         "utctime",
+                                                         "timeutc",
+                                                         "utc",
+                                                         "datetime",
+                                                         "localtime",
+                                                         "systemtime",
+                                                         "sensortime",
+                                                         "loggingtime",
+                                                         "hosttime",
+                                                         "elapsed",
+                                                         "elapsedtime",
+                                                         "secondselapsed"};
+
+bool is_alnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
+char to_lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+// "imu.angularVelocity_x" is imu, angular, velocity, x.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> out;
+  bool open = false;
+  char before = ' ';
+  for (const char c : name) {
+    if (!is_alnum(c)) {
+      open = false;
+    } else {
+      if (!open || (is_upper(c) && !is_upper(before))) out.emplace_back();
+      out.back() += to_lower(c);
+      open = true;
+    }
+    before = c;
+  }
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += word;
+  return out;
+}
+
+const Stem* stem_of(std::string_view text) {
+  const auto* const found = std::find_if(kStems.begin(), kStems.end(), [&](const Stem& stem) {
+    return stem.whole ? text == stem.text : text.ends_with(stem.text);
+  });
+  return found == kStems.end() ? nullptr : found;
+}
+
+bool is_axis(char c) { return (c >= 'x' && c <= 'z') || (c >= '0' && c <= '3'); }
+
+bool glob(std::string_view pattern, std::string_view text) {
+  std::size_t p = 0;
+  std::size_t t = 0;
+  std::size_t star = std::string_view::npos;
+  std::size_t after = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && (pattern[p] == text[t] || pattern[p] == '?')) {
+      ++p;
+      ++t;
+    } else if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      after = t;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      t = ++after;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+}  // namespace
+
+Role role_of(std::string_view name) {
+  const std::string text = joined(words_of(name));
+  if (text.size() > 1 && is_axis(text.back())) {
+    const Stem* const stem = stem_of(std::string_view(text).substr(0, text.size() - 1));
+    if (stem != nullptr && stem->quantity != Quantity::kTemperature)
+      return {stem->quantity, text.back(), stem->increment, stem->unit};
+  }
+  const Stem* const stem = stem_of(text);
+  if (stem == nullptr || stem->whole) return {};
+  return {stem->quantity, ' ', stem->increment, stem->unit};
+}
+
+std::string common_name(const Role& role) {
+  std::string out;
+  switch (role.quantity) {
+    case Quantity::kAngularRate:
+      out = "gyro";
+      break;
+    case Quantity::kAcceleration:
+      out = "acc";
+      break;
+    case Quantity::kMagneticFluxDensity:
+      out = "mag";
+      break;
+    case Quantity::kTemperature:
+      return "temperature";
+    case Quantity::kVoltage:
+    case Quantity::kUnknown:
+      return "";
+  }
+  if (role.axis != ' ') out += fmt::format("_{}", role.axis);
+  return out;
+}
+
+bool matches(std::string_view pattern, std::string_view name) {
+  if (glob(pattern, name)) return true;
+  const std::string common = common_name(role_of(name));
+  return !common.empty() && glob(pattern, common);
+}
+
+bool is_time_name(std::string_view name) {
+  std::vector<std::string> words = words_of(name);
+  const auto known = [&] {
+    return std::find(kTimeNames.begin(), kTimeNames.end(), joined(words)) != kTimeNames.end();
+  };
+  if (words.empty()) return false;
+  if (known()) return true;
+  const bool suffixed = std::any_of(kTimeSuffixes.begin(), kTimeSuffixes.end(),
+                                    [&](const Suffix& one) { return one.text == words.back(); });
+  words.pop_back();
+  return suffixed && known();
+}
+
+Result<std::optional<double>> time_unit(std::string_view name, std::string_view unit) {
+  const auto seconds = [](std::string_view text) -> std::optional<double> {
+    for (const Suffix& one : kTimeSuffixes) {
+      if (one.text == text) return one.seconds;
+    }
+    return std::nullopt;
+  };
+  if (unit.empty()) {
+    const std::vector<std::string> words = words_of(name);
+    if (words.empty() || words.size() == 1) return std::optional<double>();
+    return seconds(words.back() == "elapsed" ? words.front() : words.back());
+  }
+  if (unit == "µs" || unit == "μs") return std::optional(1e-6);
+  if (const auto known = seconds(unit)) return known;
+  return fail(
+      fmt::format("'{}' is not a unit of time that is known here (s, ms, us, ns); correct it, give "
+                  "--time-unit, or give --rate HZ to ignore the times",
+                  unit));
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,198 @@
+// One judge for all formats: time, units, faults, stretches.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "recording/import/preflight/clock.h"
+#include "recording/import/preflight/pace.h"
+#include "recording/import/table/names.h"
+#include "tests/recording/files.h"
+
+namespace imunoise::recording {
+namespace {
+
+TEST(Names, PeopleCallThem) {
+  for (const char* name : {"t", "T", "time", "Timestamp", "time_ms", "timestamp_ns", "%time",
+                           "field.header.stamp", "seconds_elapsed"}) {
+    EXPECT_TRUE(is_time_name(name)) << name;
+  }
+  for (const char* name : {"temperature", "gyro_t", "times", "_s", "t_min", ""}) {
+    EXPECT_FALSE(is_time_name(name)) << name;
+  }
+  EXPECT_EQ(*time_unit("t_us", ""), 1e-6);
+  EXPECT_EQ(*time_unit("t", "µs"), 1e-6);
+  EXPECT_EQ(*time_unit("t", ""), std::nullopt);
+  EXPECT_FALSE(time_unit("t", "fortnights"));
+  for (const char* name : {"wx", "gx", "gyr_x", "Gyro X", "angular_velocity.x", "GyroX",
+                           "field.angular_velocity.x", "w_RS_S_x"}) {
+    EXPECT_EQ(common_name(role_of(name)), "gyro_x") << name;
+  }
+  for (const char* name : {"az", "acc_z", "accelZ", "linear_acceleration.z", "a_RS_S_z"}) {
+    EXPECT_EQ(common_name(role_of(name)), "acc_z") << name;
+  }
+  EXPECT_EQ(common_name(role_of("imu_temp")), "temperature");
+  for (const char* name : {"x", "angular_velocity_covariance_0", "note", "box"}) {
+    EXPECT_EQ(common_name(role_of(name)), "") << name;
+  }
+  EXPECT_TRUE(role_of("delta_v_x").increment);
+  EXPECT_TRUE(matches("gyro_*", "wx"));
+  EXPECT_FALSE(matches("gyro_*", "ax"));
+}
+
+std::vector<double> even(std::size_t count, double step) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < count; ++i) out.push_back(static_cast<double>(i) * step);
+  return out;
+}
+
+Pace pace_in(const std::vector<double>& times) {
+  const TimeColumn column{"t", "s", times};
+  const auto clock = Clock::read("f", column, std::nullopt);
+  return pace_of(clock.value(), [](std::size_t) { return false; });
+}
+
+TEST(Pace, OnlyLastingLatenessIsAGap) {
+  std::vector<double> times = even(1000, 0.01);
+  EXPECT_TRUE(pace_in(times).leaps.empty());
+  for (std::size_t i = 400; i < times.size(); ++i) times[i] += 0.03;
+  const Pace gap = pace_in(times);
+  ASSERT_EQ(gap.leaps.size(), 1U);
+  EXPECT_EQ(gap.leaps[0].at, 400U);
+  EXPECT_NEAR(gap.leaps[0].seconds, 0.03, 1e-6);
+  EXPECT_NEAR(gap.period, 0.01, 1e-9);
+  times = even(1000, 0.01);
+  times[500] += 0.02;  // one stamp is late, and the next are not
+  EXPECT_TRUE(pace_in(times).leaps.empty());
+  times = even(1000, 0.01);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.01 * static_cast<double>(i / 8 * 8);
+  EXPECT_TRUE(pace_in(times).leaps.empty());  // bursts of eight
+  for (std::size_t i = 400; i < times.size(); ++i) times[i] += 0.05;
+  EXPECT_EQ(pace_in(times).leaps.size(), 1U);
+  times = even(1000, 0.01);
+  for (std::size_t i = 700; i < times.size(); ++i) times[i] -= 3.0;
+  const Pace back = pace_in(times);
+  ASSERT_EQ(back.leaps.size(), 1U);
+  EXPECT_NEAR(back.leaps[0].seconds, -3.0, 1e-6);
+}
+
+TEST(Pace, JitterIsThatOfTheStamps) {
+  std::mt19937_64 random(8);
+  std::vector<double> times = even(20'000, 0.01);
+  std::normal_distribution<double> normal(0.0, 5e-4);
+  for (double& time : times) time += normal(random);
+  // The mean square of neighbouring steps of n stamps has a relative variance of 3/n; 4 sigma of a
+  // root.
+  EXPECT_NEAR(pace_in(times).jitter, 0.05, 0.05 * 2.0 * std::sqrt(3.0 / 20'000));
+}
+
+class Odd : public FileTest {
+ protected:
+  using Cell = std::function<std::string(int)>;
+
+  // 200 rows at 100 Hz; what replaces a row, and the stamps.
+  Result<std::vector<Replicate>> odd(const std::string& head, const Cell& row,
+                                     const ImportOptions& options = {}) const {
+    std::string text = head + "\n";
+    for (int i = 0; i < 200; ++i) text += row(i) + "\n";
+    return import_one(write("odd.csv", text), options);
+  }
+  double rate(const std::string& head, const Cell& stamp) const {
+    const auto got = odd(head + ",x", [&](int i) { return stamp(i) + ",1"; });
+    EXPECT_TRUE(got) << got.error().message;
+    return got ? got->front().rate.value : 0.0;
+  }
+  static std::string findings(const Replicate& one) {
+    std::string out;
+    for (const Finding& finding : one.preflight->findings) out += finding.text + "\n";
+    for (const std::string& said : one.preflight->recognised) out += said + "\n";
+    return out;
+  }
+};
+
+TEST_F(Odd, TimesOfEveryKindGiveTheRate) {
+  EXPECT_EQ(rate("t", [](int i) { return fmt::format("{:.2f}", 0.01 * i); }), 100.0);
+  EXPECT_EQ(rate("t", [](int i) { return fmt::format("{}", 10 * i); }), 100.0);
+  EXPECT_EQ(rate("t", [](int i) { return fmt::format("{}", 10'000 * i); }), 100.0);
+  EXPECT_EQ(rate("t", [](int i) { return fmt::format("{}", 10'000'000LL * i); }), 100.0);
+  EXPECT_EQ(rate("t", [](int i) { return fmt::format("{:.3f}", 1403636580.5 + 0.01 * i); }), 100.0);
+  EXPECT_EQ(rate("t", [](int i) { return fmt::format("{}", 1403636580838LL + 10 * i); }), 100.0);
+  EXPECT_EQ(
+      rate("t", [](int i) { return fmt::format("{}", 1403636580838555648LL + 10000000LL * i); }),
+      100.0);
+  EXPECT_EQ(rate("t",
+                 [](int i) {
+                   return fmt::format("2026-11-24T11:59:{:02}.{:02}Z", 58 + i / 100, i % 100);
+                 }),
+            100.0);
+}
+
+TEST_F(Odd, GapsAndMissingValuesCutTheRecording) {
+  const auto got = odd("t [s],x [deg/s]", [](int i) {
+    return fmt::format("{:.2f},{}", 0.01 * i + (i >= 100 ? 0.5 : 0.0), i == 50 ? "nan" : "1.5");
+  });
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->size(), 3U);
+  EXPECT_EQ((*got)[0].channels[0].count, 50U);
+  EXPECT_EQ((*got)[1].channels[0].count, 49U);
+  EXPECT_EQ((*got)[2].channels[0].count, 100U);
+  EXPECT_EQ((*got)[0].rate.value, 100.0);
+  expect_parts(findings(got->front()), {"gap of 0.5 s at 0.99 s (row 102)", "50 samples",
+                                        "misses 1 values, the first at 0.5 s (row 52)"});
+  ImportOptions strict;
+  strict.strict = true;
+  expect_parts(error_of(path("odd.csv"), strict), {"--strict", "gap of 0.5 s", "misses 1 values"});
+}
+
+TEST_F(Odd, RowsThatRepeatOrCannotBeReadAreLeftOut) {
+  const auto got = odd("t [s],x,frame", [](int i) {
+    if (i == 70) return std::string("0.70,abc,imu");
+    return fmt::format("{:.2f},{},imu", 0.01 * (i >= 120 ? i - 1 : i), i >= 120 ? i - 1 : i);
+  });
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->size(), 2U);
+  EXPECT_EQ(got->front().channels.size(), 1U);
+  EXPECT_EQ((*got)[0].channels[0].count, 70U);
+  EXPECT_EQ((*got)[1].channels[0].count, 128U);
+  expect_parts(findings(got->front()), {"1 rows repeat the row before", "row 122", "'abc'",
+                                        "row 72", "column frame holds text"});
+}
+
+TEST_F(Odd, TimesThatAreWanted) {
+  ImportOptions options;
+  options.from = 0.1;
+  options.until = 1.5;
+  options.exclude = {{0.5, 0.6}};
+  const auto got = odd(
+      "t [s],x", [](int i) { return fmt::format("{:.2f},1", 0.01 * i); }, options);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->size(), 2U);
+  EXPECT_EQ((*got)[0].channels[0].begin, 10U);
+  EXPECT_EQ((*got)[0].channels[0].count, 40U);
+  EXPECT_EQ((*got)[1].channels[0].begin, 60U);
+  EXPECT_EQ((*got)[1].channels[0].count, 90U);
+}
+
+TEST_F(Odd, UnitsOfEachKind) {
+  const auto row = [](int i) { return fmt::format("{:.2f},0.1,0.1,0.2,9.79", 0.01 * i); };
+  ImportOptions options;
+  options.units = {{"gyro_*", *parse_unit("deg/s")}};
+  const auto got = odd("t,wx,ax,ay,az", row, options);
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->front().channels[0].unit.symbol, "deg/s");
+  EXPECT_EQ(got->front().channels[3].unit.symbol, "m/s^2");
+  expect_parts(findings(got->front()), {"accelerations: m/s^2", "norm is 9.79"});
+  options.units = {{"*", *parse_unit("deg/s")}};
+  const auto mixed = odd("t,wx,ax,ay,az", row, options);
+  ASSERT_FALSE(mixed);
+  expect_parts(mixed.error().message, {"--unit deg/s", "channel ax", "'gyro_*=deg/s,acc_*=g'"});
+  const auto wrong = odd("t,wx [deg/s],ax [g],ay [g],az [g]", row);
+  ASSERT_TRUE(wrong) << wrong.error().message;
+  expect_parts(findings(wrong->front()), {"stated in g", "not 9.81"});
+}
+
+}  // namespace
+}  // namespace imunoise::recording
