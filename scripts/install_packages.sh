@@ -23,6 +23,7 @@ build_packages=(
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
   libsoci-dev        # the catalogue of recordings
+  liblz4-dev libzstd-dev libbz2-dev  # packed chunks of bags
 )
 # The page is built with npm, and tested in a browser; those of other sources do as well.
 command -v npm > /dev/null || build_packages+=(nodejs npm)
@@ -33,6 +34,7 @@ test_packages=(
   clang-format clang-tidy
   umockdev libumockdev-dev       # USB devices that are not there
   python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
+  lz4 zstd python3-rosbag python3-sensor-msgs  # other programs write bags
   postgresql                     # the catalogue of several benches
   zsh                            # its completion
 )

@@ -67,6 +67,9 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->allow_extra_args(false);
   command.add_flag("--strict", raw.strict,
                    "Refuse files with faults instead of leaving samples out");
+  command.add_option("--topic", raw.topic, "Topic of a bag, such as /imu/data")
+      ->type_name("NAME")
+      ->default_str("the only one of an IMU");
   command
       .add_option("--delimiter", raw.delimiter, "Separator of a text file: one character, or 'tab'")
       ->type_name("CHARACTER")
@@ -167,6 +170,7 @@ InputArguments input_from(const RawInput& raw) {
   out.import.until = raw.until;
   out.import.exclude = spans_from(raw.exclude);
   out.import.strict = raw.strict;
+  out.import.topic = raw.topic;
   if (!raw.delimiter.empty()) {
     const bool tab = raw.delimiter == "tab" || raw.delimiter == "\\t";
     if (!tab && raw.delimiter.size() != 1) refuse("--delimiter", "one character, or 'tab'");

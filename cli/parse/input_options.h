@@ -19,6 +19,7 @@ struct RawInput {
   std::optional<double> until;
   std::vector<std::string> exclude;
   bool strict = false;
+  std::string topic;
   std::string delimiter;
   bool header = false;
   bool no_header = false;

@@ -13,6 +13,8 @@
   FORMAT(raw)                           \
   FORMAT(hdf5)                          \
   FORMAT(npy)                           \
+  FORMAT(mcap)                          \
+  FORMAT(ros1_bag)                      \
   FORMAT(text)
 
 namespace imunoise::recording {

@@ -71,6 +71,7 @@ const std::vector<Room>& rooms() {
       {"recording/import/preflight", {"core/support", "recording/import/table"}},
       {"recording/import/text", {"core/support", "recording/import/table"}},
       {"recording/import/binary", {"core/support", "proto", "recording/import/table"}},
+      {"recording/import/ros", {"core/support", "recording/import/table"}},
       {"recording/import/hdf5", {"core/support", "recording/import/table", "recording/hdf5"}},
       {"recording/import", {"core/support", "core/signal", "recording/import"}},
       {"recording/store/format", {"core/support"}},

@@ -51,6 +51,8 @@ struct ImportOptions {
   std::vector<TimeSpan> exclude;
   /// Refuses a file where the preflight would leave samples out or has doubts.
   bool strict = false;
+  /// The topic of a bag. Empty: the only one that holds messages of an IMU.
+  std::string topic;
   /// What separates the values of a text file; ' ' stands for any run of blanks. Unset: detected.
   std::optional<char> delimiter;
   /// Whether the first row of a text file names its columns. Unset: detected.

@@ -1,0 +1,184 @@
+#include "recording/import/ros/imu_messages.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "recording/import/ros/bytes.h"
+#include "recording/import/table/select.h"
+
+namespace imunoise::recording {
+namespace {
+
+constexpr std::array<std::string_view, 6> kNames = {"gyro_x", "gyro_y", "gyro_z",
+                                                    "acc_x",  "acc_y",  "acc_z"};
+constexpr std::size_t kMostTopics = 4096;
+
+template <class Number>
+Number swapped(Number value) {
+  std::array<char, sizeof(Number)> raw;
+  std::memcpy(raw.data(), &value, sizeof value);
+  std::reverse(raw.begin(), raw.end());
+  std::memcpy(&value, raw.data(), sizeof value);
+  return value;
+}
+
+// The time, and where the 37 numbers begin.
+struct ImuFrame {
+  std::int64_t stamp = 0;
+  Fields numbers{{}};
+  bool swap = false;
+};
+
+ImuFrame ros1_frame(std::string_view bytes) {
+  Fields fields(bytes);
+  fields.number<std::uint32_t>();  // sequence
+  const std::int64_t seconds = fields.number<std::uint32_t>();
+  const std::int64_t nanoseconds = fields.number<std::uint32_t>();
+  fields.counted<std::uint32_t>();  // frame_id
+  return {seconds * 1'000'000'000 + nanoseconds, fields};
+}
+
+std::optional<ImuFrame> cdr_frame(std::string_view bytes) {
+  Fields fields(bytes);
+  const std::string_view kind = fields.bytes(4);
+  if (!fields.ok() || kind[0] != 0 || (kind[1] != 0 && kind[1] != 1)) return std::nullopt;
+  const bool swap = kind[1] == 0;
+  const std::string_view body = fields.rest();
+  const auto word = [&] {
+    const auto value = fields.number<std::uint32_t>();
+    return swap ? swapped(value) : value;
+  };
+  const std::int64_t seconds = static_cast<std::int32_t>(word());
+  const std::int64_t nanoseconds = word();
+  fields.bytes(word());  // frame_id
+  const std::size_t used = body.size() - fields.rest().size();
+  fields.bytes((8 - used % 8) % 8);
+  return ImuFrame{seconds * 1'000'000'000 + nanoseconds, fields, swap};
+}
+
+}  // namespace
+
+bool is_imu_type(std::string_view type) {
+  return type == "sensor_msgs/Imu" || type == "sensor_msgs/msg/Imu";
+}
+
+std::optional<ImuMessage> decode_imu(Encoding encoding, std::string_view bytes) {
+  std::optional<ImuFrame> frame;
+  if (encoding == Encoding::kCdr) {
+    frame = cdr_frame(bytes);
+  } else {
+    frame = ros1_frame(bytes);
+  }
+  if (!frame) return std::nullopt;
+  std::array<double, 37> numbers;
+  for (double& number : numbers) {
+    number = frame->numbers.number<double>();
+    if (frame->swap) number = swapped(number);
+  }
+  if (!frame->numbers.ok()) return std::nullopt;
+  // orientation 4, covariance 9, rates 3, covariance 9, acceleration 3, covariance 9
+  ImuMessage out;
+  out.stamp = frame->stamp;
+  std::copy_n(numbers.begin() + 13, 3, out.values.begin());
+  std::copy_n(numbers.begin() + 25, 3, out.values.begin() + 3);
+  out.has_gyro = numbers[16] != -1.0;
+  out.has_acc = numbers[28] != -1.0;
+  return out;
+}
+
+void ImuCollector::topic(std::uint64_t number, std::string_view name, std::string_view type) {
+  if (topics_.size() >= kMostTopics) return;
+  topics_.try_emplace(number, Topic{std::string(name), std::string(type)});
+}
+
+bool ImuCollector::wants(std::uint64_t number) const {
+  const auto found = topics_.find(number);
+  if (found == topics_.end() || !is_imu_type(found->second.type)) return false;
+  return options_.topic.empty() || found->second.name == options_.topic;
+}
+
+Result<void> ImuCollector::add(std::uint64_t number, Encoding encoding, std::string_view bytes,
+                               std::int64_t received) {
+  Topic& topic = topics_.at(number);
+  const std::size_t index = topic.messages++;
+  if (ambiguous_) return {};
+  const bool first = chosen_.empty();
+  if (first) chosen_ = topic.name;
+  if (topic.name != chosen_) {
+    ambiguous_ = true;
+    times_ = {};
+    values_ = {};
+    return {};
+  }
+  const auto trouble = [&](const std::string& what) {
+    return fail(fmt::format("{}: topic {}: message {}: {}", file_, topic.name, index, what));
+  };
+  const std::optional<ImuMessage> message = decode_imu(encoding, bytes);
+  if (!message) return trouble("is not a whole sensor_msgs/Imu; copy or record the bag again");
+  if (first) {
+    first_ = *message;
+    header_time_ = message->stamp != 0;
+  }
+  times_.push(header_time_ ? message->stamp : received);
+  for (std::size_t c = 0; c < kNames.size(); ++c) {
+    const double value = message->values[c];
+    values_[c].push(std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN());
+  }
+  return {};
+}
+
+Result<void> ImuCollector::check_topics() const {
+  constexpr std::size_t shown = 40;
+  std::string all;
+  std::string of_imu;
+  std::size_t listed = 0;
+  for (const auto& [number, topic] : topics_) {
+    if (++listed > shown) break;
+    all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", topic.name, topic.type);
+    if (!is_imu_type(topic.type)) continue;
+    of_imu += fmt::format("{}{}", of_imu.empty() ? "" : ", ", topic.name);
+  }
+  if (ambiguous_) {
+    return fail(
+        fmt::format("{}: several topics of an IMU: {}; choose one with --topic", file_, of_imu));
+  }
+  if (!chosen_.empty()) return {};
+  if (!options_.topic.empty()) {
+    return fail(
+        fmt::format("{}: no message of type sensor_msgs/Imu in topic '{}' (it has: {}); "
+                    "choose with --topic",
+                    file_, options_.topic, all.empty() ? "none" : all));
+  }
+  return fail(
+      fmt::format("{}: no message of type sensor_msgs/Imu (topics: {}); record the topic "
+                  "of the IMU",
+                  file_, all.empty() ? "none" : all));
+}
+
+Result<Table> ImuCollector::finish() {
+  if (const Result<void> sound = check_topics(); !sound) return tl::make_unexpected(sound.error());
+  std::vector<Offer> offers;
+  for (std::size_t c = 0; c < kNames.size(); ++c) {
+    const bool there = c < 3 ? first_.has_gyro : first_.has_acc;
+    offers.push_back({std::string(kNames[c]), there, c < 3 ? "rad/s" : "m/s^2"});
+  }
+  const auto wanted = select_columns(file_, offers, options_);
+  if (!wanted) return tl::make_unexpected(wanted.error());
+  Table table;
+  if (!options_.rate) {
+    table.time =
+        TimeColumn{header_time_ ? "header.stamp" : "time of recording", "ns", times_.take()};
+  }
+  table.row = [](std::size_t i) { return fmt::format("message {}", i); };
+  table.notes.push_back(fmt::format("topic {}", chosen_));
+  for (const std::size_t c : *wanted) {
+    table.columns.push_back({offers[c].name, values_[c].take(), 1.0, 0.0, offers[c].unit});
+  }
+  return table;
+}
+
+}  // namespace imunoise::recording

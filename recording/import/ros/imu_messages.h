@@ -1,0 +1,101 @@
+#pragma once
+
+// Messages of type sensor_msgs/Imu, as all bags hold them: decoded, then collected into a table.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/support/result.h"
+#include "recording/import/table/options.h"
+#include "recording/import/table/table.h"
+
+namespace imunoise::recording {
+
+/// What is used of one message. SI units.
+struct ImuMessage {
+  std::int64_t stamp = 0;          ///< of the header, ns since 1970
+  std::array<double, 6> values{};  ///< gyro_x, gyro_y, gyro_z (rad/s), acc_x, acc_y, acc_z (m/s²)
+  bool has_gyro = true;            ///< false: its covariance begins with -1
+  bool has_acc = true;
+};
+
+/// How the bytes of a message are laid out.
+enum class Encoding { kRos1, kCdr };
+
+/// Whether a type of messages is that of an IMU, as ROS 1 ("sensor_msgs/Imu") or ROS 2 names it.
+bool is_imu_type(std::string_view type);
+
+/// Decodes one message; nothing where the bytes are not one. CDR: plain, of either byte order.
+std::optional<ImuMessage> decode_imu(Encoding encoding, std::string_view bytes);
+
+/// Numbers that come one by one, kept in blocks: memory holds them once.
+template <class Number>
+class Blocks {
+ public:
+  void push(Number value) {
+    if (blocks_.empty() || blocks_.back().size() == kNumbers) {
+      blocks_.emplace_back().reserve(kNumbers);
+    }
+    blocks_.back().push_back(value);
+  }
+  /// All of them; none stay behind.
+  std::vector<Number> take() {
+    std::vector<Number> out;
+    if (!blocks_.empty()) out.reserve((blocks_.size() - 1) * kNumbers + blocks_.back().size());
+    for (std::vector<Number>& block : blocks_) {
+      out.insert(out.end(), block.begin(), block.end());
+      block = {};
+    }
+    blocks_.clear();
+    return out;
+  }
+
+ private:
+  static constexpr std::size_t kNumbers = std::size_t{1} << 16U;
+  std::vector<std::vector<Number>> blocks_;
+};
+
+/// Collects the messages of the one wanted topic: that which `options` name, else the only one that
+/// holds messages of an IMU.
+class ImuCollector {
+ public:
+  ImuCollector(std::string file, const ImportOptions& options)
+      : file_(std::move(file)), options_(options) {}
+
+  /// A topic that the bag announces; `number` is what its messages call it. Both may come again.
+  void topic(std::uint64_t number, std::string_view name, std::string_view type);
+  /// Whether messages of this number are wanted.
+  bool wants(std::uint64_t number) const;
+  /// One message that is wanted. `received` (ns) is its time where all headers leave theirs 0.
+  /// Error: bytes that are no message.
+  Result<void> add(std::uint64_t number, Encoding encoding, std::string_view bytes,
+                   std::int64_t received);
+  /// The wanted channels. Error: no topic of an IMU, several and none chosen (all are listed), no
+  /// message; see import_files.
+  Result<Table> finish();
+
+ private:
+  struct Topic {
+    std::string name;
+    std::string type;
+    std::size_t messages = 0;
+  };
+  Result<void> check_topics() const;
+
+  std::string file_;
+  const ImportOptions& options_;
+  std::map<std::uint64_t, Topic> topics_;
+  std::string chosen_;
+  bool ambiguous_ = false;
+  bool header_time_ = true;
+  ImuMessage first_;
+  Blocks<std::int64_t> times_;  // ns
+  std::array<Blocks<double>, 6> values_;
+};
+
+}  // namespace imunoise::recording

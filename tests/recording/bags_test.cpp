@@ -1,0 +1,141 @@
+// Bags that independent writers made.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/recording/files.h"
+
+namespace imunoise::recording {
+namespace {
+
+class Bags : public FileTest {
+ protected:
+  // Runs a writer that stands beside this test.
+  static bool made_by(const std::string& writer, const std::string& arguments) {
+    const std::string node = "NODE_PATH=$NODE_PATH:" IMUNOISE_SOURCE_DIR "/web/node_modules ";
+    return std::system((node + writer.substr(0, writer.find(' ')) +
+                        " " IMUNOISE_SOURCE_DIR "/tests/recording/" +
+                        writer.substr(writer.find(' ') + 1) + " " + arguments + " 2> /dev/null")
+                           .c_str()) == 0;
+  }
+  std::string ros1(const std::string& packing, int messages) const {
+    const std::string file = path(packing + ".bag").string();
+    return made_by("/usr/bin/python3 write_bag.py",
+                   file + " " + packing + " " + std::to_string(messages))
+               ? file
+               : "";
+  }
+  std::string mcap(const std::string& packing, int messages, int topics) const {
+    const std::string file = path(packing + ".mcap").string();
+    return made_by("node write_mcap.js", file + " " + packing + " " + std::to_string(messages) +
+                                             " " + std::to_string(topics))
+               ? file
+               : "";
+  }
+};
+
+std::string bytes_in(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// What the writers' messages hold.
+void expect_counted(const Replicate& bag, std::size_t messages) {
+  ASSERT_EQ(bag.channels.size(), 6U);
+  EXPECT_DOUBLE_EQ(bag.rate.value, 100.0);
+  EXPECT_EQ(bag.channels[0].name, "gyro_x");
+  EXPECT_EQ(bag.channels[0].unit.quantity, Quantity::kAngularRate);
+  EXPECT_EQ(bag.channels[5].name, "acc_z");
+  EXPECT_EQ(bag.channels[5].unit.quantity, Quantity::kAcceleration);
+  for (std::size_t i = 0; i < messages; ++i) {
+    const auto x = static_cast<double>(i);
+    const double expected[] = {x, x + 0.25, x + 0.5, 9.0 + x, x / 2.0, -x};
+    for (std::size_t c = 0; c < 6; ++c) {
+      ASSERT_EQ(stored_doubles(bag.channels[c]).size(), messages);
+      ASSERT_EQ(stored_doubles(bag.channels[c])[i], expected[c]) << i << " " << c;
+    }
+  }
+}
+
+const char* const kNode = "npm @mcap/core and @foxglove/rosmsg2-serialization";
+const char* const kPython = "Debian's python3-rosbag and python3-sensor-msgs";
+
+#define SKIP_WITHOUT(FILE, WRITER) \
+  if ((FILE).empty()) GTEST_SKIP() << "no independent writer here: " << (WRITER)
+
+TEST_F(Bags, McapOfEveryPacking) {
+  for (const std::string packing : {"none", "lz4", "zstd"}) {
+    const std::string file = mcap(packing, 100, 1);
+    SKIP_WITHOUT(file, kNode);
+    const auto got = import_one(file);
+    ASSERT_TRUE(got) << got.error().message;
+    expect_counted(got->front(), 100);
+  }
+}
+
+TEST_F(Bags, SeveralTopicsOfAnImuAreListedAndOneIsChosen) {
+  const std::string file = mcap("none", 100, 2);
+  SKIP_WITHOUT(file, kNode);
+  EXPECT_EQ(error_of(file),
+            file + ": several topics of an IMU: /imu0, /imu1; choose one with --topic");
+  ImportOptions options;
+  options.topic = "/imu1";
+  const auto got = import_one(file, options);
+  ASSERT_TRUE(got) << got.error().message;
+  expect_counted(got->front(), 100);
+  options.topic = "/chatter";
+  EXPECT_NE(error_of(file, options).find("/chatter (std_msgs/msg/String)"), std::string::npos);
+}
+
+// What is read of the first bytes is a beginning of the whole, and never less than of fewer bytes.
+void expect_beginnings(const std::filesystem::path& file, const std::filesystem::path& cut) {
+  const std::string bytes = bytes_in(file);
+  std::size_t before = 0;
+  for (std::size_t length = 100; length < bytes.size(); length += 97) {
+    std::ofstream(cut, std::ios::binary) << bytes.substr(0, length);
+    const auto got = import_one(cut);
+    if (!got) {
+      ASSERT_EQ(before, 0U) << length << ": " << got.error().message;
+      continue;
+    }
+    const std::size_t count = got->front().channels[0].count;
+    ASSERT_GE(count, before) << length;
+    expect_counted(got->front(), count);
+    before = count;
+  }
+  EXPECT_EQ(before, 100U);
+}
+
+TEST_F(Bags, TruncatedMcapReadsUpToItsEnd) {
+  for (const std::string packing : {"none", "zstd"}) {
+    const std::string file = mcap(packing, 100, 1);
+    SKIP_WITHOUT(file, kNode);
+    expect_beginnings(file, path("cut.mcap"));
+  }
+}
+
+TEST_F(Bags, Ros1OfEveryPacking) {
+  for (const std::string packing : {"none", "lz4", "bz2"}) {
+    const std::string file = ros1(packing, 100);
+    SKIP_WITHOUT(file, kPython);
+    const auto got = import_one(file);
+    ASSERT_TRUE(got) << got.error().message;
+    expect_counted(got->front(), 100);
+  }
+}
+
+TEST_F(Bags, TruncatedRos1ReadsUpToItsEnd) {
+  for (const std::string packing : {"none", "lz4", "bz2"}) {
+    const std::string file = ros1(packing, 100);
+    SKIP_WITHOUT(file, kPython);
+    expect_beginnings(file, path("cut.bag"));
+  }
+}
+
+}  // namespace
+}  // namespace imunoise::recording
