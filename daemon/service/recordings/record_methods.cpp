@@ -31,6 +31,10 @@ void add_record_methods(Methods& methods, Records& records) {
       });
   methods.on_waiting<v1::GetHistoryRequest>(
       [&records](const v1::GetHistoryRequest& request) { return records.history(request); });
+  methods.on_waiting<v1::GetHistoryFigureRequest>(
+      [&records](const v1::GetHistoryFigureRequest& request) {
+        return records.history_figure(request);
+      });
 }
 
 }  // namespace imunoise::service

@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "daemon/catalogue/history.h"
+#include "daemon/service/api/figure_answer.h"
 #include "daemon/service/recordings/confined_files.h"
 #include "recording/store/manifest/manifest.h"
 #include "study/calibration/calibration_file.h"
+#include "study/report/figures/history_figure.h"
 
 namespace imunoise::service {
 namespace {
@@ -157,6 +159,25 @@ Answer<v1::History> Records::history(const v1::GetHistoryRequest& request) {
   auto out = catalogue::history_of(*device, std::move(*parameters), options);
   if (!out) return refuse(404, out.error().message);
   return std::move(*out);
+}
+
+Answer<v1::Text> Records::history_figure(const v1::GetHistoryFigureRequest& request) {
+  if (auto good = check_figure_size(request.width(), request.height()); !good)
+    return tl::unexpected(good.error());
+  v1::GetHistoryRequest all;
+  all.set_device(request.device());
+  const auto known = history(all);
+  if (!known) return tl::unexpected(known.error());
+  const auto found = std::find_if(
+      known->parameters().begin(), known->parameters().end(), [&](const v1::ParameterHistory& one) {
+        return one.stream() == request.stream() && one.channel() == request.channel() &&
+               one.term() == request.term() && one.parameter() == request.parameter();
+      });
+  if (found == known->parameters().end())
+    return refuse(404, "stream, channel, term and parameter: name one as /v1/history lists it");
+  const auto figure = report::history_figure(*found);
+  if (!figure) return refuse(404, "this parameter was calibrated once; record the device again");
+  return figure_answer(*figure, request);
 }
 
 Answer<fs::path> Records::path_of(const std::string& campaign, const std::string& folder) const {

@@ -37,6 +37,9 @@ class Records {
   Answer<v1::CalibrationList> calibrations(const std::string& campaign);
   Answer<v1::ArrayList> arrays(const std::string& campaign);
   Answer<v1::History> history(const v1::GetHistoryRequest& request);
+  /// One parameter of it as SVG. Error: that of history(); 400 for a size that is none; 404 for a
+  /// parameter that is not there, or that was calibrated only once.
+  Answer<v1::Text> history_figure(const v1::GetHistoryFigureRequest& request);
 
   // Error: 404 where there is none, 400 for a name that leads elsewhere, 500 for a damaged file.
   Answer<v1::Manifest> manifest(const std::string& campaign, const std::string& folder) const;

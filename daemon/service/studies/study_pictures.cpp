@@ -6,14 +6,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "study/figure/svg.h"
+#include "daemon/service/api/figure_answer.h"
 #include "study/report/figures/study_figure.h"
 
 namespace imunoise::service {
 namespace {
-
-constexpr std::uint32_t kLeastWidth = 200;  // px
-constexpr std::uint32_t kMostPixels = 4000;
 
 // What to do where a view has nothing to show.
 std::string why_empty(const std::string& view) {
@@ -28,11 +25,7 @@ Answer<void> check(const v1::GetFigureRequest& request) {
   if (std::find(views.begin(), views.end(), request.view()) == views.end())
     return refuse(400, fmt::format("view: '{}' is unknown; there are {}", request.view(),
                                    fmt::join(views, ", ")));
-  if ((request.width() != 0 && request.width() < kLeastWidth) || request.width() > kMostPixels ||
-      request.height() > kMostPixels)
-    return refuse(400, fmt::format("width: {} to {} px; height: at most {} px", kLeastWidth,
-                                   kMostPixels, kMostPixels));
-  return {};
+  return check_figure_size(request.width(), request.height());
 }
 
 }  // namespace
@@ -94,14 +87,7 @@ Answer<v1::Text> StudyPictures::draw(const v1::Study& study,
   }
   const auto figure = report::study_figure(study, options);
   if (!figure) return refuse(404, why_empty(request.view()));
-  figure::SvgOptions how;
-  how.variant =
-      request.standalone() ? figure::SvgVariant::kStandalone : figure::SvgVariant::kInline;
-  if (request.width() != 0) how.width = request.width();
-  how.height = request.height();
-  v1::Text out;
-  out.set_text(figure::svg(*figure, how));
-  return out;
+  return figure_answer(*figure, request);
 }
 
 }  // namespace imunoise::service

@@ -110,6 +110,43 @@ TEST_F(Api, RecordingsAppearWhenTheyAreThere) {
   refusal("/v1/recordings/array/nested", 404);
 }
 
+TEST_F(Api, FiguresOfHistories) {
+  serve();
+  const auto calibrate = [&](const std::string& name, double n) {
+    v1::Calibration calibration;
+    calibration.set_version(1);
+    v1::ChannelCalibration& channel = *calibration.add_channels();
+    channel.set_device("imu0");
+    channel.set_stream("imu");
+    channel.set_channel("gyro_x");
+    v1::Term& term = *channel.mutable_fit()->add_terms();
+    term.set_name("WN");
+    v1::Coefficient& one = *term.add_coefficients();
+    one.set_symbol("N");
+    one.set_unit("rad/√s");
+    one.set_value(n);
+    one.set_lower(0.9 * n);
+    one.set_upper(1.1 * n);
+    ASSERT_TRUE(study::write_calibration(recording::posix_file_system(),
+                                         folder_.path() / "data/array" / name, calibration));
+  };
+  const std::string of = "/v1/history/figure?device=0042&stream=imu&channel=gyro_x&term=WN";
+  record("monday");
+  calibrate("monday", 2e-3);
+  EXPECT_NE(refusal(of + "&parameter=N", 404).find("once"), std::string::npos);
+  record("tuesday", testing::kSimulatedStart + 86'400'000'000'000);
+  calibrate("tuesday", 3e-3);
+  ASSERT_TRUE(comes_to_be_told("/v1/history?device=0042", "tuesday"));
+  const RawResponse response = get(local_, of + "&parameter=N&width=400");
+  EXPECT_EQ(response.status, 200);
+  EXPECT_NE(response.head.find("image/svg+xml"), std::string::npos);
+  EXPECT_NE(response.body.find("data-y=\"0.003\""), std::string::npos) << response.body;
+  EXPECT_NE(response.body.find("viewBox=\"0 0 400"), std::string::npos) << response.body;
+  EXPECT_NE(refusal(of + "&parameter=K", 404).find("/v1/history"), std::string::npos);
+  EXPECT_NE(refusal(of + "&parameter=N&width=100", 400).find("200"), std::string::npos);
+  refusal("/v1/history/figure?device=7&parameter=N", 404);
+}
+
 TEST_F(Api, CalibrationsArraysAndHistories) {
   serve();
   record("monday");

@@ -54,13 +54,14 @@ class Served : public ::testing::Test {
   }
 
   // Of the campaign "array".
-  void record(const std::string& name) const {
+  void record(const std::string& name, std::int64_t started_ns = testing::kSimulatedStart) const {
     SimulatedRecording what;
     what.folder = folder_.path() / "data/array" / name;
     std::filesystem::create_directories(what.folder.parent_path());
     what.channels = {{"gyro_x", "rad/s", "WN(sigma2=4e-6) + RW(gamma2=1e-9)"},
                      {"temperature", "K", "WN(sigma2=1e-4)"}};
     what.samples = 2048;
+    what.started_ns = started_ns;
     testing::record(what);
   }
 
