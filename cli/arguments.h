@@ -177,9 +177,9 @@ struct VerifyArguments {
   bool json = false;
 };
 
-/// The calibration of one recording.
+/// The calibration of one recording, or of files.
 struct CalibrateArguments {
-  std::filesystem::path folder;
+  InputArguments input;
   study::CalibrateOptions calibrate;
   ShowArguments show;
 };

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.h"
+#include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
@@ -10,19 +11,37 @@
 
 namespace imunoise::cli {
 
-int run(const CalibrateArguments& arguments) {
+namespace {
+
+int calibrate_plain_files(const CalibrateArguments& arguments,
+                          const study::CalibrateOptions& options) {
   const Interrupt interrupt;
-  recording::FileSystem& files = recording::posix_file_system();
-  study::CalibrateOptions options = arguments.calibrate;
-  options.made_ns = acquire::now_ns();
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return print_error(replicates.error());
   const auto done = [&] {
     ProgressLine line("calibrating");
-    return study::calibrate(files, arguments.folder, options, line.progress(interrupt.token()));
+    return study::calibrate_files(*replicates, options, line.progress(interrupt.token()));
+  }();
+  return done ? show(*done, arguments.show) : print_error(done.error());
+}
+
+}  // namespace
+
+int run(const CalibrateArguments& arguments) {
+  study::CalibrateOptions options = arguments.calibrate;
+  options.made_ns = acquire::now_ns();
+  const std::filesystem::path& folder = arguments.input.files.front();
+  if (!std::filesystem::is_directory(folder)) return calibrate_plain_files(arguments, options);
+  const Interrupt interrupt;
+  recording::FileSystem& files = recording::posix_file_system();
+  const auto done = [&] {
+    ProgressLine line("calibrating");
+    return study::calibrate(files, folder, options, line.progress(interrupt.token()));
   }();
   if (!done) return print_error(done.error());
-  if (auto written = study::write_calibration(files, arguments.folder, *done); !written)
+  if (auto written = study::write_calibration(files, folder, *done); !written)
     return print_error(written.error());
-  fmt::print(stderr, "wrote {}\n", (arguments.folder / study::kCalibrationName).string());
+  fmt::print(stderr, "wrote {}\n", (folder / study::kCalibrationName).string());
   return show(*done, arguments.show);
 }
 

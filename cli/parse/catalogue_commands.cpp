@@ -13,8 +13,9 @@ Examples:
   imunoise calibrate recordings/monday                   all angular rates and accelerations, best models
   imunoise calibrate recordings/monday --model "WN + AR1 + RW" --report monday.html
   imunoise calibrate recordings/monday --channel gyro_x --no-diagnose
+  imunoise calibrate imu.csv --unit 'gyro_*=deg/s' --report imu.html
 
-The result is also written into the recording's folder, as calibration.json. If a channel cannot be
+The result of a recording is also written into the recording's folder, as calibration.json. If a channel cannot be
 calibrated, the report says why, and the other channels are calibrated.)help";
 
 constexpr const char* kRecordingsExamples = R"help(
@@ -38,14 +39,11 @@ The test compares the newest calibration with all earlier ones. The exit status 
 
 ParsedCommand calibrate_command(CLI::App& program) {
   CLI::App* const calibrate = program.add_subcommand(
-      "calibrate", "Calibrate one recording: fit, test and diagnose all its channels");
+      "calibrate", "Calibrate one recording or files: fit, test and diagnose all channels");
   calibrate->footer(kCalibrateExamples);
   const auto raw = std::make_shared<RawAnalysis>();
-  const auto folder = std::make_shared<std::string>();
   const auto options = std::make_shared<study::CalibrateOptions>();
-  calibrate->add_option("FOLDER", *folder, "Folder of the recording")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  add_input(*calibrate, raw->input);
   const auto array_model = std::make_shared<std::string>();
   calibrate
       ->add_option("--model", options->models,
@@ -54,12 +52,6 @@ ParsedCommand calibrate_command(CLI::App& program) {
       ->type_name("MODEL")
       ->default_str("the best of many")
       ->allow_extra_args(false);
-  calibrate
-      ->add_option("--channel", options->channels,
-                   "Names of the channels to calibrate, separated by commas")
-      ->type_name("NAMES")
-      ->default_str("all angular rates and accelerations")
-      ->delimiter(',');
   calibrate->add_flag("!--no-diagnose", options->diagnose, "Skip the search for missing effects");
   calibrate->add_flag("--array", options->array,
                       "Analyse the channels of one quantity as an array, and channels of the same "
@@ -78,8 +70,15 @@ ParsedCommand calibrate_command(CLI::App& program) {
       ->capture_default_str();
   add_json(*calibrate, *raw);
   add_report(*calibrate, *raw);
-  return {calibrate, [raw, folder, options, array_model] {
-            CalibrateArguments out{*folder, *options, show_from(*raw)};
+  return {calibrate, [raw, options, array_model] {
+            CalibrateArguments out{input_from(raw->input), *options, show_from(*raw)};
+            out.calibrate.channels = out.input.import.channels;
+            const bool folder = std::filesystem::is_directory(out.input.files.front());
+            if (folder && (out.input.files.size() > 1 || out.input.import.rate ||
+                           !out.input.import.units.empty() || out.input.import.split_into > 1))
+              refuse("FILES",
+                     "one folder of a recording, or files; --rate, --unit and --split-into "
+                     "are for files");
             if (!array_model->empty()) out.calibrate.array_model = *array_model;
             return out;
           }};

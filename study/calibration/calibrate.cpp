@@ -218,4 +218,27 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
   return out;
 }
 
+Result<v1::Calibration> calibrate_files(const std::vector<Replicate>& replicates,
+                                        const CalibrateOptions& options, const Progress& progress) {
+  if (auto readable = check_models(options); !readable) return tl::unexpected(readable.error());
+  Task task;
+  for (const recording::Channel& one : replicates.front().channels) {
+    if (!options.channels.empty() || of_inertia(one.unit.symbol))
+      task.channels.push_back({one.name, one.unit.symbol});
+  }
+  if (task.channels.empty()) {
+    return fail(
+        "no channel is known to be an angular rate or an acceleration; give units with --unit "
+        "'gyro_*=deg/s,acc_*=g', or name channels with --channel");
+  }
+  v1::Calibration out;
+  out.set_version(kCalibrationVersion);
+  out.set_made_ns(options.made_ns);
+  *out.mutable_settings() = settings_of(options);
+  calibrate_stream(task, replicates, options, progress, out);
+  if (progress.stopped()) return fail("stopped");
+  out.set_summary(summary_of(out));
+  return out;
+}
+
 }  // namespace imunoise::study

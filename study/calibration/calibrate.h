@@ -10,6 +10,7 @@
 #include "core/support/progress.h"
 #include "core/support/result.h"
 #include "imunoise/v1/calibration.pb.h"
+#include "recording/import/table/channel.h"
 #include "recording/store/disk/file_system.h"
 
 namespace imunoise::study {
@@ -38,5 +39,11 @@ Result<void> check_models(const CalibrateOptions& options);
 Result<v1::Calibration> calibrate(const recording::FileSystem& files,
                                   const std::filesystem::path& folder,
                                   const CalibrateOptions& options, const Progress& progress = {});
+
+/// The same for replicates of plain files: all angular rates and accelerations, or options.channels.
+/// Error: none of them, a model that cannot be read, or the caller stopped it.
+Result<v1::Calibration> calibrate_files(const std::vector<recording::Replicate>& replicates,
+                                        const CalibrateOptions& options,
+                                        const Progress& progress = {});
 
 }  // namespace imunoise::study

@@ -128,9 +128,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::atomic<double> done = 0.0;
   const Progress whole;
   FileProgress progress(whole, done, 1);
-  const auto got = read_hdf5_table(place.string(), **reader, options, progress);
-  if (got) {
-    for (const Column& column : got->columns) require_finite(column.samples);
+  // What its numbers are worth is the preflight's to say.
+  if (auto got = read_hdf5_table(place.string(), **reader, options, progress)) {
+    for (const Column& column : got->columns) {
+      if (imunoise::recording::size(column.samples) == 0) std::abort();
+    }
   }
   std::filesystem::remove(place);
   return 0;

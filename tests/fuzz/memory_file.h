@@ -35,11 +35,11 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Whatever was accepted holds finite numbers only.
-inline void require_finite(const Samples& samples) {
-  if (const auto* values = std::get_if<std::vector<double>>(&samples)) {
-    for (const double value : *values) {
-      if (!std::isfinite(value)) std::abort();
+/// Whatever is used of a channel is a finite number.
+inline void require_finite(const Channel& channel) {
+  if (const auto* values = std::get_if<std::vector<double>>(channel.samples.get())) {
+    for (std::size_t i = 0; i < channel.count; ++i) {
+      if (!std::isfinite(values->at(channel.begin + i))) std::abort();
     }
   }
 }

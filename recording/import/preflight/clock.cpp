@@ -99,6 +99,8 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
     out.rounding_ = 1.0;
   } else {
     const auto& numbers = std::get<std::vector<double>>(column.stamps);
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double one) { return std::isfinite(one); }))
+      return fail(fmt::format("{}: a time is missing; give --rate HZ to ignore them", place));
     out.numbers_ = numbers.data();
     first = numbers.front();
     last = numbers.back();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,14 +20,14 @@ class Clock {
   /// `unit` (s per number) is the user's; unset: the column's, its name's, or what values and steps
   /// show: numbers that are dates since 1970, else the unit whose rate is the nearest to 200 Hz,
   /// and seconds for steps up to 1. `place` is for messages. Error: an unknown unit, fewer than two
-  /// stamps, stamps that never rise.
+  /// stamps, one that is missing, stamps that never rise.
   static Result<Clock> read(const std::string& place, const TimeColumn& column,
                             std::optional<double> unit);
 
   std::size_t size() const { return size_; }
   /// s
   double at(std::size_t i) const {
-    return whole_ != nullptr ? static_cast<double>(whole_[i] - whole_[0]) * unit_
+    return whole_ != nullptr ? static_cast<double>(since(i)) * unit_
                              : (numbers_[i] - numbers_[0]) * unit_;
   }
   double step(std::size_t i) const { return at(i) - at(i - 1); }
@@ -38,6 +39,12 @@ class Clock {
   double period() const { return period_; }
 
  private:
+  // Stamps of a damaged file may lie further apart than int64 can say: they wrap.
+  std::int64_t since(std::size_t i) const {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(whole_[i]) -
+                                     static_cast<std::uint64_t>(whole_[0]));
+  }
+
   const double* numbers_ = nullptr;
   const std::int64_t* whole_ = nullptr;
   std::size_t size_ = 0;
