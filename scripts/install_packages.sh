@@ -24,6 +24,7 @@ build_packages=(
   libserialport-dev  # the driver xsens
   libsoci-dev        # the catalogue of recordings
   liblz4-dev libzstd-dev libbz2-dev  # packed chunks of bags
+  libsqlite3-dev     # bags of ROS 2
 )
 # The page is built with npm, and tested in a browser; those of other sources do as well.
 command -v npm > /dev/null || build_packages+=(nodejs npm)

@@ -15,6 +15,7 @@
   FORMAT(npy)                           \
   FORMAT(mcap)                          \
   FORMAT(ros1_bag)                      \
+  FORMAT(ros2_sqlite)                   \
   FORMAT(text)
 
 namespace imunoise::recording {

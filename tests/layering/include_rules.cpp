@@ -246,7 +246,7 @@ const std::vector<Confined>& confined_headers() {
        {},
        "Beast takes 20 s to compile: use daemon/service/http/http_server.h"},
       {std::regex("soci/.*|sqlite3\\.h|libpq.*"),
-       {"daemon/catalogue/database.cpp"},
+       {"daemon/catalogue/database.cpp", "recording/import/ros/ros2_sqlite.cpp"},
        {},
        "databases are daemon/catalogue/database.h"},
       {std::regex("libusb.*"),

@@ -137,5 +137,21 @@ TEST_F(Bags, TruncatedRos1ReadsUpToItsEnd) {
   }
 }
 
+TEST_F(Bags, Ros2InSqliteAndItsTruncations) {
+  const std::string file = path("a.db3").string();
+  if (!made_by("/usr/bin/python3 write_db3.py", file + " 100")) {
+    GTEST_SKIP() << "no independent writer here: Python";
+  }
+  const auto got = import_one(file);
+  ASSERT_TRUE(got) << got.error().message;
+  expect_counted(got->front(), 100);
+  const std::string bytes = bytes_in(file);
+  for (std::size_t length = 16; length < bytes.size(); length += 997) {
+    EXPECT_NE(error_of(write("cut.db3", bytes.substr(0, length))).find("cut.db3: "),
+              std::string::npos)
+        << length;
+  }
+}
+
 }  // namespace
 }  // namespace imunoise::recording
