@@ -7,7 +7,7 @@ export class Refused extends Error {
   }
 }
 
-type Fields = Readonly<Record<string, string | number | boolean | undefined>>;
+export type Fields = Readonly<Record<string, string | number | boolean | undefined>>;
 
 // "/v1/studies/{study}/add" with its fields put in.
 const place = (path: string, fields: Fields): string =>

@@ -3,6 +3,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { getText, type Refused } from "../api/client";
 import { Skeleton } from "../parts/states";
 import { number } from "../parts/numbers";
+import { useSize } from "./size";
 import { axisTitles, indexOf, type Place, places, pointAt, showTerm, terms } from "./figure";
 
 interface Asked {
@@ -11,20 +12,6 @@ interface Asked {
   readonly variance: boolean;
   readonly ghost: string;
   readonly version: string; // changes when the figure may have changed
-}
-
-function useSize(element: { current: HTMLElement | null }): { width: number; height: number } | null {
-  const [size, setSize] = useState<{ width: number; height: number } | null>(null);
-  useLayoutEffect(() => {
-    if (!element.current) return;
-    const observer = new ResizeObserver(([entry]) => {
-      const box = entry?.contentRect;
-      if (box && box.width >= 200) setSize({ width: Math.floor(box.width), height: Math.floor(box.height) });
-    });
-    observer.observe(element.current);
-    return () => observer.disconnect();
-  }, []);
-  return size;
 }
 
 const Table = ({ all, titles }: { all: readonly Place[]; titles: readonly [string, string] }) => (

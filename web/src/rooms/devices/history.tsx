@@ -1,6 +1,7 @@
 // A device's parameters over its recordings, and whether the newest calibration fits the earlier ones.
 import { get } from "../../api/client";
 import type { History as Answer, ParameterHistory } from "../../api/schema";
+import { Picture } from "../../figure/picture";
 import { useLoaded } from "../../parts/loaded";
 import { Empty, Skeleton } from "../../parts/states";
 import { minute } from "./device_rows";
@@ -27,9 +28,13 @@ function Overview({ history }: { history: Answer }) {
   );
 }
 
-const Points = ({ one }: { one: ParameterHistory }) => (
+const Points = ({ device, one }: { device: string; one: ParameterHistory }) => (
   <details>
     <summary>{one.channel}: {one.title || one.parameter}, {one.points.length === 1 ? "one calibration" : `${one.points.length} calibrations`}</summary>
+    {one.points.length > 1 && (
+      <Picture path="/v1/history/figure" version={one.points.at(-1)?.started_ns ?? ""}
+        asked={{ device, stream: one.stream, channel: one.channel, term: one.term, parameter: one.parameter }} />
+    )}
     <table class="rows">
       <thead><tr>{["recorded (UTC)", `value, ${parameterRow(one).unit}`, "model"].map((title) => <th scope="col" key={title}>{title}</th>)}</tr></thead>
       <tbody>
@@ -54,7 +59,7 @@ export function History({ device }: { device: string }) {
       <Overview history={answer} />
       {answer.notes.map((one) => <p class="soft" key={one}>{one}</p>)}
       <h2>Calibrations</h2>
-      {answer.parameters.map((one) => <Points key={`${one.stream} ${one.channel} ${one.term} ${one.parameter}`} one={one} />)}
+      {answer.parameters.map((one) => <Points key={`${one.stream} ${one.channel} ${one.term} ${one.parameter}`} device={device} one={one} />)}
     </div>
   );
 }
