@@ -40,7 +40,7 @@ test("record, study, find, add", { timeout: 240_000 }, async (t) => {
   await page.locator(".candidates li").first().waitFor({ timeout: 120_000 });
   assert.match(await page.locator(".verdict").textContent(), /something is missing/);
   await picture(page, "journey_missing");
-  const error = async () => Number(await page.locator(".errors .now").first().textContent());
+  const error = async () => parseFloat(await page.locator(".errors .now").first().textContent());
   const before = await error();
   await page.getByRole("button", { name: "Add", exact: true }).first().click();
   await page.locator(".step").nth(1).waitFor({ timeout: 60_000 });

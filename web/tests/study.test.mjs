@@ -19,7 +19,7 @@ async function study(page) {
   await page.locator(".candidates li").first().waitFor({ timeout: 60_000 });
 }
 
-const now = async (page) => Number(await page.locator(".errors .now").first().textContent());
+const now = async (page) => parseFloat(await page.locator(".errors .now").first().textContent());
 
 test("the hidden effect is found and the error falls", { timeout: 180_000 }, async (t) => {
   const { page, problems } = await opened(t);
@@ -48,10 +48,10 @@ test("the hidden effect is found and the error falls", { timeout: 180_000 }, asy
   assert.deepEqual(await violations(page), []);
 
   await page.getByRole("button", { name: "Undo" }).click();
-  await page.waitForFunction((error) => Number(document.querySelector(".errors .now")?.textContent) === error, before);
+  await page.waitForFunction((error) => parseFloat(document.querySelector(".errors .now")?.textContent) === error, before);
   await page.locator(".candidates li").first().waitFor({ timeout: 60_000 });
   await page.keyboard.press("Control+Shift+Z");
-  await page.waitForFunction((error) => Number(document.querySelector(".errors .now")?.textContent) === error, after);
+  await page.waitForFunction((error) => parseFloat(document.querySelector(".errors .now")?.textContent) === error, after);
   await page.locator(".verdict.good").waitFor({ timeout: 60_000 });
 
   await page.getByRole("button", { name: "Branch" }).click();
