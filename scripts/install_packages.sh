@@ -5,6 +5,7 @@
 #   bash scripts/install_packages.sh test    to build and run every test as well
 #   bash scripts/install_packages.sh bench   to build and run the benchmarks
 #   bash scripts/install_packages.sh package to make the Debian package
+#   bash scripts/install_packages.sh hil     to run the programs on a real kernel, in virtual machines
 #   bash scripts/install_packages.sh slow    to run the tests labelled slow as well
 set -euo pipefail
 
@@ -42,6 +43,10 @@ test_packages=(
 command -v chromium > /dev/null || test_packages+=(chromium)
 bench_packages=(libbenchmark-dev time jq)
 package_packages=(dpkg-dev file lintian)
+hil_packages=(
+  qemu-system-x86 busybox-static cpio kmod  # the machine
+  iproute2 dmsetup e2fsprogs xfsprogs  # its interfaces and disks
+)
 slow_packages=(
   slurm-wlm munge  # batches
   debootstrap systemd-container  # an empty Debian for the package
@@ -52,9 +57,10 @@ case "${1-}" in
   test) wanted=("${build_packages[@]}" "${test_packages[@]}") ;;
   bench) wanted=("${build_packages[@]}" "${bench_packages[@]}") ;;
   package) wanted=("${build_packages[@]}" "${package_packages[@]}") ;;
-  slow) wanted=("${build_packages[@]}" "${test_packages[@]}" "${package_packages[@]}" "${slow_packages[@]}") ;;
+  hil) wanted=("${hil_packages[@]}") ;;
+  slow) wanted=("${build_packages[@]}" "${test_packages[@]}" "${package_packages[@]}" "${slow_packages[@]}" "${hil_packages[@]}") ;;
   *)
-    echo "usage: $0 build|test|bench|package|slow" >&2
+    echo "usage: $0 build|test|bench|package|hil|slow" >&2
     exit 2
     ;;
 esac

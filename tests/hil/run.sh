@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# The programs of a build on a real kernel, in virtual machines.
+#
+#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, serial, disk
+#
+# Exit status 77: this system has no package manager to take QEMU and a kernel from.
+set -euo pipefail
+build=$(realpath "$1")
+shift
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+# shellcheck source=tests/hil/machine.sh
+source "$here/machine.sh"
+
+command -v apt-get > /dev/null || { echo "SKIPPED: this is not a Debian system"; exit 77; }
+command -v qemu-system-x86_64 > /dev/null || bash "$here/../../scripts/install_packages.sh" hil
+kernels=$build/hil/kernel
+scratch=$build/hil
+mkdir -p "$scratch"
+kernel "$kernels"
+first_files "$kernels" "$scratch/first.cpio"
+
+can() {
+  boot can 400 -object can-bus,id=bus -device kvaser_pci,canbus=bus -device kvaser_pci,canbus=bus
+}
+
+# order COMMAND: to QEMU's monitor.
+order() {
+  python3 -c 'import socket, sys; s = socket.socket(socket.AF_UNIX); s.connect(sys.argv[1]); s.sendall((sys.argv[2] + "\n").encode()); s.recv(100); __import__("time").sleep(0.5)' \
+    "$scratch/monitor" "$1"
+}
+
+# The cable of the sensor: it follows what the scenario says.
+cable() {
+  until grep -q "UNPLUG THE SENSOR" "$scratch/serial.log" 2> /dev/null; do sleep 0.2; done
+  order "device_del converter"
+  until grep -q "PLUG THE SENSOR IN" "$scratch/serial.log"; do sleep 0.2; done
+  order "device_add usb-serial,chardev=sensor,id=converter"
+}
+
+serial() {
+  local port=$scratch/sensor helpers=() passed=0
+  rm -f "$scratch/serial.log"
+  "$build/imunoise" emulate --device xsens --at "$port" > "$scratch/emulate.txt" 2>&1 &
+  helpers+=($!)
+  for _ in $(seq 50); do [[ -e $port ]] && break || sleep 0.2; done
+  cable &
+  helpers+=($!)
+  boot serial 300 -device piix3-usb-uhci -chardev serial,id=sensor,path="$(realpath "$port")" \
+    -device usb-serial,chardev=sensor,id=converter -monitor unix:"$scratch/monitor",server=on,wait=off || passed=1
+  kill "${helpers[@]}" 2> /dev/null || true
+  return $passed
+}
+
+disk() {
+  truncate -s 0 "$scratch/disk.img"
+  truncate -s 400M "$scratch/disk.img"
+  boot disk 3000 -drive file="$scratch/disk.img",format=raw,if=virtio,cache=unsafe
+}
+
+(($# > 0)) || set -- can serial disk
+failed=()
+for scenario in "$@"; do
+  begin=$SECONDS
+  "$scenario" || failed+=("$scenario")
+  echo "$scenario: $((SECONDS - begin)) s"
+done
+if ((${#failed[@]} > 0)); then
+  echo "FAILED: ${failed[*]}"
+  exit 1
+fi
