@@ -230,7 +230,8 @@ ParsedCommand dynamic_command(CLI::App& program) {
             out.dynamic.covariate = *covariate;
             set_bins(*bins, out.dynamic.covariate);
             // A unit that was typed is that of the channels; the covariate's is then unknown.
-            if (!out.input.import.units.empty() && covariate->unit.empty()) out.dynamic.covariate.unit = "1";
+            if (!out.input.import.units.empty() && covariate->unit.empty())
+              out.dynamic.covariate.unit = "1";
             std::vector<std::string>& read = out.input.import.channels;
             out.dynamic.channels = read;
             if (!read.empty() &&

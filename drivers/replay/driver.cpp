@@ -102,7 +102,8 @@ std::unique_ptr<plugin::Device> open_files(const std::vector<std::string>& names
   recording::ImportOptions import;
   import.channels = options.texts("channel");
   if (options.has("rate")) import.rate = Hertz{options.number("rate")};
-  if (options.has("unit")) import.units = {{"*", plugin::or_throw(parse_unit(options.text("unit")))}};
+  if (options.has("unit"))
+    import.units = {{ "*", plugin::or_throw(parse_unit(options.text("unit"))) }};
   import.split_into = static_cast<std::size_t>(options.integer("split_into"));
   const std::vector<std::filesystem::path> files(names.begin(), names.end());
   const Progress until({}, host.opening().token());

@@ -13,16 +13,17 @@
 
 namespace imunoise::recording {
 
-/// Reads the files in the order given; each stretch without a fault (see preflight.h) is a replicate,
-/// or `split_into` of them. The format is told by content first, then by extension. Files are read
-/// in parallel; the result does not depend on it. Each replicate carries its file's preflight.
+/// Reads the files in the order given; each stretch without a fault (see preflight.h) is a
+/// replicate, or `split_into` of them. The format is told by content first, then by extension.
+/// Files are read in parallel; the result does not depend on it. Each replicate carries its file's
+/// preflight.
 ///
 /// Replicates of several files hold the same channels in the same units, and one rate: rates that
 /// files state may differ by 0.1 % (clocks do), all replicates then carry the first file's.
 ///
-/// Errors name the file, the row (line of a text file, sample otherwise) and the way out: an unknown unit, a missing channel,
-/// a truncated file, fewer than kMinimumSamples in a replicate, files that disagree, a stop
-/// request. Never throws. Thread-safe.
+/// Errors name the file, the row (line of a text file, sample otherwise) and the way out: an
+/// unknown unit, a missing channel, a truncated file, fewer than kMinimumSamples in a replicate,
+/// files that disagree, a stop request. Never throws. Thread-safe.
 Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::path> paths,
                                             const ImportOptions& options = {},
                                             const Progress& progress = {});
