@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "recording/import/ros/imu_messages.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {
@@ -127,6 +129,44 @@ TEST_F(Bags, Ros1OfEveryPacking) {
     ASSERT_TRUE(got) << got.error().message;
     expect_counted(got->front(), 100);
   }
+}
+
+TEST_F(Bags, ThatEndTooSoonSaySo) {
+  const std::string file = mcap("none", 100, 1);
+  SKIP_WITHOUT(file, kNode);
+  const std::string bytes = bytes_in(file);
+  const auto whole = import_one(file);
+  ASSERT_TRUE(whole) << whole.error().message;
+  for (const Finding& one : whole->front().preflight->findings)
+    EXPECT_EQ(one.text.find("truncated"), std::string::npos) << one.text;
+  ImportOptions strict;
+  strict.strict = true;
+  const auto cut = write("cut.mcap", bytes.substr(0, bytes.size() * 3 / 4));
+  EXPECT_TRUE(import_one(cut));
+  EXPECT_NE(error_of(cut, strict).find("truncated"), std::string::npos) << error_of(cut, strict);
+}
+
+// A message as ROS 1 lays it out (sensor_msgs/Imu): sequence, time, frame_id, 37 numbers.
+std::string ros1_message(std::uint32_t seconds) {
+  std::string out(16, '\0');
+  std::memcpy(out.data() + 4, &seconds, sizeof seconds);
+  return out.append(37 * sizeof(double), '\0');
+}
+
+TEST(ImuCollector, LeavesOutAndCountsWhatIsNoMessage) {
+  const ImportOptions options;
+  ImuCollector collector("a.bag", options);
+  collector.topic(1, "/imu", "sensor_msgs/Imu");
+  collector.add(1, Encoding::kRos1, "short", 5);
+  for (std::uint32_t i = 1; i <= 3; ++i) collector.add(1, Encoding::kRos1, ros1_message(i), 5);
+  collector.add(1, Encoding::kRos1, ros1_message(4).substr(0, 100), 5);
+  const auto table = collector.finish();
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->unreadable, 2U);
+  EXPECT_EQ(table->first_unreadable, "topic /imu: message 0 is not a whole sensor_msgs/Imu");
+  EXPECT_EQ(size(table->columns.front().samples), 3U);
+  EXPECT_EQ(std::get<std::vector<std::int64_t>>(table->time->stamps),
+            (std::vector<std::int64_t>{1'000'000'000, 2'000'000'000, 3'000'000'000}));
 }
 
 TEST_F(Bags, TruncatedRos1ReadsUpToItsEnd) {

@@ -46,6 +46,8 @@ class Judge {
     report_.file = file_;
     report_.samples = rows_;
     report_.recognised = table_.notes;
+    if (table_.truncated)
+      find(Severity::kLeftOut, "the file is truncated: what comes before its end is used");
     const auto readable = check_readable();
     if (!readable) return tl::make_unexpected(readable.error());
     const auto paced = table_.time ? follow_time() : take_rate();

@@ -101,24 +101,27 @@ bool ImuCollector::wants(std::uint64_t number) const {
   return options_.topic.empty() || found->second.name == options_.topic;
 }
 
-Result<void> ImuCollector::add(std::uint64_t number, Encoding encoding, std::string_view bytes,
-                               std::int64_t received) {
+void ImuCollector::add(std::uint64_t number, Encoding encoding, std::string_view bytes,
+                       std::int64_t received) {
   Topic& topic = topics_.at(number);
   const std::size_t index = topic.messages++;
-  if (ambiguous_) return {};
+  if (ambiguous_) return;
+  const std::optional<ImuMessage> message = decode_imu(encoding, bytes);
+  if (!message) {
+    if (unreadable_++ == 0) {
+      first_unreadable_ =
+          fmt::format("topic {}: message {} is not a whole sensor_msgs/Imu", topic.name, index);
+    }
+    return;
+  }
   const bool first = chosen_.empty();
   if (first) chosen_ = topic.name;
   if (topic.name != chosen_) {
     ambiguous_ = true;
     times_ = {};
     values_ = {};
-    return {};
+    return;
   }
-  const auto trouble = [&](const std::string& what) {
-    return fail(fmt::format("{}: topic {}: message {}: {}", file_, topic.name, index, what));
-  };
-  const std::optional<ImuMessage> message = decode_imu(encoding, bytes);
-  if (!message) return trouble("is not a whole sensor_msgs/Imu; copy or record the bag again");
   if (first) {
     first_ = *message;
     header_time_ = message->stamp != 0;
@@ -128,7 +131,6 @@ Result<void> ImuCollector::add(std::uint64_t number, Encoding encoding, std::str
     const double value = message->values[c];
     values_[c].push(std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN());
   }
-  return {};
 }
 
 Result<void> ImuCollector::check_topics() const {
@@ -159,7 +161,7 @@ Result<void> ImuCollector::check_topics() const {
                   file_, all.empty() ? "none" : all));
 }
 
-Result<Table> ImuCollector::finish() {
+Result<Table> ImuCollector::finish(bool truncated) {
   if (const Result<void> sound = check_topics(); !sound) return tl::make_unexpected(sound.error());
   std::vector<Offer> offers;
   for (std::size_t c = 0; c < kNames.size(); ++c) {
@@ -174,6 +176,9 @@ Result<Table> ImuCollector::finish() {
         TimeColumn{header_time_ ? "header.stamp" : "time of recording", "ns", times_.take()};
   }
   table.row = [](std::size_t i) { return fmt::format("message {}", i); };
+  table.truncated = truncated;
+  table.unreadable = unreadable_;
+  table.first_unreadable = first_unreadable_;
   table.notes.push_back(fmt::format("topic {}", chosen_));
   for (const std::size_t c : *wanted) {
     table.columns.push_back({offers[c].name, values_[c].take(), 1.0, 0.0, offers[c].unit});

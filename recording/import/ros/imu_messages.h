@@ -72,12 +72,11 @@ class ImuCollector {
   /// Whether messages of this number are wanted.
   bool wants(std::uint64_t number) const;
   /// One message that is wanted. `received` (ns) is its time where all headers leave theirs 0.
-  /// Error: bytes that are no message.
-  Result<void> add(std::uint64_t number, Encoding encoding, std::string_view bytes,
-                   std::int64_t received);
-  /// The wanted channels. Error: no topic of an IMU, several and none chosen (all are listed), no
-  /// message; see import_files.
-  Result<Table> finish();
+  /// Bytes that are no message are left out and counted.
+  void add(std::uint64_t number, Encoding encoding, std::string_view bytes, std::int64_t received);
+  /// The wanted channels; `truncated`: the bag has no end. Error: no topic of an IMU, several and
+  /// none chosen (all are listed), no message; see import_files.
+  Result<Table> finish(bool truncated = false);
 
  private:
   struct Topic {
@@ -94,6 +93,8 @@ class ImuCollector {
   bool ambiguous_ = false;
   bool header_time_ = true;
   ImuMessage first_;
+  std::size_t unreadable_ = 0;
+  std::string first_unreadable_;
   Blocks<std::int64_t> times_;  // ns
   std::array<Blocks<double>, 6> values_;
 };

@@ -49,7 +49,8 @@ class McapReader {
       Fields fields(*head);
       const auto code = fields.number<unsigned char>();
       const auto length = fields.number<std::uint64_t>();
-      if (!fields.ok() || code == kMcapDataEnd) break;
+      if (fields.ok() && code == kMcapDataEnd) return collector_.finish();
+      if (!fields.ok()) break;
       const std::uint64_t begin = place + kMcapFrame;
       const std::uint64_t there = file_.size() - begin;
       const bool whole = length <= there;
@@ -60,14 +61,16 @@ class McapReader {
         }
         const Result<std::string_view> content = window.at(begin, length);
         if (!content) return tl::make_unexpected(content.error());
-        const Result<void> done =
-            code == kMcapChunk ? chunk(*content, place, whole) : record(code, *content);
-        if (!done) return tl::make_unexpected(done.error());
+        if (code != kMcapChunk) {
+          record(code, *content);
+        } else if (const auto done = chunk(*content, place, whole); !done) {
+          return tl::make_unexpected(done.error());
+        }
       }
       if (!whole) break;
       place = begin + length;
     }
-    return collector_.finish();
+    return collector_.finish(true);
   }
 
  private:
@@ -75,7 +78,7 @@ class McapReader {
     return code == kMcapSchema || code == kMcapChannel || code == kMcapMessage;
   }
 
-  Result<void> record(unsigned char code, std::string_view content) {
+  void record(unsigned char code, std::string_view content) {
     Fields fields(content);
     const auto number = fields.number<std::uint16_t>();
     if (code == kMcapSchema) {
@@ -85,7 +88,7 @@ class McapReader {
       const auto schema = schemas_.find(fields.number<std::uint16_t>());
       const auto topic = fields.counted<std::uint32_t>();
       const auto encoding = fields.counted<std::uint32_t>();
-      if (!fields.ok()) return {};
+      if (!fields.ok()) return;
       encodings_[number] = encoding == "ros1" ? Encoding::kRos1 : Encoding::kCdr;
       const bool readable = encoding == "ros1" || encoding == "cdr";
       const std::string type = schema == schemas_.end() ? "" : schema->second;
@@ -94,9 +97,8 @@ class McapReader {
       fields.number<std::uint32_t>();  // sequence
       const auto received = static_cast<std::int64_t>(fields.number<std::uint64_t>());
       fields.number<std::uint64_t>();  // published
-      return collector_.add(number, encodings_[number], fields.rest(), received);
+      collector_.add(number, encodings_[number], fields.rest(), received);
     }
-    return {};
   }
 
   Result<void> chunk(std::string_view content, std::uint64_t place, bool in_file) {
@@ -118,8 +120,7 @@ class McapReader {
       const auto code = records.number<unsigned char>();
       const std::string_view inner = records.counted<std::uint64_t>();
       if (!records.ok()) break;
-      const Result<void> done = record(code, inner);
-      if (!done) return done;
+      record(code, inner);
     }
     if (in_file && !records.ok()) return trouble("ends within a record; record the file again");
     return {};

@@ -72,14 +72,16 @@ class BagReader {
       if (code == kChunk || (whole && (code == kConnection || code == kMessage))) {
         const Result<std::string_view> data = window.at(after + 4, *data_length);
         if (!data) return tl::make_unexpected(data.error());
-        const Result<void> done =
-            code == kChunk ? chunk(header, *data, place, whole) : record(header, *data);
-        if (!done) return tl::make_unexpected(done.error());
+        if (code != kChunk) {
+          record(header, *data);
+        } else if (const auto done = chunk(header, *data, place, whole); !done) {
+          return tl::make_unexpected(done.error());
+        }
       }
       if (!whole) break;
       place = after + 4 + *data_length;
     }
-    return collector_.finish();
+    return collector_.finish(place != file_.size());
   }
 
  private:
@@ -91,7 +93,7 @@ class BagReader {
     return Fields(*raw).number<std::uint32_t>();
   }
 
-  Result<void> record(std::string_view header, std::string_view data) {
+  void record(std::string_view header, std::string_view data) {
     const auto code = bag_number<unsigned char>(header, "op");
     const auto number = bag_number<std::uint32_t>(header, "conn");
     if (code == kConnection) {
@@ -100,9 +102,8 @@ class BagReader {
       Fields time(bag_field(header, "time"));
       const std::int64_t seconds = time.number<std::uint32_t>();
       const std::int64_t nanoseconds = time.number<std::uint32_t>();
-      return collector_.add(number, Encoding::kRos1, data, seconds * 1'000'000'000 + nanoseconds);
+      collector_.add(number, Encoding::kRos1, data, seconds * 1'000'000'000 + nanoseconds);
     }
-    return {};
   }
 
   Result<void> chunk(std::string_view header, std::string_view data, std::uint64_t place,
@@ -119,8 +120,7 @@ class BagReader {
       const std::string_view inner = records.counted<std::uint32_t>();
       const std::string_view inner_data = records.counted<std::uint32_t>();
       if (!records.ok()) break;
-      const Result<void> done = record(inner, inner_data);
-      if (!done) return done;
+      record(inner, inner_data);
     }
     if (in_file && !records.ok()) return trouble("ends within a record; record the bag again");
     return {};

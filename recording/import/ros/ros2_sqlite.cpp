@@ -60,17 +60,17 @@ class Ros2Database {
              });
     if (!topics) return tl::make_unexpected(topics.error());
     std::size_t rows = 0;
-    const Result<void> messages =
-        each(made, "SELECT topic_id, timestamp, data FROM messages",
-             [&](sqlite3_stmt* row) -> Result<void> {
-               if (++rows % 65536 == 0 && progress.stopped()) {
-                 return fail(fmt::format("{}: the import was stopped", name_));
-               }
-               const auto topic = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
-               if (!collector_.wants(topic)) return {};
-               return collector_.add(topic, Encoding::kCdr, sqlite_bytes(row, 2),
-                                     sqlite3_column_int64(row, 1));
-             });
+    const Result<void> messages = each(
+        made, "SELECT topic_id, timestamp, data FROM messages",
+        [&](sqlite3_stmt* row) -> Result<void> {
+          if (++rows % 65536 == 0 && progress.stopped()) {
+            return fail(fmt::format("{}: the import was stopped", name_));
+          }
+          const auto topic = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
+          if (!collector_.wants(topic)) return {};
+          collector_.add(topic, Encoding::kCdr, sqlite_bytes(row, 2), sqlite3_column_int64(row, 1));
+          return {};
+        });
     if (!messages) return tl::make_unexpected(messages.error());
     return collector_.finish();
   }

@@ -46,6 +46,8 @@ struct Table {
   /// Rows that could not be read; their values are missing.
   std::size_t unreadable = 0;
   std::string first_unreadable;  ///< "row 22: 'abc' is not a number in column y"
+  /// The file ends within a record, or lacks its end; what comes before is here.
+  bool truncated = false;
 };
 
 /// Progress of one file among several that are read at the same time: reports the mean of all.
