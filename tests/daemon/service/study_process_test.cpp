@@ -32,12 +32,7 @@ class StudyProcess : public testing::Served {
   json opened(std::vector<std::string> command) {
     options_.compute = app::compute_in_child(calls_, std::move(command));
     serve();
-    return post_json("/v1/studies", {{"study", "s"},
-                                     {"campaign", "array"},
-                                     {"folder", "monday"},
-                                     {"channel", "gyro_x"},
-                                     {"model", "WN"},
-                                     {"wait_s", 8}});
+    return open_study("s");
   }
 };
 
