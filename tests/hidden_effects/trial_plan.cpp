@@ -57,9 +57,9 @@ TrialPlan trial_plan() {
   return out;
 }
 
-std::vector<Outcome> diagnose_all(const std::vector<CaseSpec>& specs, const Questions& questions) {
+std::vector<Outcome> diagnose_all(const std::vector<CaseSpec>& specs, bool automatic) {
   std::vector<Outcome> out(specs.size());
-  for_each_index(specs.size(), [&](std::size_t i) { out[i] = diagnose(specs[i], questions); });
+  for_each_index(specs.size(), [&](std::size_t i) { out[i] = diagnose(specs[i], automatic); });
   print_where("no report", out, [](const Outcome& outcome) { return !outcome.error.empty(); });
   return out;
 }

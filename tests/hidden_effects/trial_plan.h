@@ -38,8 +38,8 @@ struct TrialPlan {
 TrialPlan trial_plan();
 
 /// Diagnoses cases, several at a time; in their order. Prints those that gave no report.
-std::vector<Outcome> diagnose_all(const std::vector<CaseSpec>& specs,
-                                  const Questions& questions = {});
+/// `automatic`: the tool goes on after the first effect.
+std::vector<Outcome> diagnose_all(const std::vector<CaseSpec>& specs, bool automatic = false);
 
 /// Prints the outcomes for which `wrong` holds, a line each, under a heading.
 void print_where(const char* heading, const std::vector<Outcome>& outcomes,

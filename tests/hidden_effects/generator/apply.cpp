@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/oracle.h"
 
 namespace imunoise::hidden {
@@ -26,6 +27,15 @@ Injection of_spectrum(const Scene& scene, const Series& after) {
   return {strength(divergence(nearest, after), count),
           strength(divergence(scene.spectrum, after), count),
           {}};
+}
+
+Injection of_data(const Scene& scene, const Series& after) {
+  Injection out = of_spectrum(scene, after);
+  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
+  out.gained = 0.0;
+  for (const Recording& recording : scene.recordings)
+    *out.gained += likelihood_ratio(cosine_coefficients(recording[kSubject]), nearest, after);
+  return out;
 }
 
 // The informed δ is cheap and near: from there, secants of ln δ over ln size.
@@ -63,7 +73,7 @@ Injection add_noise(Scene& scene, double delta,
     Series& gyro = recording[kSubject];
     for (std::size_t t = 0; t < gyro.size(); ++t) gyro[t] += noise[t];
   }
-  return of_spectrum(scene, after(deviation));
+  return of_data(scene, after(deviation));
 }
 
 Injection add_power(Scene& scene, const std::vector<Series>& courses, double delta) {

@@ -20,6 +20,9 @@ Injection of_mean(double delta, std::vector<TrueParameter> parameters);
 /// What was put in, of gyro_x's spectrum becoming `after` in every replicate.
 Injection of_spectrum(const Scene& scene, const Series& after);
 
+/// The same once it was put in: with the nats that the data themselves give.
+Injection of_data(const Scene& scene, const Series& after);
+
 /// The size in [low, high] at which the spectrum `after(size)`, which moves away from the scene's
 /// as the size grows, has the δ asked.
 double solve_size(const Scene& scene, double delta, double low, double high,

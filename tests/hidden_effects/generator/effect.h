@@ -2,6 +2,7 @@
 
 // Hidden effects: what they do to a scene, and how strongly.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Injection {
   double delta = 0.0;     ///< The oracle's non-centrality; see oracle.h.
   double informed = 0.0;  ///< The same of an oracle who is told the base's levels as well.
   std::vector<TrueParameter> parameters;
+  /// Nats by which the true spectra exceed, on these very data, the nearest of the base's noises;
+  /// absent where the effect does not change spectra.
+  std::optional<double> gained{};
 };
 
 /// What is asked of the tool.

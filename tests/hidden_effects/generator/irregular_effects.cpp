@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/hidden_effects/generator/apply.h"
+#include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/draw.h"
 #include "tests/hidden_effects/generator/oracle.h"
 
@@ -88,6 +89,11 @@ Injection hide_modulation(Scene& scene, double delta) {
   return add_power(scene, courses, delta);
 }
 
+Series scaled(Series of, double factor) {
+  for (double& x : of) x *= factor;
+  return of;
+}
+
 // Every other replicate is noisier than its fellows: all of its noise by one factor. δ of an
 // observer who must fit the common level.
 Injection hide_replicate_change(Scene& scene, double delta) {
@@ -103,7 +109,16 @@ Injection hide_replicate_change(Scene& scene, double delta) {
   for (std::size_t r = 1; r < scene.replicates(); r += 2) {
     for (double& x : scene.recordings[r][kSubject]) x *= std::sqrt(1.0 + growth);
   }
-  return {delta, delta, {}};
+  Injection out = of_mean(delta, {});
+  out.gained = 0.0;
+  const auto noisier = static_cast<double>(scene.replicates() / 2);
+  const double mean = 1.0 + growth * noisier / static_cast<double>(scene.replicates());
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    const double own = r % 2 == 0 ? 1.0 : 1.0 + growth;
+    *out.gained += likelihood_ratio(cosine_coefficients(scene.recordings[r][kSubject]),
+                                    scaled(scene.spectrum, mean), scaled(scene.spectrum, own));
+  }
+  return out;
 }
 
 }  // namespace

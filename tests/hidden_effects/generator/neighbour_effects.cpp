@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/hidden_effects/generator/apply.h"
+#include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/draw.h"
 #include "tests/hidden_effects/generator/oracle.h"
 
@@ -40,6 +41,27 @@ Injection hide_tilt(Scene& scene, double delta) {
   return of_mean(delta, {});
 }
 
+// Nats by which gyro_x, given gyro_y, is likelier under what both share than gyro_x alone under the
+// nearest of the base's noises.
+double gained_beside(const Scene& scene, const Series& neighbour, const Series& common) {
+  Series after = scene.spectrum;
+  for (std::size_t k = 0; k < after.size(); ++k) after[k] += common[k];
+  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
+  double out = 0.0;
+  for (const Recording& recording : scene.recordings) {
+    const Series x = cosine_coefficients(recording[kSubject]);
+    const Series y = cosine_coefficients(recording["gyro_y"]);
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      const double transfer = common[k] / (neighbour[k] + common[k]);
+      const double variance = after[k] - transfer * common[k];
+      const double left = x[k + 1] - transfer * y[k + 1];
+      out += 0.5 * (std::log(nearest[k] / variance) + x[k + 1] * x[k + 1] / nearest[k] -
+                    left * left / variance);
+    }
+  }
+  return out;
+}
+
 // The structure shakes both gyros alike, with frequencies up to a few hertz. δ is that of an
 // observer of both gyros.
 Injection hide_vibration(Scene& scene, double delta) {
@@ -56,7 +78,9 @@ Injection hide_vibration(Scene& scene, double delta) {
     add_scaled(recording[kSubject], shaking, 1.0);
     add_scaled(recording["gyro_y"], shaking, 1.0);
   }
-  return of_mean(delta, {});
+  Injection out = of_mean(delta, {});
+  out.gained = gained_beside(scene, neighbour, spectrum(Markov{deviation, tau}, scene.samples()));
+  return out;
 }
 
 // A part of what gyro_y gives out shows in gyro_x.

@@ -112,7 +112,7 @@ Injection hide_low_pass(Scene& scene, double delta) {
     double state = gyro.front();
     for (double& x : gyro) x = state += (1.0 - pole) * (x - state);
   }
-  Injection out = of_spectrum(scene, after(pole));
+  Injection out = of_data(scene, after(pole));
   out.parameters = {{"tau_s", -1.0 / (std::log(pole) * scene.rate_hz), "s"}};
   return out;
 }
@@ -140,7 +140,7 @@ Injection hide_angle_rounding(Scene& scene, double delta) {
       told = now;
     }
   }
-  Injection out = of_spectrum(scene, after(error));
+  Injection out = of_data(scene, after(error));
   out.parameters = {{"q2", error * error, "(rad/s)^2"}, {"step", step, "rad/s"}};
   return out;
 }

@@ -28,6 +28,15 @@ double divergence(const Series& before, const Series& after) {
   return sum;
 }
 
+double likelihood_ratio(const Series& coefficients, const Series& before, const Series& after) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const double square = coefficients[k + 1] * coefficients[k + 1];
+    sum += 0.5 * (std::log(before[k] / after[k]) + square / before[k] - square / after[k]);
+  }
+  return sum;
+}
+
 double shared_divergence(const Series& a, const Series& b, const Series& common) {
   double sum = 0.0;
   for (std::size_t k = 0; k < common.size(); ++k) {

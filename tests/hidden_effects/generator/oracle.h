@@ -26,6 +26,10 @@ double mean_strength(const std::vector<Series>& shapes, const Series& spectrum);
 /// KL of variances `after` from `before`, one independent coefficient each; nats.
 double divergence(const Series& before, const Series& after);
 
+/// Log-likelihood of cosine coefficients (entry 0, the mean, is left out) under variances `after`,
+/// over that under `before`; nats.
+double likelihood_ratio(const Series& coefficients, const Series& before, const Series& after);
+
 /// The sum of `parts`, their levels free, from which `after` diverges least.
 Series nearest_sum(const Series& after, const std::vector<Series>& parts);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <numeric>
 
 #include "study/analysis/diagnose_series.h"
 #include "tests/hidden_effects/scoring/equivalence.h"
@@ -15,7 +14,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The names that are right for a case: those of any of its effects.
+}  // namespace
+
 std::vector<std::string> right_names(const CaseSpec& spec) {
   std::vector<std::string> out;
   for (const std::string& name : spec.effects) {
@@ -37,21 +37,6 @@ Result<v1::DiagnosisReport> ask(const std::vector<Recording>& recordings, const 
   return study::diagnose_series(replicates, static_cast<std::size_t>(subject - channels.begin()),
                                 options);
 }
-
-double nats_of(const v1::Rung& rung) {
-  return std::accumulate(rung.heldout_nats().begin(), rung.heldout_nats().end(), 0.0);
-}
-
-// Whether an effect adds a course that is the same in all its likelihoods: without it the data are
-// what a perfect fit of it leaves. Others change spectra or variances.
-bool shifts_the_mean(const std::string& name) {
-  static const std::vector<std::string> kShifts = {
-      "line",        "harmonics",      "mains_alias", "rate_ramp",     "warm_up",    "step",
-      "temperature", "supply_voltage", "magnetic",    "g_sensitivity", "cross_axis", "tilt"};
-  return contains(kShifts, find_effect(name)->id);
-}
-
-}  // namespace
 
 bool Outcome::detected() const {
   return report.verdict() == v1::found || abstained() || report.integrity_size() > 0;
@@ -100,38 +85,6 @@ bool Outcome::described() const {
          contains(kNoises, report.candidates(0).effect());
 }
 
-double Outcome::oracle_gain() const {
-  if (!clean_nats) return 0.5 * spec.delta * spec.delta;
-  return *clean_nats - nats_of(report.ladder(0));
-}
-
-std::optional<ErrorFall> Outcome::error_fall() const {
-  if (!named(1) || report.ladder_size() < 2) return std::nullopt;
-  const v1::Rung& before = report.ladder(0);
-  const v1::Rung& after = report.ladder(1);
-  if (before.heldout_nats_size() == 0 || after.heldout_nats_size() == 0) return std::nullopt;
-  ErrorFall out;
-  out.share = (nats_of(after) - nats_of(before)) / oracle_gain();
-  const v1::ErrorView* failing = nullptr;
-  const auto excess = [](const v1::ErrorView& one) { return one.value() / one.chance_limit(); };
-  for (const v1::ErrorView& one : before.views()) {
-    constexpr double kFails = 1e-3;
-    if (one.p() < kFails && (failing == nullptr || excess(one) > excess(*failing))) failing = &one;
-  }
-  for (const v1::ErrorView& now : after.views()) {
-    const auto was = std::find_if(before.views().begin(), before.views().end(),
-                                  [&](const auto& one) { return one.view() == now.view(); });
-    if (failing != nullptr && failing->view() == now.view()) {
-      out.failing = now.view();
-      out.at_floor = now.value() <= now.chance_limit();
-    } else if (was != before.views().end() && now.value() > now.chance_limit()) {
-      constexpr double kNoise = 1.1;  // a limit is crossed by a hair
-      if (now.value() > kNoise * std::max(was->value(), now.chance_limit())) out.risen = now.view();
-    }
-  }
-  return out;
-}
-
 std::vector<Covered> Outcome::intervals() const {
   std::vector<Covered> out;
   if (report.candidates_size() == 0 || !named(1)) return out;
@@ -169,24 +122,17 @@ std::string Outcome::describe() const {
   return out;
 }
 
-Outcome diagnose(const CaseSpec& spec, const Questions& questions) {
+Outcome diagnose(const CaseSpec& spec, bool automatic) {
   const HiddenCase made = make_case(spec);
   Outcome out;
   out.spec = spec;
   out.injections = made.injections;
-  const auto report = ask(made.recordings, made, questions.automatic);
+  auto report = ask(made.recordings, made, automatic);
   if (!report) {
     out.error = report.error().message;
     return out;
   }
-  out.report = *report;
-  const bool shift = std::all_of(spec.effects.begin(), spec.effects.end(), shifts_the_mean);
-  if (questions.oracle_from <= spec.delta && shift) {
-    const auto clean = ask(made.clean, made, false);
-    if (clean && clean->ladder_size() > 0 && clean->ladder(0).heldout_nats_size() > 0) {
-      out.clean_nats = nats_of(clean->ladder(0));
-    }
-  }
+  out.report = std::move(*report);
   return out;
 }
 

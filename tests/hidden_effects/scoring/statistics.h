@@ -21,6 +21,10 @@ struct Share {
     ++count;
     if (hit) ++hits;
   }
+  void add(const Share& other) {
+    count += other.count;
+    hits += other.hits;
+  }
   double value() const;
 
   /// Clopper & Pearson's one-sided 95 % bounds; 0 and 1 when nothing was counted.
