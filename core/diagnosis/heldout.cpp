@@ -47,12 +47,16 @@ double log_likelihood_of(const Regression& one, const Eigen::VectorXd& coefficie
 }
 
 // What the modulated effects of a fit to others gain on one replicate, whose coefficients are
-// given.
+// given and whose noise is its own where an effect makes it so.
 double modulation_gain(const Regression& one, const JointFit& fit,
                        const Eigen::VectorXd& coefficients) {
   if (fit.modulation.empty()) return 0.0;
   double out = 0.0;
-  Innovations white = innovations(one, {.model = fit.model, .effects = {coefficients, {}}});
+  JointFit here{.model = fit.model, .effects = {coefficients, {}}};
+  for (const EffectTerm& term : one.effects()) {
+    if (term.effect->own_noise != nullptr) term.effect->own_noise(term, one, here);
+  }
+  Innovations white = innovations(one, here);
   const std::vector<const VarianceCourse*> courses = variance_courses(one);
   for (std::size_t m = 0; m < courses.size(); ++m) {
     out += predicted_gain(fit.modulation[m], *courses[m], white);

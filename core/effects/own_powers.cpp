@@ -31,13 +31,14 @@ Model powers_only(Model model) {
 void fit_own_powers(const EffectTerm& term, const Regression& regression, JointFit& fit) {
   const std::vector<BandedPower> residual = regression.residual(fit.effects.value);
   std::vector<WhittleEstimate> found(residual.size());
-  for_each_index(residual.size(), [&](std::size_t k) {
-    found[k] = own_noise_of(term, fit.model.noise, std::span(&residual[k], 1));
+  for_each_index(residual.size(), [&](std::size_t i) {
+    found[i] = own_noise_of(term, fit.model.noise, std::span(&residual[i], 1));
   });
   fit.log_likelihood = 0.0;
-  for (const WhittleEstimate& one : found) {
-    fit.log_likelihood -= one.objective;
-    fit.own_noise.push_back(one.model);
+  fit.own_noise.assign(regression.subject().replicates(), fit.model.noise);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    fit.log_likelihood -= found[i].objective;
+    fit.own_noise[regression.replicates()[i]] = found[i].model;
   }
 }
 

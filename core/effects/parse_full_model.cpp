@@ -131,7 +131,7 @@ Result<void> add_candidate(std::string_view text, Hertz rate, std::string_view c
   return {};
 }
 
-Result<FullModel> as_fitted(FullModel model) {
+FullModel as_fitted(FullModel model) {
   for (EffectTerm& term : model.effects) term = shape_of(std::move(term));
   const auto is_ramp = [](const Term& term) {
     return std::holds_alternative<RateRamp>(term.process);
@@ -140,8 +140,6 @@ Result<FullModel> as_fitted(FullModel model) {
   const bool known =
       std::find(model.effects.begin(), model.effects.end(), ramp) != model.effects.end();
   if (std::erase_if(model.noise.terms, is_ramp) > 0 && !known) model.effects.push_back(ramp);
-  if (model.noise.terms.empty())
-    return fail("model: DR is a ramp of each replicate; add noise beside it, such as WN");
   return model;
 }
 

@@ -30,7 +30,7 @@ Result<void> add_candidate(std::string_view text, Hertz rate, std::string_view c
                            std::vector<FullModel>& to);
 
 /// The model as a joint fit takes it: effects without their sizes, and DR, a ramp of each
-/// replicate, as the effect `ramp(own)`. Error: no noise is left beside the effects.
-Result<FullModel> as_fitted(FullModel model);
+/// replicate, as the effect `ramp(own)`.
+FullModel as_fitted(FullModel model);
 
 }  // namespace imunoise

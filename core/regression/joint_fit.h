@@ -11,9 +11,11 @@ namespace imunoise {
 
 /// Noise and effects fitted as one model.
 struct JointFit {
-  FullModel model{};               ///< every value of the noise set
-  EffectCoefficients effects{};    ///< of the effects that are regressors
-  std::vector<Model> own_noise{};  ///< of each replicate, where an effect gives it one of its own
+  FullModel model{};             ///< every value of the noise set
+  EffectCoefficients effects{};  ///< of the effects that are regressors
+  /// Of each replicate of the subject, where an effect gives it one of its own; the common one of
+  /// those that did not count.
+  std::vector<Model> own_noise{};
   std::vector<Modulation> modulation{};  ///< one a course of the variance, see variance_courses()
   double log_likelihood = 0.0;           ///< nats, less what does not depend on the model
   Termination termination = Termination::kConverged;

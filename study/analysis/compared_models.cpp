@@ -52,7 +52,7 @@ std::vector<Model> Comparisons::near(const Model& model) const {
     const bool twice = std::any_of(out.begin(), out.end(), [&](const Model& other) {
       return kinds_of(other) == kinds_of(one);
     });
-    if (!twice && !is_known(one) && enough_scales(one, {measured_.begin(), measured_.end()}))
+    if (!twice && !is_known(one) && can_be_fitted(one, {measured_.begin(), measured_.end()}))
       out.push_back(std::move(one));
   };
   for (const Process& process :

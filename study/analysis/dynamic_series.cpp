@@ -223,7 +223,7 @@ Result<v1::DynamicReport> dynamic_series(const Series& series, const CovariateDa
   if (!bins) return tl::unexpected(bins.error());
   std::vector<WaveletVariance> all;
   for (const CovariateBin& bin : *bins) all.insert(all.end(), bin.runs.begin(), bin.runs.end());
-  if (auto enough = enough_scales(*model, all); !enough) return tl::unexpected(enough.error());
+  if (auto sound = can_be_fitted(*model, all); !sound) return tl::unexpected(sound.error());
   const DynamicFit fit = fit_dynamic(*model, *bins, options.confidence, progress.part(0.3, 1.0));
   if (progress.stopped()) return fail("stopped");
 

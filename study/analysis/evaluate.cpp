@@ -12,9 +12,7 @@ Result<FullModel> started(const std::string& model, const PreparedChannel& prepa
                           const Progress& progress) {
   const auto written = parse_full_model(model, prepared.subject->rate);
   if (!written) return tl::unexpected(written.error());
-  auto out = as_fitted(*written);
-  if (!out) return out;
-  return start_of(std::move(*out), *prepared.subject, prepared.moments, progress);
+  return start_of(as_fitted(*written), *prepared.subject, prepared.moments, progress);
 }
 
 std::optional<HeldOut> held_out_of(const FittedModel& model) {

@@ -64,21 +64,20 @@ LessEffects what_is_left(const Series& series, const Model& noise, const FittedM
 Result<LessEffects> take_out_effects(const Series& series, const FullModel& written,
                                      const Progress& progress) {
   if (written.effects.empty()) return LessEffects{series, written.noise, {}, {}, {}};
-  const Result<FullModel> model = as_fitted(written);
-  if (!model) return tl::unexpected(model.error());
+  const FullModel model = as_fitted(written);
   if (auto enough = long_enough(series); !enough) return tl::unexpected(enough.error());
-  const auto witnesses = followed(*model, series);
+  const auto witnesses = followed(model, series);
   if (!witnesses) return tl::unexpected(witnesses.error());
   const auto measured = measured_replicates(series, {}, progress.part(0.0, 0.2));
   if (!measured) return tl::unexpected(measured.error());
   const auto subject = std::make_shared<const Subject>(
       make_subject(series.replicates, *witnesses, {}, progress.part(0.2, 0.4)));
   if (progress.stopped()) return fail("stopped");
-  const auto start = start_of(*model, *subject, *measured, progress.part(0.4, 0.6));
+  const auto start = start_of(model, *subject, *measured, progress.part(0.4, 0.6));
   if (!start) return tl::unexpected(start.error());
   const FittedModel trial = fit_full_model(subject, *start, progress.part(0.6, 1.0));
   if (progress.stopped()) return fail("stopped");
-  LessEffects out = what_is_left(series, model->noise, trial);
+  LessEffects out = what_is_left(series, model.noise, trial);
   out.sizes_given = std::any_of(written.effects.begin(), written.effects.end(),
                                 [](const EffectTerm& one) { return shape_of(one) != one; });
   return out;
@@ -86,8 +85,8 @@ Result<LessEffects> take_out_effects(const Series& series, const FullModel& writ
 
 Result<FullModel> start_of(FullModel model, const Subject& subject,
                            const std::vector<WaveletVariance>& measured, const Progress& progress) {
-  if (auto enough = enough_scales(model.noise, measured); !enough)
-    return tl::unexpected(enough.error());
+  if (auto sound = can_be_fitted(model.noise, measured); !sound)
+    return tl::unexpected(sound.error());
   for (const EffectTerm& term : model.effects) {
     if (auto fits = check(term, subject); !fits) return tl::unexpected(fits.error());
   }

@@ -6,6 +6,18 @@
 
 namespace imunoise::study {
 
+namespace {
+
+// Some process has a power that is not given as 0, and is no ramp, which one number describes.
+bool is_random(const Model& model) {
+  return std::any_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
+    const bool none = term.given[0] && values(term.process)[0] == 0.0;
+    return !none && !std::holds_alternative<RateRamp>(term.process);
+  });
+}
+
+}  // namespace
+
 std::string default_model_note(std::string_view done, std::string_view model) {
   return fmt::format("No model was named: {} {}. Choose one with --model.", model, done);
 }
@@ -30,7 +42,12 @@ Result<void> check_replicates(const Series& series, const std::vector<WaveletVar
   return {};
 }
 
-Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured) {
+Result<void> can_be_fitted(const Model& model, const std::vector<WaveletVariance>& measured) {
+  if (!is_random(model)) {
+    return fail(
+        "model: it has no noise, and a ramp or a power of 0 explains no random error; add a "
+        "process such as WN");
+  }
   std::size_t scales = 0;
   for (const WaveletVariance& wv : measured) scales = std::max(scales, wv.scales.size());
   if (free_parameters(model) <= scales) return {};
@@ -57,8 +74,8 @@ Result<Prepared> prepare(const Series& series, std::string_view text, const Gram
   if (!left) return tl::unexpected(left.error());
   auto measured = measured_replicates(left->series, options, progress.part(0.4, 1.0));
   if (!measured) return tl::unexpected(measured.error());
-  if (auto enough = enough_scales(left->noise, *measured); !enough)
-    return tl::unexpected(enough.error());
+  if (auto sound = can_be_fitted(left->noise, *measured); !sound)
+    return tl::unexpected(sound.error());
   return Prepared{std::move(*left), std::move(*measured)};
 }
 

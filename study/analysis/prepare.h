@@ -26,8 +26,9 @@ struct Prepared {
 /// the same samples. `measured` are those of the series.
 Result<void> check_replicates(const Series& series, const std::vector<WaveletVariance>& measured);
 
-/// Error: more free parameters than the longest replicate has scales.
-Result<void> enough_scales(const Model& model, const std::vector<WaveletVariance>& measured);
+/// Error: a model without noise, or with more free parameters than the longest replicate has
+/// scales.
+Result<void> can_be_fitted(const Model& model, const std::vector<WaveletVariance>& measured);
 
 /// The wavelet variance of each replicate. Error: as check_replicates(), or the caller stopped it.
 Result<std::vector<WaveletVariance>> measured_replicates(const Series& series,

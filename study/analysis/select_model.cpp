@@ -62,7 +62,7 @@ const FullModel& largest(const std::vector<FullModel>& models) {
 Result<void> all_have_scales(const std::vector<FullModel>& named,
                              const std::vector<WaveletVariance>& measured) {
   for (const FullModel& one : named) {
-    if (auto enough = enough_scales(one.noise, measured); !enough) return enough;
+    if (auto sound = can_be_fitted(one.noise, measured); !sound) return sound;
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include "study/analysis/fit_series.h"
 #include "study/analysis/select_model.h"
 #include "study/analysis/series.h"
+#include "study/analysis/test_series.h"
 
 namespace imunoise::study {
 namespace {
@@ -88,6 +89,23 @@ TEST(Choice, ANegativePhiMayBeQuantisation) {
   EXPECT_TRUE(has_note(*fit, "Quantisation noise does so"));
   options.model = "QN + WN";
   EXPECT_FALSE(has_note(*fit_series(series_of(replicates, 0), options), "Quantisation noise"));
+}
+
+TEST(Choice, AModelWithoutNoiseIsRefused) {
+  const auto replicates = simulated("WN(sigma2=1)", 3, 4096);
+  const Series series = series_of(replicates, 0);
+  for (const std::string model : {"DR", "WN(sigma2=0)", "WN(sigma2=0) + DR"}) {
+    SelectOptions select;
+    select.models = {model, "WN"};
+    FitOptions fit;
+    fit.model = model;
+    TestOptions test;
+    test.model = model;
+    const auto refusal = [](const auto& out) { return out ? std::string() : out.error().message; };
+    EXPECT_NE(refusal(select_model(series, select)).find("no noise"), std::string::npos) << model;
+    EXPECT_NE(refusal(fit_series(series, fit)).find("no noise"), std::string::npos) << model;
+    EXPECT_NE(refusal(test_series(series, test)).find("no noise"), std::string::npos) << model;
+  }
 }
 
 }  // namespace

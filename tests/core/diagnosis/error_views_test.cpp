@@ -170,6 +170,18 @@ TEST(ErrorViews, PowersOfEachReplicateAreHeldOutByStretches) {
   EXPECT_LT(std::abs(idle), 8.0);
 }
 
+// Each replicate is judged by noise of its own, and by a modulation that the others fitted.
+TEST(HeldOut, PowersOfEachReplicateBesideNoiseThatFollowsAWitness) {
+  const auto plain = subject_of({.model = "WN(sigma2=1)", .seed = 48, .temperature = heat});
+  const auto subject = scaled(*plain, [](std::size_t k, double s) {
+    return (k == 3 ? 1.3 : 1.0) * std::exp(0.15 * heat(k, s));
+  });
+  const HeldOut powers = held_out(fitted(subject, "WN + own_powers"));
+  const HeldOut both = held_out(fitted(subject, "WN + own_powers + modulated(temperature)"));
+  for (std::size_t k = 0; k < powers.nats.size(); ++k)
+    EXPECT_GT(both.nats[k], powers.nats[k] + 10.0) << k;
+}
+
 // A term that is not there gains nothing on data it was not fitted to: of many, none more than
 // luck. P(gain > 5 nats) of one number on one replicate is below 1e-3.
 TEST(HeldOut, AWrongTermGainsNothing) {
