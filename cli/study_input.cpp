@@ -14,14 +14,7 @@ Result<std::vector<recording::Replicate>> read_study_input(
     if (!std::filesystem::exists(file))
       return fail(file + ": not found; this study needs it. Restore it, or start a new study");
   }
-  RawInput raw;
-  raw.files.assign(input.files().begin(), input.files().end());
-  raw.rate = input.rate_hz();
-  raw.unit = input.unit();
-  raw.delimiter = input.delimiter();
-  raw.header = input.header();
-  raw.no_header = input.no_header();
-  if (input.split_into() > 1) raw.split_into = input.split_into();
+  RawInput raw = raw_from(input);
   if (!channel.empty()) raw.channels = {channel};
   return read_with_witnesses(input_from(raw), witnesses);
 }

@@ -24,7 +24,7 @@ build_packages=(
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
   libsoci-dev        # the catalogue of recordings
-  liblz4-dev libzstd-dev libbz2-dev  # packed chunks of bags
+  liblz4-dev libzstd-dev libbz2-dev zlib1g-dev  # packed bags and files
   libsqlite3-dev     # bags of ROS 2
 )
 # The page is built with npm, and tested in a browser; those of other sources do as well.
@@ -35,8 +35,8 @@ test_packages=(
   clang libclang-rt-14-dev       # fuzzing
   clang-format clang-tidy
   umockdev libumockdev-dev       # USB devices that are not there
-  python3-h5py python3-xarray python3-h5netcdf  # other programs open our chunk files
-  lz4 zstd python3-rosbag python3-sensor-msgs  # other programs write bags
+  python3-h5py python3-xarray python3-h5netcdf python3-scipy  # other programs open our files, and write theirs
+  lz4 zstd bzip2 python3-rosbag python3-sensor-msgs  # other programs write bags
   postgresql                     # the catalogue of several benches
   zsh                            # its completion
 )

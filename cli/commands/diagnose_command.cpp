@@ -2,6 +2,8 @@
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "recording/import/table/names.h"
+#include "study/analysis/preflights.h"
 #include "study/figure/svg.h"
 #include "study/report/figures/diagnosis_pictures.h"
 
@@ -18,7 +20,10 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
     if (first.channels[*found].interpolated)
       return fail(name +
                   ": is of another stream than the channels before it; diagnose it by itself");
-    out.push_back(*found);
+    const bool several = first.channels[*found].name != name;  // a pattern
+    for (std::size_t c = *found; c < (several ? first.channels.size() : *found + 1); ++c) {
+      if (c == *found || recording::matches(name, first.channels[c].name)) out.push_back(c);
+    }
   }
   if (!out.empty()) return out;
   for (std::size_t c = 0; c < first.channels.size(); ++c) {
@@ -54,7 +59,9 @@ int run(const DiagnoseArguments& arguments) {
     const auto done =
         study::diagnose_series(*replicates, channel, arguments.diagnose, line.progress());
     if (!done) return print_error(done.error());
-    *reports.add_channels() = *done;
+    v1::DiagnosisReport& report = *reports.add_channels();
+    report = *done;
+    *report.mutable_preflight() = study::preflights(*replicates);
   }
   if (arguments.svg) {
     if (auto done = write_pictures(reports, *arguments.svg); !done)

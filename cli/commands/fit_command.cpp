@@ -4,6 +4,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
+#include "study/analysis/preflights.h"
 #include "study/figure/svg.h"
 #include "study/report/figures/budget_figure.h"
 #include "study/report/html/fit_page.h"
@@ -33,7 +34,9 @@ int run(const FitArguments& arguments) {
     ProgressLine line(series.channel);
     const auto fitted = study::fit_series(series, arguments.fit, line.progress());
     if (!fitted) return print_error(fitted.error());
-    *reports.add_channels() = *fitted;
+    v1::FitReport& report = *reports.add_channels();
+    report = *fitted;
+    *report.mutable_preflight() = study::preflights(subjects->replicates);
   }
   if (arguments.report) {
     if (auto done = write_file(*arguments.report, report::html_page(reports)); !done)

@@ -10,6 +10,7 @@
 #include "cli/study_input.h"
 #include "daemon/process/spawning.h"
 #include "daemon/service/service.h"
+#include "study/analysis/preflights.h"
 #include "study/ladder/study.h"
 
 namespace imunoise::cli {
@@ -62,14 +63,17 @@ Result<v1::NamedInput> named_input(const v1::StudyInput& input,
   look.clear_files();
   look.add_files(input.files(0));
   // A channel that is not there is told with those that are.
-  for (const std::string& one : wanted) {
-    if (auto there = read_study_input(look, one, {}); !there) return tl::unexpected(there.error());
-    out.add_channels(one);
+  for (const std::string& one : wanted.empty() ? std::vector<std::string>{""} : wanted) {
+    const auto there = read_study_input(look, one, {});
+    if (!there) return tl::unexpected(there.error());
+    *out.mutable_preflight() = study::preflights(*there);
+    if (!wanted.empty()) {
+      out.add_channels(one);
+      continue;
+    }
+    for (const recording::Channel& channel : there->front().channels)
+      out.add_channels(channel.name);
   }
-  if (!wanted.empty()) return out;
-  const auto replicates = read_study_input(look, "", {});
-  if (!replicates) return tl::unexpected(replicates.error());
-  for (const recording::Channel& one : replicates->front().channels) out.add_channels(one.name);
   return out;
 }
 

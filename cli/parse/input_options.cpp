@@ -30,10 +30,10 @@ CLI::Validator zero_or_above() {
 
 void add_input(CLI::App& command, RawInput& raw) {
   command
-      .add_option(
-          "FILES", raw.files,
-          "Recordings, one replicate each: HDF5, CSV, .npy or raw numbers with a sidecar; or the "
-          "folder of one recording")
+      .add_option("FILES", raw.files,
+                  "Recordings, one replicate each: CSV, bags of ROS, MATLAB, HDF5, NumPy and "
+                  "others; or the "
+                  "folder of one recording")
       ->required();
   command
       .add_option("--channel", raw.channels,
@@ -70,6 +70,11 @@ void add_input(CLI::App& command, RawInput& raw) {
   command.add_option("--topic", raw.topic, "Topic of a bag, such as /imu/data")
       ->type_name("NAME")
       ->default_str("the only one of an IMU");
+  command
+      .add_option("--dbc", raw.dbc,
+                  "Database of messages for a log of a CAN bus: a DBC file, or mti600, aceinna or "
+                  "mm5.10")
+      ->type_name("FILE");
   command
       .add_option("--delimiter", raw.delimiter, "Separator of a text file: one character, or 'tab'")
       ->type_name("CHARACTER")
@@ -137,11 +142,27 @@ std::vector<recording::TimeSpan> spans_from(const std::vector<std::string>& text
   return out;
 }
 
+RawInput raw_from(const v1::StudyInput& input) {
+  RawInput out;
+  out.files.assign(input.files().begin(), input.files().end());
+  out.rate = input.rate_hz();
+  out.unit = input.unit();
+  out.delimiter = input.delimiter();
+  out.header = input.header();
+  out.no_header = input.no_header();
+  if (input.split_into() > 1) out.split_into = input.split_into();
+  out.time_unit = input.time_unit();
+  if (input.has_from()) out.from = input.from();
+  if (input.has_until()) out.until = input.until();
+  out.exclude.assign(input.exclude().begin(), input.exclude().end());
+  out.strict = input.strict();
+  out.topic = input.topic();
+  out.dbc = input.dbc();
+  return out;
+}
+
 v1::StudyInput study_input_from(const RawInput& raw) {
   static_cast<void>(input_from(raw));  // refuses what cannot be read
-  if (!raw.time_unit.empty() || raw.from || raw.until || !raw.exclude.empty() || raw.strict)
-    refuse("--time-unit, --from, --until, --exclude, --strict",
-           "a study uses whole files: cut them first");
   v1::StudyInput out;
   for (const std::string& file : raw.files) out.add_files(std::filesystem::absolute(file).string());
   out.set_rate_hz(raw.rate);
@@ -150,6 +171,13 @@ v1::StudyInput study_input_from(const RawInput& raw) {
   out.set_header(raw.header);
   out.set_no_header(raw.no_header);
   out.set_split_into(static_cast<std::uint32_t>(raw.split_into));
+  out.set_time_unit(raw.time_unit);
+  if (raw.from) out.set_from(*raw.from);
+  if (raw.until) out.set_until(*raw.until);
+  *out.mutable_exclude() = {raw.exclude.begin(), raw.exclude.end()};
+  out.set_strict(raw.strict);
+  out.set_topic(raw.topic);
+  if (!raw.dbc.empty()) out.set_dbc(std::filesystem::absolute(raw.dbc).string());
   return out;
 }
 
@@ -171,6 +199,7 @@ InputArguments input_from(const RawInput& raw) {
   out.import.exclude = spans_from(raw.exclude);
   out.import.strict = raw.strict;
   out.import.topic = raw.topic;
+  out.import.dbc = raw.dbc;
   if (!raw.delimiter.empty()) {
     const bool tab = raw.delimiter == "tab" || raw.delimiter == "\\t";
     if (!tab && raw.delimiter.size() != 1) refuse("--delimiter", "one character, or 'tab'");

@@ -20,6 +20,7 @@ struct RawInput {
   std::vector<std::string> exclude;
   bool strict = false;
   std::string topic;
+  std::string dbc;
   std::string delimiter;
   bool header = false;
   bool no_header = false;
@@ -43,6 +44,8 @@ void add_measure(CLI::App& command, RawInput& raw);
 InputArguments input_from(const RawInput& raw);
 /// As a study keeps it: absolute paths, whatever folder is the current one later.
 v1::StudyInput study_input_from(const RawInput& raw);
+/// What study_input_from() was made of.
+RawInput raw_from(const v1::StudyInput& input);
 study::MeasureOptions measure_from(const RawInput& raw);
 Unit unit_from(const std::string& text);
 [[noreturn]] void refuse(const std::string& option, const std::string& why);

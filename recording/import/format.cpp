@@ -13,6 +13,8 @@
   FORMAT(raw)                           \
   FORMAT(hdf5)                          \
   FORMAT(npy)                           \
+  FORMAT(npz)                           \
+  FORMAT(matlab5)                       \
   FORMAT(mcap)                          \
   FORMAT(ros1_bag)                      \
   FORMAT(ros2_sqlite)                   \

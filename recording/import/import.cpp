@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/support/parallel.h"
+#include "recording/import/packed/unpacked_file.h"
 #include "recording/import/preflight/preflight.h"
 #include "recording/import/table/format.h"
 #include "recording/import/table/table.h"
@@ -35,11 +36,28 @@ Result<void> check_lengths(const std::string& file, const Table& table) {
                           table.time->name, size(table.time->stamps), size(first.samples)));
 }
 
-Result<Judged> read_table(const std::filesystem::path& path, const ImportOptions& options,
-                          FileProgress& progress) {
+Result<Table> read_as_it_is(const std::filesystem::path& path, const ImportOptions& options,
+                            FileProgress& progress) {
   const Result<const ImportFormat*> format = detect_format(path);
   if (!format) return tl::make_unexpected(format.error());
-  Result<Table> table = (*format)->read(path, options, progress);
+  return (*format)->read(path, options, progress);
+}
+
+// Of a file, packed as a whole or not.
+Result<Table> read_content(const std::filesystem::path& path, const ImportOptions& options,
+                           FileProgress& progress) {
+  const auto unpacked = UnpackedFile::of(path, [&] { return progress.stopped(); });
+  if (!unpacked) return tl::make_unexpected(unpacked.error());
+  if (!*unpacked) return read_as_it_is(path, options, progress);
+  Result<Table> table = read_as_it_is((*unpacked)->path(), options, progress);
+  if (!table) return fail((*unpacked)->in_users_words(table.error().message));
+  table->truncated = table->truncated || (*unpacked)->truncated();
+  return table;
+}
+
+Result<Judged> read_table(const std::filesystem::path& path, const ImportOptions& options,
+                          FileProgress& progress) {
+  Result<Table> table = read_content(path, options, progress);
   if (!table) return tl::make_unexpected(table.error());
   if (auto even = check_lengths(path.string(), *table); !even)
     return tl::make_unexpected(even.error());

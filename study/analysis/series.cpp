@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "recording/import/table/names.h"
+
 namespace imunoise::study {
 
 Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel) {
@@ -30,8 +32,13 @@ Series series_of(std::span<const recording::Replicate> replicates, std::size_t c
 Result<std::size_t> channel_called(const std::string& name, const recording::Replicate& in) {
   const auto& channels = in.channels;
   if (name.empty() && channels.size() == 1) return std::size_t{0};
-  const auto found = std::find_if(channels.begin(), channels.end(),
-                                  [&](const recording::Channel& one) { return one.name == name; });
+  auto found = std::find_if(channels.begin(), channels.end(),
+                            [&](const recording::Channel& one) { return one.name == name; });
+  if (found == channels.end()) {
+    found = std::find_if(channels.begin(), channels.end(), [&](const recording::Channel& one) {
+      return recording::matches(name, one.name);
+    });
+  }
   if (found != channels.end()) return static_cast<std::size_t>(found - channels.begin());
   std::string known;
   for (const recording::Channel& one : channels) known += (known.empty() ? "" : ", ") + one.name;

@@ -25,7 +25,8 @@ struct Series {
 /// that many channels.
 Series series_of(std::span<const recording::Replicate> replicates, std::size_t channel);
 
-/// The number of a channel; a nameless one is the only one. Error: there is none of that name; says
+/// The number of a channel, by its own name or a common one (gyro_x); a nameless one is the only
+/// one. Error: there is none of that name; says
 /// which there are.
 Result<std::size_t> channel_called(const std::string& name, const recording::Replicate& in);
 

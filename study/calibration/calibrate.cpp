@@ -9,6 +9,7 @@
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/reading/places.h"
 #include "recording/store/reading/replicates.h"
+#include "study/analysis/preflights.h"
 #include "study/analysis/prepare.h"
 #include "study/calibration/calibrate_array.h"
 #include "study/calibration/calibrate_channel.h"
@@ -235,6 +236,7 @@ Result<v1::Calibration> calibrate_files(const std::vector<Replicate>& replicates
   out.set_version(kCalibrationVersion);
   out.set_made_ns(options.made_ns);
   *out.mutable_settings() = settings_of(options);
+  *out.mutable_preflight() = preflights(replicates);
   calibrate_stream(task, replicates, options, progress, out);
   if (progress.stopped()) return fail("stopped");
   out.set_summary(summary_of(out));

@@ -9,6 +9,7 @@
 #include "study/analysis/diagnose_series.h"
 #include "study/analysis/evaluate.h"
 #include "study/analysis/less_effects.h"
+#include "study/analysis/preflights.h"
 #include "study/analysis/series.h"
 #include "study/analysis/unexplained.h"
 #include "study/analysis/vocabulary.h"
@@ -116,11 +117,13 @@ Result<RecordedChannel> Operation::looked(const std::optional<std::string>& mode
     return tl::unexpected(known.error());
   const Result<WitnessNames> witnesses = model ? needed_by(*model, recordings->front()) : allowed();
   if (!witnesses) return tl::unexpected(witnesses.error());
+  auto told = preflights(*recordings);
   auto out =
       prepare_channel(std::move(*recordings), *channel, *witnesses, progress_.part(0.0, 0.1));
   if (!out) return out;
   out->prepared.fingerprint = samples;
   study_.set_fingerprint(samples);
+  *study_.mutable_preflight() = std::move(told);
   study_.set_channel(out->prepared.name);
   return out;
 }

@@ -1,9 +1,12 @@
 // `imunoise diagnose` and `imunoise study` as a user runs them.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "tests/cli/program.h"
 
@@ -93,6 +96,42 @@ TEST_F(Diagnose, WhatIsReadIsNotOverwritten) {
   ASSERT_EQ(run("study new a.study " + files + " --channel gyro_x --model WN").status, 0);
   EXPECT_NE(run("study report a.study a.study").status, 0);
   EXPECT_EQ(run("study show a.study").status, 0);
+}
+
+TEST_F(Diagnose, AStudyTakesWhateverFitTakes) {
+  std::string text = "time,wx,ax,ay,az\n";
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise;
+  for (int i = 0; i < 2000; ++i) {
+    text += fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f}\n", 5 * i + (i < 1000 ? 0 : 400),
+                        0.1 * noise(random), 0.02 * noise(random), 0.02 * noise(random),
+                        1.0 + 0.02 * noise(random));
+  }
+  std::ofstream(folder_ / "odd.csv") << text;
+  const std::string how =
+      " odd.csv --unit 'gyro_*=deg/s,acc_*=g' --time-unit ms --from 0.5 --exclude 1..1.1 "
+      "--channel gyro_x --model WN";
+  const Outcome made = run("study new odd.study" + how);
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const json study = json::parse(run("study show odd.study --json").out);
+  EXPECT_EQ(study.at("unit"), "rad/s");
+  EXPECT_EQ(study.at("rate_hz"), 200.0);
+  ASSERT_EQ(study.at("preflight").size(), 1U);
+  EXPECT_EQ(study.at("preflight").at(0).at("stretches"), 3);
+  EXPECT_EQ(study.at("preflight").at(0).at("used"), "1880");
+  const json& found = study.at("preflight").at(0).at("findings").at(0);
+  EXPECT_EQ(found.at("left_out"), true);
+  EXPECT_NE(found.at("text").get<std::string>().find("gap of 0.4 s"), std::string::npos) << found;
+  EXPECT_EQ(run("study add odd.study QN").status, 0) << "reads the file in the same way again";
+  EXPECT_EQ(run("study report odd.study odd.html").status, 0);
+  EXPECT_NE(read("odd.html").find("gap of 0.4 s"), std::string::npos);
+  const Outcome fitted = run("fit" + how + " --json --report fit.html");
+  ASSERT_EQ(fitted.status, 0) << fitted.errors;
+  EXPECT_EQ(json::parse(fitted.out).at("preflight").at(0).at("findings").at(0), found);
+  EXPECT_NE(read("fit.html").find("gap of 0.4 s"), std::string::npos);
+  const Outcome refused = run("study new strict.study --strict" + how);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("--strict refuses"), std::string::npos) << refused.errors;
 }
 
 TEST_F(Diagnose, AStudyWhoseRecordingIsGoneSaysSo) {

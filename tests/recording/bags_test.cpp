@@ -41,11 +41,6 @@ class Bags : public FileTest {
   }
 };
 
-std::string bytes_in(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // What the writers' messages hold.
 void expect_counted(const Replicate& bag, std::size_t messages) {
   ASSERT_EQ(bag.channels.size(), 6U);

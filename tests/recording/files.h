@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,11 @@ inline Result<std::vector<Replicate>> import_one(const std::filesystem::path& pa
                                                  const ImportOptions& options = {}) {
   const std::vector<std::filesystem::path> paths = {path};
   return import_files(paths, options);
+}
+
+inline std::string bytes_in(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Options that only state the rate.

@@ -13,48 +13,9 @@
 namespace imunoise::recording {
 namespace {
 
-// Text of the dictionary, and where the numbers begin.
-struct Preamble {
-  std::string dictionary;
-  std::uint64_t end = 0;
-};
-
 // The dictionary of an array of numbers has 200 bytes; only named fields, which are refused, need
 // more.
 constexpr std::uint64_t kLongestDictionary = std::uint64_t{64} << 10U;
-
-Result<Preamble> read_preamble(const File& file) {
-  const auto truncated = [&] {
-    return fail(fmt::format("{}: ends within its .npy header; copy or save it again", file.name()));
-  };
-  std::array<char, 12> start = {};
-  const Result<std::size_t> got = file.read_at(0, start);
-  if (!got) return tl::make_unexpected(got.error());
-  if (*got < start.size()) return truncated();
-  const auto byte = [&](std::size_t i) {
-    return std::uint64_t{static_cast<unsigned char>(start[i])};
-  };
-  const std::uint64_t major = byte(6);
-  if (major < 1 || major > 3) {
-    return fail(fmt::format("{}: .npy version {}, known are 1, 2 and 3; save it with another NumPy",
-                            file.name(), major));
-  }
-  std::uint64_t length = byte(8) | byte(9) << 8U;
-  const std::uint64_t begin = major == 1 ? 10 : 12;
-  if (major > 1) length |= byte(10) << 16U | byte(11) << 24U;
-  if (length > file.size() - begin) return truncated();
-  if (length > kLongestDictionary) {
-    return fail(
-        fmt::format("{}: a .npy header of {} bytes, at most {} are read; save it again with "
-                    "numpy.save",
-                    file.name(), length, kLongestDictionary));
-  }
-  Preamble out{std::string(length, '\0'), begin + length};
-  const Result<std::size_t> text = file.read_at(begin, out.dictionary);
-  if (!text) return tl::make_unexpected(text.error());
-  if (*text != length) return truncated();
-  return out;
-}
 
 Result<bool> claims_npy(const UnknownFile& file) {
   if (file.extension != ".npy") return false;
@@ -64,6 +25,45 @@ Result<bool> claims_npy(const UnknownFile& file) {
 
 }  // namespace
 
+Result<NpyPreamble> read_npy_preamble(const std::string& name, ByteStream& from) {
+  const auto truncated = [&] {
+    return fail(fmt::format("{}: ends within its .npy header; copy or save it again", name));
+  };
+  std::array<char, 12> start = {};
+  const auto take = [&](std::span<char> out) -> Result<bool> {
+    const Result<std::size_t> got = from.read(out);
+    if (!got) return tl::make_unexpected(got.error());
+    return *got == out.size();
+  };
+  Result<bool> whole = take(std::span(start).first(10));
+  if (!whole) return tl::make_unexpected(whole.error());
+  if (!*whole) return truncated();
+  const auto byte = [&](std::size_t i) {
+    return std::uint64_t{static_cast<unsigned char>(start[i])};
+  };
+  const std::uint64_t major = byte(6);
+  if (major < 1 || major > 3) {
+    return fail(fmt::format("{}: .npy version {}, known are 1, 2 and 3; save it with another NumPy",
+                            name, major));
+  }
+  const std::uint64_t begin = major == 1 ? 10 : 12;
+  if (major > 1) whole = take(std::span(start).last(2));
+  if (!whole) return tl::make_unexpected(whole.error());
+  std::uint64_t length = byte(8) | byte(9) << 8U;
+  if (major > 1) length |= byte(10) << 16U | byte(11) << 24U;
+  if (*whole && length > kLongestDictionary) {
+    return fail(
+        fmt::format("{}: a .npy header of {} bytes, at most {} are read; save it again with "
+                    "numpy.save",
+                    name, length, kLongestDictionary));
+  }
+  NpyPreamble out{std::string(length, '\0'), begin + length};
+  if (*whole) whole = take(out.dictionary);
+  if (!whole) return tl::make_unexpected(whole.error());
+  if (!*whole) return truncated();
+  return out;
+}
+
 Result<Table> read_npy(const std::filesystem::path& path, const ImportOptions& options,
                        FileProgress& progress) {
   const Result<File> file = File::open(path);
@@ -71,7 +71,8 @@ Result<Table> read_npy(const std::filesystem::path& path, const ImportOptions& o
   const auto trouble = [&](const std::string& what) {
     return fail(fmt::format("{}: {}", file->name(), what));
   };
-  const Result<Preamble> preamble = read_preamble(*file);
+  FileStream head(*file, 0, file->size());
+  const Result<NpyPreamble> preamble = read_npy_preamble(file->name(), head);
   if (!preamble) return tl::make_unexpected(preamble.error());
   const Result<NpyHeader> header = parse_npy_header(preamble->dictionary);
   if (!header) return trouble(header.error().message);

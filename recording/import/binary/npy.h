@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/support/result.h"
+#include "recording/import/packed/byte_stream.h"
 #include "recording/import/table/options.h"
 #include "recording/import/table/table.h"
 
@@ -22,6 +23,15 @@ struct NpyHeader {
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
 };
+
+/// The dictionary at the beginning of a .npy file, and where its numbers begin.
+struct NpyPreamble {
+  std::string dictionary;
+  std::uint64_t end = 0;
+};
+
+/// Reads up to the first number. `name` is for messages. Error: it ends before, another version.
+Result<NpyPreamble> read_npy_preamble(const std::string& name, ByteStream& from);
 
 /// Parses the dictionary in a .npy header. Error: what is wrong, without the file's name.
 Result<NpyHeader> parse_npy_header(std::string_view text);

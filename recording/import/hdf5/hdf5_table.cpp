@@ -38,8 +38,8 @@ Result<bool> claims_hdf5(const UnknownFile& file) {
     return false;
   }
   return fail(
-      fmt::format("{}: is not an HDF5 file, despite its name (a MATLAB file must be saved as "
-                  "v7.3); it may be truncated: copy it again",
+      fmt::format("{}: is not an HDF5 file, despite its name (MATLAB files of version 4 must be "
+                  "saved anew); it may be truncated: copy it again",
                   file.content.name()));
 }
 

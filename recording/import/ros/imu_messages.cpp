@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "recording/import/ros/bytes.h"
+#include "recording/import/table/bytes.h"
 #include "recording/import/table/select.h"
 
 namespace imunoise::recording {

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "recording/import/ros/bytes.h"
+#include "recording/import/packed/chunk.h"
 #include "recording/import/ros/imu_messages.h"
-#include "recording/import/ros/unpack.h"
+#include "recording/import/table/bytes.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/format.h"
 
@@ -112,7 +112,7 @@ class McapReader {
     const auto trouble = [&](const std::string& what) {
       return fail(fmt::format("{}: the chunk at byte {}: {}", file_.name(), place, what));
     };
-    const Result<Unpacked> unpacked = unpack(method, fields.rest(), size);
+    const Result<Unpacked> unpacked = unpack_chunk(method, fields.rest(), size);
     if (!unpacked) return trouble(unpacked.error().message);
     if (in_file && !unpacked->whole) return trouble("is damaged; copy or record the file again");
     Fields records(unpacked->bytes);

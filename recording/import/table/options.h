@@ -53,6 +53,9 @@ struct ImportOptions {
   bool strict = false;
   /// The topic of a bag. Empty: the only one that holds messages of an IMU.
   std::string topic;
+  /// What the messages of a log of a CAN bus mean: a DBC file, or the name of a known IMU. Empty:
+  /// unknown.
+  std::string dbc;
   /// What separates the values of a text file; ' ' stands for any run of blanks. Unset: detected.
   std::optional<char> delimiter;
   /// Whether the first row of a text file names its columns. Unset: detected.

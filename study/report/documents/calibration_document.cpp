@@ -3,6 +3,7 @@
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/documents/diagnosis_words.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/view/verdict.h"
 
 namespace imunoise::report {
@@ -136,6 +137,7 @@ Document document(const v1::Calibration& calibration, Digits digits) {
     out.sections.push_back(channel_section(one, digits));
   for (const v1::ArrayCalibration& one : calibration.arrays())
     out.sections.push_back(array_section(one, digits));
+  add_files(calibration.preflight(), digits, out);
   return out;
 }
 

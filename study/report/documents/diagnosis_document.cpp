@@ -6,6 +6,7 @@
 #include "study/report/documents/diagnosis_words.h"
 #include "study/report/documents/effect_rows.h"
 #include "study/report/documents/inference_documents.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/comparison_figures.h"
 #include "study/report/figures/diagnosis_pictures.h"
 #include "study/report/figures/error_panel.h"
@@ -289,6 +290,7 @@ Document document(const v1::DiagnosisReports& reports, Digits digits) {
   Document out{"diagnosis", {}};
   for (const v1::DiagnosisReport& one : reports.channels())
     out.sections.push_back(section(one, digits));
+  if (reports.channels_size() > 0) add_files(reports.channels(0).preflight(), digits, out);
   return out;
 }
 
@@ -333,7 +335,9 @@ Document document(const v1::Study& study, Digits digits) {
                         : ""});
   }
   out.tables.push_back(std::move(attempts));
-  return {"study", {std::move(out)}};
+  Document all{"study", {std::move(out)}};
+  add_files(study.preflight(), digits, all);
+  return all;
 }
 
 }  // namespace imunoise::report

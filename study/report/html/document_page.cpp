@@ -1,6 +1,7 @@
+#include "study/report/html/document_page.h"
+
 #include <fmt/format.h>
 
-#include "study/report/documents/document.h"
 #include "study/report/html/page_frame.h"
 #include "study/words/text.h"
 
@@ -44,7 +45,9 @@ std::string shown(const figure::Figure& from) {
                      escape_markup(from.title), two_widths(from), escape_markup(from.caption));
 }
 
-std::string section(const Section& from, std::size_t index) {
+}  // namespace
+
+std::string section_markup(const Section& from, std::size_t index) {
   std::string out = fmt::format(
       "<section id=\"section-{}\" aria-label=\"{}\">\n<div class=\"heading\"><h2>{}</h2>", index,
       escape_markup(from.title), escape_markup(from.title));
@@ -66,14 +69,12 @@ std::string section(const Section& from, std::size_t index) {
   return out + "</section>\n";
 }
 
-}  // namespace
-
 std::string html_page(const Document& document) {
   std::string title = document.title;
   std::string body = "<main>\n";
   for (std::size_t i = 0; i < document.sections.size(); ++i) {
     title += (i == 0 ? " of " : ", ") + document.sections[i].title;
-    body += section(document.sections[i], i);
+    body += section_markup(document.sections[i], i);
   }
   return page_frame(title, document.title, body + "</main>\n");
 }

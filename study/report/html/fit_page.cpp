@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/budget_figure.h"
+#include "study/report/html/document_page.h"
 #include "study/report/html/fit_tables.h"
 #include "study/report/html/page_frame.h"
 #include "study/report/view/verdict.h"
@@ -146,6 +148,11 @@ std::string html_page(const v1::FitReports& reports) {
   std::string body = navigation(reports) + "<main>\n";
   if (reports.channels().empty()) body += "<p>This report holds no channel.</p>\n";
   for (int i = 0; i < reports.channels_size(); ++i) body += section(reports.channels(i), i);
+  Document files;
+  if (!reports.channels().empty())
+    add_files(reports.channels(0).preflight(), Digits::kTypeset, files);
+  for (std::size_t i = 0; i < files.sections.size(); ++i)
+    body += section_markup(files.sections[i], i);
   return page_frame(title, "noise budget", body + "</main>\n");
 }
 

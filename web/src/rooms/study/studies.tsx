@@ -1,7 +1,8 @@
 // All studies, and a new one of what was recorded or opened.
 import { useEffect, useState } from "preact/hooks";
 import { get, over, post } from "../../api/client";
-import type { RecordingList } from "../../api/schema";
+import type { Preflight, RecordingList } from "../../api/schema";
+import { Files } from "../../parts/files";
 import { Progress, Skeleton, Trouble } from "../../parts/states";
 import { go, inputs, jobs, listStudies, mayChange, session, studies } from "../../state";
 import { freeName } from "./free_name";
@@ -10,6 +11,7 @@ interface Source {
   readonly title: string;
   readonly what: { input: string } | { campaign: string; folder: string };
   readonly channels: readonly string[];
+  readonly preflight: readonly Preflight[];
 }
 
 // A recording's manifest names its channels.
@@ -60,6 +62,7 @@ function New({ source }: { source: Source }) {
       </select></label>
       <label>first model <input value={model} placeholder="chosen by cross-validation" onInput={(event) => type(event.currentTarget.value)} /></label>
       <button type="submit" class="main" disabled={!mayChange.value || (job !== undefined && !over(job))}>Study</button>
+      <Files of={source.preflight} />
       {job && !over(job) && <Progress job={job} />}
       {problem && <Trouble sentence={problem} onClose={() => tell("")} />}
     </form>
@@ -80,12 +83,12 @@ export function Studies() {
   const sources: Source[] = [
     ...inputs.value.map((one) => ({
       title: one.input && one.input.files.length > 1 ? `${one.name} and ${one.input.files.length - 1} more` : one.name,
-      what: { input: one.name }, channels: one.channels,
+      what: { input: one.name }, channels: one.channels, preflight: one.preflight,
     })),
     ...[...recordings].reverse().slice(0, 20).map((one) => ({
       title: `${one.bench} · ${one.folder}`,
       what: { campaign: one.bench, folder: one.folder },
-      channels: [],
+      channels: [], preflight: [],
     })),
   ];
   return (

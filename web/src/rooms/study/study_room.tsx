@@ -2,6 +2,7 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Place } from "../../figure/figure";
 import { FigureView } from "../../figure/figure_view";
+import { Files } from "../../parts/files";
 import { number } from "../../parts/numbers";
 import { Progress, Skeleton, Trouble } from "../../parts/states";
 import { go, mayChange } from "../../state";
@@ -61,7 +62,8 @@ export function StudyRoom({ name }: { name: string }) {
   }
   const judged = verdict(study);
   const still = store.busy.value || !mayChange.value;
-  const replicates = study.input ? study.input.files.length * Math.max(1, study.input.split_into) : 0;
+  const stretches = study.preflight.reduce((sum, file) => sum + file.stretches, 0) || (study.input?.files.length ?? 0);
+  const replicates = stretches * Math.max(1, study.input?.split_into ?? 1);
   return (
     <div class="study">
       <header class="study-head">
@@ -97,6 +99,7 @@ export function StudyRoom({ name }: { name: string }) {
         <ErrorPanel study={study} preview={store.preview.value} />
         {store.working.value && <Progress job={store.working.value} />}
         <Candidates store={store} study={study} still={still} />
+        <Files of={study.preflight} />
       </aside>
       <Ladder study={study} store={store} still={still} />
     </div>

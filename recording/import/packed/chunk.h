@@ -22,6 +22,6 @@ struct Unpacked {
 /// Unpacks `packed`, whose method the bag calls "" or "none", "lz4" (frames), "zstd" or "bz2", into
 /// at most `size` bytes. Error, without the file's name: an unknown method, more than
 /// kLargestChunk bytes announced.
-Result<Unpacked> unpack(std::string_view method, std::string_view packed, std::uint64_t size);
+Result<Unpacked> unpack_chunk(std::string_view method, std::string_view packed, std::uint64_t size);
 
 }  // namespace imunoise::recording
