@@ -127,7 +127,7 @@ bool read_chunks(hid_t dataset, hsize_t chunk, std::span<std::uint8_t> bytes, st
 
 }  // namespace
 
-Result<OpenDataset> open_dataset(hid_t group, const std::string& name) {
+Result<OpenDataset> open_dataset(hid_t group, const std::string& name, int dimensions) {
   const auto trouble = [&](const std::string& what) {
     return fail(fmt::format("dataset {}: {}", name, what));
   };
@@ -138,12 +138,16 @@ Result<OpenDataset> open_dataset(hid_t group, const std::string& name) {
   const Hdf5Handle type(H5Dget_type(out.id.get()), H5Tclose);
   if (!space || !type) return trouble("cannot be described; the file is damaged");
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank != 1) {
+  if (rank < 1 || rank > dimensions) {
     return trouble(
-        fmt::format("has {} dimensions where one is needed; store each channel as a "
+        fmt::format("has {} dimensions where one{} needed; store each channel as a "
                     "dataset of its own, or choose others with --channel",
-                    rank));
+                    rank, dimensions > 1 ? " or two are" : " is"));
   }
+  std::array<hsize_t, 2> extents = {1, 1};
+  if (H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr) != rank)
+    return trouble("cannot be described; the file is damaged");
+  out.columns = extents[1];
   out.type_class = H5Tget_class(type.get());
   out.has_sign = out.type_class == H5T_INTEGER && H5Tget_sign(type.get()) == H5T_SGN_2;
   out.width = H5Tget_size(type.get());

@@ -1,6 +1,6 @@
 #pragma once
 
-// HDF5 datasets of one dimension, as everything of ours is stored: shuffled, deflated, checksummed.
+// HDF5 datasets. Everything of ours has one dimension, and is shuffled, deflated, checksummed.
 
 #include <cstdint>
 #include <string>
@@ -14,18 +14,20 @@ namespace imunoise::recording {
 /// written; without the check a few bytes could ask for all memory.
 inline constexpr std::uint64_t kBestCompression = 1100;
 
-/// An open dataset of one dimension that can be read without surprise: its numbers lie in the file
-/// itself, and it claims no more of them than the stored bytes can hold.
+/// An open dataset that can be read without surprise: its numbers lie in the file itself, and it
+/// claims no more of them than the stored bytes can hold.
 struct OpenDataset {
   Hdf5Handle id;
-  std::uint64_t size = 0;
+  std::uint64_t size = 0;     ///< numbers
+  std::uint64_t columns = 1;  ///< extent of the second dimension
   H5T_class_t type_class = H5T_NO_CLASS;
   bool has_sign = false;  ///< For integers.
   std::size_t width = 0;  ///< Bytes a number.
 };
 
-/// Opens dataset `name` of a file or group. Error, without the file's name: what it is instead.
-Result<OpenDataset> open_dataset(hid_t group, const std::string& name);
+/// Opens dataset `name` of a file or group, of one or at most `dimensions` (2) dimensions. Error,
+/// without the file's name: what it is instead.
+Result<OpenDataset> open_dataset(hid_t group, const std::string& name, int dimensions = 1);
 
 /// Writes `size` numbers, of type `memory` in memory and `stored` in the file; returns the open
 /// dataset, for attributes. An invalid handle when HDF5 refuses.

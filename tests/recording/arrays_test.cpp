@@ -65,6 +65,14 @@ TEST_F(Arrays, MatlabOfEveryKind) {
   expect_written(file, "imu.gyro", "imu.raw.acc");
 }
 
+TEST_F(Arrays, Hdf5OfTwoDimensions) {
+  const std::string matlab = written("matlab73", ".mat");
+  SKIP_UNWRITTEN(matlab);
+  expect_written(matlab, "gyro", "acc");
+  expect_written(written("matlab73-struct", ".mat"), "imu.gyro", "imu.acc");
+  expect_written(written("hdf5", ".h5"), "gyro", "acc");
+}
+
 TEST_F(Arrays, SingleColumnsKeepTheirNames) {
   const std::string file = written("matlab5-counts", ".mat");
   SKIP_UNWRITTEN(file);

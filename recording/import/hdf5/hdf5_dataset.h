@@ -1,39 +1,42 @@
 #pragma once
 
-// One HDF5 dataset as a column of numbers.
+// Numbers of one HDF5 dataset as columns.
 
 #include <string>
 
 #include "core/support/result.h"
 #include "recording/hdf5/handle.h"
+#include "recording/import/table/array_columns.h"
 #include "recording/import/table/channel.h"
 
 namespace imunoise::recording {
 
-/// An open dataset that is known to be readable: one dimension, int16, int32, float32 or float64
-/// (any byte order), stored in the file itself, and not larger than the file can hold.
+/// An open dataset that is known to be readable: one or two dimensions of integers or floats (any
+/// byte order), stored in the file itself, and not larger than the file can hold.
 class Hdf5Dataset {
  public:
   /// Error, without the file's name: what the dataset is instead.
   static Result<Hdf5Dataset> open(hid_t file, const std::string& name);
 
-  std::size_t size() const { return size_; }
+  /// As the file has it: the second dimension runs faster.
+  const Shape& shape() const { return shape_; }
   hid_t id() const { return dataset_.get(); }
-  /// All samples; integers keep their type. One that equals the attribute _FillValue (CF: a missing
-  /// sample) is a NaN, integers are then doubles. Error: a chunk that cannot be read.
-  Result<Samples> read() const;
+  /// Column `column`; `across`: row `column`, where time is the second dimension. int16 and int32
+  /// keep their type, all others become doubles. A number that equals the attribute _FillValue (CF:
+  /// a missing sample) is a NaN, integers are then doubles. Error: a chunk that cannot be read.
+  Result<Samples> read(std::uint64_t column, bool across) const;
 
  private:
-  enum class Kind { kInt16, kInt32, kFloat };
+  enum class Kind { kInt16, kInt32, kOther };
 
-  Hdf5Dataset(std::string name, Hdf5Handle dataset, std::size_t size, Kind kind)
-      : name_(std::move(name)), dataset_(std::move(dataset)), size_(size), kind_(kind) {}
+  Hdf5Dataset(std::string name, Hdf5Handle dataset, Shape shape, Kind kind)
+      : name_(std::move(name)), dataset_(std::move(dataset)), shape_(shape), kind_(kind) {}
   template <class Number>
-  Result<Samples> read_as(hid_t memory_type) const;
+  Result<Samples> read_as(hid_t memory_type, std::uint64_t column, bool across) const;
 
   std::string name_;
   Hdf5Handle dataset_;
-  std::size_t size_;
+  Shape shape_;
   Kind kind_;
 };
 

@@ -110,9 +110,11 @@ class Unpacker {
 
 void pack(const Hdf5Facts& facts, Packer& out) {
   out.put(facts.rate);
-  out.put(std::uint64_t{facts.datasets.size()});
-  for (const Hdf5Column& one : facts.datasets) {
+  out.put(facts.rate_from);
+  out.put(std::uint64_t{facts.columns.size()});
+  for (const Hdf5Column& one : facts.columns) {
     out.put(one.name);
+    out.put(one.by_default);
     out.put(one.trouble);
     out.put(one.size);
     out.put(one.scale);
@@ -123,11 +125,13 @@ void pack(const Hdf5Facts& facts, Packer& out) {
 
 bool unpack(Unpacker& in, Hdf5Facts& facts) {
   in.take(facts.rate);
-  std::uint64_t datasets = 0;
-  in.take(datasets);
-  for (; in.good() && datasets > 0; --datasets) {
-    Hdf5Column& one = facts.datasets.emplace_back();
+  in.take(facts.rate_from);
+  std::uint64_t columns = 0;
+  in.take(columns);
+  for (; in.good() && columns > 0; --columns) {
+    Hdf5Column& one = facts.columns.emplace_back();
     in.take(one.name);
+    one.by_default = in.take_bool();
     in.take(one.trouble);
     in.take(one.size);
     in.take(one.scale);
@@ -178,7 +182,7 @@ void serve(const Line& line, const std::filesystem::path& path, std::uint64_t by
   if (!facts.send(line) || !source) return;
   std::array<std::uint64_t, 1> wanted = {};
   while (line.receive(room_of(wanted))) {
-    limit(bytes, (*source)->facts().datasets.at(wanted[0]).size * sizeof(double));
+    limit(bytes, (*source)->facts().columns.at(wanted[0]).size * sizeof(double));
     bool sent = false;
     try {
       sent = answer(line, (*source)->read(wanted[0]));
@@ -206,8 +210,8 @@ class Hdf5Process : public Hdf5Reader {
     return unpack(in, facts_) ? Result<void>() : nonsense();
   }
 
-  Result<Samples> read(std::size_t dataset) override {
-    const std::array wanted = {std::uint64_t{dataset}};
+  Result<Samples> read(std::size_t column) override {
+    const std::array wanted = {std::uint64_t{column}};
     if (!child_.line().send(bytes_of(wanted))) return broken_off();
     const auto message = receive_message();
     if (!message) return tl::make_unexpected(message.error());
@@ -219,7 +223,7 @@ class Hdf5Process : public Hdf5Reader {
     if (!trouble.empty()) return fail(std::move(trouble));
     in.take(type);
     in.take(count);
-    if (!in.good() || type > 2 || count != facts_.datasets.at(dataset).size) return nonsense();
+    if (!in.good() || type > 2 || count != facts_.columns.at(column).size) return nonsense();
     read_ += count * (type == 1 ? sizeof(std::int16_t) : sizeof(float));
     if (read_ / kBestCompression > bytes_) {
       return fail(
@@ -235,7 +239,7 @@ class Hdf5Process : public Hdf5Reader {
   // It has to compute within its limit, and may be one of many programs meanwhile.
   std::chrono::nanoseconds silence() const {
     std::uint64_t numbers = 0;
-    for (const Hdf5Column& one : facts_.datasets) numbers = std::max(numbers, one.size);
+    for (const Hdf5Column& one : facts_.columns) numbers = std::max(numbers, one.size);
     return kLongestSilence +
            10 * std::chrono::seconds(computing_limit(bytes_, numbers * sizeof(double)));
   }

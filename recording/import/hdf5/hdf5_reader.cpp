@@ -1,48 +1,149 @@
 #include "recording/import/hdf5/hdf5_reader.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "recording/hdf5/attributes.h"
 #include "recording/import/hdf5/hdf5_dataset.h"
+#include "recording/import/table/array_columns.h"
 #include "recording/import/table/select.h"
 
 namespace imunoise::recording {
 namespace {
 
-// Names of the datasets in the root group, sorted. Links to elsewhere are not followed: an external
-// one could name any file of the disk.
-std::vector<std::string> dataset_names(hid_t file) {
-  std::vector<std::string> names;
-  const auto visit = [](hid_t group, const char* name, const H5L_info_t* link,
-                        void* out) -> herr_t {
-    auto& found = *static_cast<std::vector<std::string>*>(out);
+constexpr int kDeepest = 4;  // groups within groups
+
+struct Found {
+  std::vector<std::string> datasets;  // paths
+  std::vector<std::string> groups;
+};
+
+// What lies in a group. Links to elsewhere are not followed: an external one could name any file of
+// the disk. MATLAB keeps what it refers to in "#refs#".
+Found found_in(hid_t file, const std::string& group) {
+  Found out;
+  const auto visit = [](hid_t at, const char* name, const H5L_info_t* link, void* to) -> herr_t {
+    auto& found = *static_cast<Found*>(to);
     H5O_info_t object = {};
-    if (link->type == H5L_TYPE_HARD && found.size() <= kMaximumColumns &&
-        H5Oget_info_by_name2(group, name, &object, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
-        object.type == H5O_TYPE_DATASET) {
-      found.emplace_back(name);
-    }
+    if (link->type != H5L_TYPE_HARD || name[0] == '#' ||
+        found.datasets.size() + found.groups.size() > kMaximumColumns ||
+        H5Oget_info_by_name2(at, name, &object, H5O_INFO_BASIC, H5P_DEFAULT) < 0)
+      return 0;
+    if (object.type == H5O_TYPE_DATASET) found.datasets.emplace_back(name);
+    if (object.type == H5O_TYPE_GROUP) found.groups.emplace_back(name);
     return 0;
   };
-  H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &names);
-  std::sort(names.begin(), names.end());
-  return names;
+  const Hdf5Handle opened(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
+  if (opened) H5Literate(opened.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &out);
+  const std::string prefix = group == "/" ? "" : group + "/";
+  for (std::vector<std::string>* const names : {&out.datasets, &out.groups}) {
+    for (std::string& name : *names) name.insert(0, prefix);
+    std::sort(names->begin(), names->end());
+  }
+  return out;
 }
 
-Hdf5Column column_of(hid_t file, const std::string& name) {
-  Hdf5Column out;
-  out.name = name;
-  const Result<Hdf5Dataset> dataset = Hdf5Dataset::open(file, name);
+// Paths of the datasets in the root; of those in groups (structs of MATLAB) where the root has
+// none.
+std::vector<std::string> dataset_paths(hid_t file) {
+  std::vector<std::string> out;
+  std::vector<std::string> groups = {"/"};
+  for (int depth = 0; depth < kDeepest && out.empty() && !groups.empty(); ++depth) {
+    std::vector<std::string> deeper;
+    for (const std::string& group : groups) {
+      Found found = found_in(file, group);
+      out.insert(out.end(), found.datasets.begin(), found.datasets.end());
+      deeper.insert(deeper.end(), found.groups.begin(), found.groups.end());
+      if (out.size() > kMaximumColumns || deeper.size() > kMaximumColumns) return out;
+    }
+    groups = std::move(deeper);
+  }
+  return out;
+}
+
+// "imu/gyro" is imu.gyro, as in MATLAB.
+std::string name_of_path(std::string path) {
+  std::replace(path.begin(), path.end(), '/', '.');
+  return path;
+}
+
+struct FoundDataset {
+  Hdf5Column about;  // what its columns share
+  Shape shape;
+  double number = 0.0;  // of a single one
+};
+
+FoundDataset describe(hid_t file, const std::string& path) {
+  FoundDataset out;
+  out.about.name = name_of_path(path);
+  out.about.dataset = path;
+  const Result<Hdf5Dataset> dataset = Hdf5Dataset::open(file, path);
   if (!dataset) {
-    out.trouble = dataset.error().message;
+    out.about.trouble = dataset.error().message;
     return out;
   }
-  out.size = dataset->size();
-  out.scale = read_number_attribute(dataset->id(), "scale_factor");
-  out.offset = read_number_attribute(dataset->id(), "add_offset");
-  out.unit = read_string_attribute(dataset->id(), "units");
+  out.shape = dataset->shape();
+  out.about.scale = read_number_attribute(dataset->id(), "scale_factor");
+  out.about.offset = read_number_attribute(dataset->id(), "add_offset");
+  out.about.unit = read_string_attribute(dataset->id(), "units");
+  if (!out.shape.is_single()) return out;
+  const Result<Samples> number = dataset->read(0, false);
+  if (number)
+    std::visit([&](const auto& values) { out.number = static_cast<double>(values[0]); }, *number);
   return out;
+}
+
+void add_columns(const FoundDataset& found, std::uint64_t length, Hdf5Facts& to) {
+  const Shape& shape = found.shape;
+  const bool across =
+      shape.rows != length && (shape.columns == length || shape.columns > shape.rows);
+  const std::uint64_t count = across ? shape.rows : shape.columns;
+  const std::uint64_t samples = across ? shape.columns : shape.rows;
+  if (count > kMaximumColumns) {
+    Hdf5Column& one = to.columns.emplace_back(found.about);
+    one.trouble = fmt::format("dataset {}: {} x {} numbers are no channels; save fewer columns",
+                              one.dataset, shape.rows, shape.columns);
+    return;
+  }
+  const std::vector<std::string> names = column_names(found.about.name, count);
+  for (std::uint64_t c = 0; c < count; ++c) {
+    Hdf5Column& one = to.columns.emplace_back(found.about);
+    one.name = names[c];
+    one.place = c;
+    one.across = across;
+    one.size = samples;
+    one.by_default = samples == length;
+  }
+}
+
+// Columns of all datasets. Beside matrices, what has another length is no channel.
+void learn_columns(hid_t file, Hdf5Facts& to) {
+  std::vector<FoundDataset> all;
+  std::vector<Shape> shapes;
+  for (const std::string& path : dataset_paths(file)) {
+    all.push_back(describe(file, path));
+    if (all.back().about.trouble.empty()) shapes.push_back(all.back().shape);
+  }
+  const bool matrices =
+      std::any_of(shapes.begin(), shapes.end(), [](const Shape& one) { return one.columns > 1; });
+  for (const FoundDataset& one : all) {
+    const bool readable = one.about.trouble.empty();
+    if (to.columns.size() > kMaximumColumns) break;
+    if (matrices && readable && !one.shape.is_single()) {
+      add_columns(one, common_length(shapes), to);
+      continue;
+    }
+    Hdf5Column& column = to.columns.emplace_back(one.about);
+    column.size = one.shape.rows;
+    column.by_default = !matrices;
+    const double rate = matrices && readable ? rate_called(column.name, one.number) : 0.0;
+    if (rate > 0.0 && to.rate && !*to.rate) {
+      to.rate = std::optional(rate);
+      to.rate_from = "its " + column.name;
+    }
+  }
 }
 
 }  // namespace
@@ -55,16 +156,17 @@ Result<std::unique_ptr<Hdf5Source>> Hdf5Source::open(const std::filesystem::path
     return fail("HDF5 cannot open it: truncated, damaged or still being written; copy it again");
   }
   out->facts_.rate = read_number_attribute(out->file_.get(), "rate_hz");
-  for (const std::string& name : dataset_names(out->file_.get()))
-    out->facts_.datasets.push_back(column_of(out->file_.get(), name));
+  out->facts_.rate_from = "the root attribute rate_hz";
+  learn_columns(out->file_.get(), out->facts_);
   return out;
 }
 
-Result<Samples> Hdf5Source::read(std::size_t dataset) {
+Result<Samples> Hdf5Source::read(std::size_t column) {
   const QuietHdf5 quiet;
-  const auto opened = Hdf5Dataset::open(file_.get(), facts_.datasets.at(dataset).name);
+  const Hdf5Column& wanted = facts_.columns.at(column);
+  const auto opened = Hdf5Dataset::open(file_.get(), wanted.dataset);
   if (!opened) return tl::make_unexpected(opened.error());
-  return opened->read();
+  return opened->read(wanted.place, wanted.across);
 }
 
 }  // namespace imunoise::recording

@@ -19,10 +19,14 @@ namespace imunoise::recording {
 template <class Value>
 using Hdf5Attribute = Result<std::optional<Value>>;
 
-/// A dataset of the root group.
+/// A column of a dataset: of two dimensions, one of several.
 struct Hdf5Column {
-  std::string name;
-  std::string trouble;  ///< why it cannot be read as a column of numbers; else empty
+  std::string name;         ///< "gyro_x"
+  std::string dataset;      ///< its path in the file
+  std::uint64_t place = 0;  ///< of the column in the dataset
+  bool across = false;      ///< time is the dataset's second dimension
+  bool by_default = true;   ///< false beside matrices: another length, or no numbers
+  std::string trouble;      ///< why it cannot be read as a column of numbers; else empty
   std::uint64_t size = 0;
   Hdf5Attribute<double> scale;
   Hdf5Attribute<double> offset;
@@ -30,8 +34,9 @@ struct Hdf5Column {
 };
 
 struct Hdf5Facts {
-  Hdf5Attribute<double> rate;        ///< attribute rate_hz
-  std::vector<Hdf5Column> datasets;  ///< by name
+  Hdf5Attribute<double> rate;       ///< attribute rate_hz, else a dataset of one number
+  std::string rate_from;            ///< for messages: "the root attribute rate_hz"
+  std::vector<Hdf5Column> columns;  ///< by name of their dataset
 };
 
 /// A file that is being read. Errors do not name it.
@@ -39,8 +44,8 @@ class Hdf5Reader {
  public:
   virtual ~Hdf5Reader() = default;
   const Hdf5Facts& facts() const { return facts_; }
-  /// All samples of a dataset without trouble. Error: see Hdf5Dataset::read.
-  virtual Result<Samples> read(std::size_t dataset) = 0;
+  /// All samples of a column without trouble. Error: see Hdf5Dataset::read.
+  virtual Result<Samples> read(std::size_t column) = 0;
 
  protected:
   Hdf5Facts facts_;
@@ -50,7 +55,7 @@ class Hdf5Reader {
 class Hdf5Source : public Hdf5Reader {
  public:
   static Result<std::unique_ptr<Hdf5Source>> open(const std::filesystem::path& path);
-  Result<Samples> read(std::size_t dataset) override;
+  Result<Samples> read(std::size_t column) override;
 
  private:
   Hdf5Handle file_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "recording/import/hdf5/hdf5_process.h"
+#include "recording/import/table/array_columns.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/format.h"
 #include "recording/import/table/names.h"
@@ -43,18 +44,19 @@ Result<bool> claims_hdf5(const UnknownFile& file) {
                   file.content.name()));
 }
 
+bool is_time(const Hdf5Column& one) { return is_time_name(last_part(one.name)); }
+
 // The dataset of times, when there is one.
 Result<std::optional<TimeColumn>> time_of(const std::string& file, Hdf5Reader& reader) {
-  const std::vector<Hdf5Column>& datasets = reader.facts().datasets;
-  const auto found = std::find_if(datasets.begin(), datasets.end(),
-                                  [](const Hdf5Column& one) { return is_time_name(one.name); });
-  if (found == datasets.end()) return std::optional<TimeColumn>();
+  const std::vector<Hdf5Column>& columns = reader.facts().columns;
+  const auto found = std::find_if(columns.begin(), columns.end(), is_time);
+  if (found == columns.end()) return std::optional<TimeColumn>();
   const auto trouble = [&](const std::string& what) {
     return fail(fmt::format("{}: {} (--rate HZ ignores the times)", file, what));
   };
   if (!found->trouble.empty()) return trouble(found->trouble);
   if (!found->unit) return trouble(found->unit.error().message);
-  const Result<Samples> samples = reader.read(static_cast<std::size_t>(found - datasets.begin()));
+  const Result<Samples> samples = reader.read(static_cast<std::size_t>(found - columns.begin()));
   if (!samples) return trouble(samples.error().message);
   return std::optional(TimeColumn{
       found->name, found->unit->value_or(""),
@@ -69,7 +71,7 @@ std::string written_unit(const Hdf5Column& dataset) {
 }
 
 Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::size_t index) {
-  const Hdf5Column& dataset = reader.facts().datasets[index];
+  const Hdf5Column& dataset = reader.facts().columns[index];
   if (!dataset.trouble.empty()) return fail(fmt::format("{}: {}", file, dataset.trouble));
   const auto trouble = [&](const std::string& what) {
     return fail(fmt::format("{}: dataset {}: {}", file, dataset.name, what));
@@ -100,8 +102,8 @@ Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
                               const ImportOptions& options, FileProgress& progress) {
   const Hdf5Facts& facts = reader.facts();
   std::vector<Offer> offers;
-  for (const Hdf5Column& dataset : facts.datasets)
-    offers.push_back({dataset.name, !is_time_name(dataset.name), written_unit(dataset)});
+  for (const Hdf5Column& one : facts.columns)
+    offers.push_back({one.name, one.by_default && !is_time(one), written_unit(one)});
   const auto wanted = select_columns(name, offers, options);
   if (!wanted) return tl::make_unexpected(wanted.error());
 
@@ -111,7 +113,7 @@ Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
         fmt::format("{}: root {}; give the rate with --rate HZ", name, facts.rate.error().message));
   }
   if (!options.rate && *facts.rate) {
-    table.rate = {**facts.rate, "the root attribute rate_hz"};
+    table.rate = {**facts.rate, facts.rate_from};
   } else if (!options.rate) {
     Result<std::optional<TimeColumn>> time = time_of(name, reader);
     if (!time) return tl::make_unexpected(time.error());

@@ -1,7 +1,7 @@
 #pragma once
 
-// HDF5 files whose root holds one 1-D dataset a channel (h5py, xarray, MATLAB v7.3, our own
-// export).
+// HDF5 files whose datasets are channels, or matrices with a column a channel (h5py, xarray, MATLAB
+// v7.3, our own export).
 
 #include <filesystem>
 #include <string>
