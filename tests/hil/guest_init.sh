@@ -1,11 +1,37 @@
 #!/bin/busybox sh
-# The first program of the virtual machine: the files of the system that started it, with a layer of memory over them.
+# The first program of the virtual machine. It shows the files of the system that started it, with a layer of memory over them, and runs
+# the scenario; or, where the command line names a DISK with a Debian, it hands the machine over to that one's systemd, whose last service
+# is the scenario.
 /bin/busybox --install -s /bin
 mount -t proc proc /proc
 mount -t sysfs sys /sys
 mount -t devtmpfs dev /dev
 while read -r name; do insmod "/modules/$name"; done < /modules/order
 mount -t 9p -o trans=virtio,version=9p2000.L,ro,msize=512000,cache=loose host /lower
+if [ -n "$DISK" ]; then
+  mount -t ext4 "$DISK" /root
+  mkdir -p /root/host /root/lib/modules
+  mount --move /lower /root/host
+  mount --bind "/root/host$KERNEL/lib/modules" /root/lib/modules
+  cat > /root/etc/systemd/system/scenario.service << UNIT
+[Unit]
+After=multi-user.target
+SuccessAction=poweroff-force
+FailureAction=poweroff-force
+[Service]
+Type=oneshot
+Environment=BUILD=/host$BUILD SOURCE=/host$SOURCE
+ExecStart=/bin/bash -euo pipefail -c '. /host$SCENARIO; echo "SCENARIO PASSED"'
+StandardOutput=tty
+StandardError=inherit
+TTYPath=/dev/ttyS0
+TimeoutStartSec=infinity
+UNIT
+  mkdir -p /root/etc/systemd/system/graphical.target.wants
+  ln -s ../scenario.service /root/etc/systemd/system/graphical.target.wants/
+  for name in proc sys dev; do mount --move "/$name" "/root/$name"; done
+  exec switch_root /root /sbin/init
+fi
 mount -t tmpfs memory /upper
 mkdir /upper/data /upper/work
 mount -t overlay -o lowerdir=/lower,upperdir=/upper/data,workdir=/upper/work over /root

@@ -22,7 +22,7 @@ first_files() {
   cp /bin/busybox "$root/bin/busybox"
   cp "$here/guest_init.sh" "$root/init"
   chmod +x "$root/init"
-  for name in virtio_pci 9pnet_virtio 9p overlay; do
+  for name in virtio_pci 9pnet_virtio 9p overlay virtio_blk ext4; do
     /sbin/modprobe -d "$folder" -S "$version" --show-depends "$name"
   done | awk '$1 == "insmod" && !seen[$2]++ {print $2}' | while read -r file; do
     cp "$file" "$root/modules/"
@@ -32,14 +32,28 @@ first_files() {
   rm -r "$root"
 }
 
-# boot SCENARIO SECONDS [QEMU ARGUMENT...]: runs scenarios/SCENARIO.sh as root in a new machine. Fails unless the scenario says that it passed.
+# debian DISK PACKAGE...: an image of a disk with a small Debian and these packages, made once for a list of packages.
+debian() {
+  local disk=$1 list
+  shift
+  list=$(IFS=,; echo "$*")
+  [[ -e $disk && $(cat "$disk.list" 2> /dev/null) == "$list" ]] && return
+  mmdebstrap --quiet --variant=minbase --format=ext2 --include="$list" --dpkgopt='path-exclude=/usr/share/locale/*' bookworm "$disk"
+  truncate --size=+500M "$disk"
+  /sbin/e2fsck -fy "$disk" > /dev/null 2>&1 || (($? == 1))
+  /sbin/resize2fs "$disk" > /dev/null 2>&1
+  echo "$list" > "$disk.list"
+}
+
+# boot SCENARIO SECONDS [QEMU ARGUMENT...]: runs scenarios/SCENARIO.sh as root in a new machine. `more` holds further words of the kernel's
+# command line. Fails unless the scenario says that it passed.
 boot() {
   local scenario=$1 seconds=$2 log=$scratch/$1.log
   shift 2
   timeout "$seconds" qemu-system-x86_64 -machine pc -accel tcg,thread=multi -cpu qemu64 -smp 2 -m 1024 \
     -nodefaults -no-user-config -display none -serial stdio -no-reboot \
     -kernel "$image" -initrd "$scratch/first.cpio" \
-    -append "console=ttyS0 panic=-1 quiet mitigations=off nokaslr SCENARIO=$here/scenarios/$scenario.sh BUILD=$build KERNEL=$kernels" \
+    -append "console=ttyS0 panic=-1 quiet mitigations=off nokaslr SCENARIO=$here/scenarios/$scenario.sh BUILD=$build SOURCE=$source KERNEL=$kernels ${more-}" \
     -virtfs local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap \
     "$@" < /dev/null 2>&1 | tee "$log" || true
   tr -d '\r' < "$log" | grep -qx "SCENARIO PASSED"

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # The programs of a build on a real kernel, in virtual machines.
 #
-#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, serial, disk
+#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, serial, disk, systemd
 #
 # Exit status 77: this system has no package manager to take QEMU and a kernel from.
 set -euo pipefail
 build=$(realpath "$1")
 shift
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source=$(realpath "$here/../..")
 # shellcheck source=tests/hil/machine.sh
 source "$here/machine.sh"
 
 command -v apt-get > /dev/null || { echo "SKIPPED: this is not a Debian system"; exit 77; }
-command -v qemu-system-x86_64 > /dev/null || bash "$here/../../scripts/install_packages.sh" hil
+command -v qemu-system-x86_64 > /dev/null || bash "$source/scripts/install_packages.sh" hil
 kernels=$build/hil/kernel
 scratch=$build/hil
 mkdir -p "$scratch"
@@ -57,7 +58,25 @@ disk() {
   boot disk 3000 -drive file="$scratch/disk.img",format=raw,if=virtio,cache=unsafe
 }
 
-(($# > 0)) || set -- can serial disk
+# Two revisions of the package, made by scripts/package.sh unless they are there.
+systemd() {
+  local revision package needs
+  mkdir -p "$scratch/packages"
+  for revision in 1 2; do
+    package=$scratch/packages/$revision.deb
+    [[ -e $package ]] && continue
+    bash "$source/scripts/package.sh" "$revision" || return
+    cp "$source/build/package/package/"*"-${revision}_"*.deb "$package"
+  done
+  needs=$(dpkg-deb --field "$scratch/packages/1.deb" Depends | tr ',' '\n' | sed -e 's/[(|].*//' -e 's/ //g')
+  # shellcheck disable=SC2086
+  debian "$scratch/debian.img" systemd-sysv dbus udev kmod curl $needs
+  more="DISK=/dev/vda systemd.mask=serial-getty@ttyS0.service" boot systemd 900 \
+    -drive file="$scratch/debian.img",format=raw,if=virtio,snapshot=on \
+    -device piix3-usb-uhci -chardev null,id=nothing -device usb-serial,chardev=nothing,always-plugged=on
+}
+
+(($# > 0)) || set -- can serial disk systemd
 failed=()
 for scenario in "$@"; do
   begin=$SECONDS

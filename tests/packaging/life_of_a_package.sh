@@ -4,31 +4,8 @@
 set -euo pipefail
 export DEBIAN_FRONTEND=noninteractive PS4='> '
 
-fail() {
-  echo "FAILED: $1"
-  journalctl --no-pager --lines=40 || true
-  exit 1
-}
-# until_true SECONDS WHAT COMMAND...
-until_true() {
-  local seconds=$1 what=$2
-  shift 2
-  for ((i = 0; i < seconds * 5; ++i)); do
-    if "$@"; then return 0; fi
-    sleep 0.2
-  done
-  fail "$what"
-}
-complete_replicates() {
-  local count
-  count=$(cat /var/lib/imunoise/trial/*/replicate-*.json 2> /dev/null | grep -c '"complete"' || true)
-  ((count >= $1))
-}
-main_pid() { systemctl show --property=MainPID --value imunoised; }
-leftovers() {
-  find / -xdev \( -path /proc -o -path /sys -o -path /packages -o -path /var/lib/imunoise \) -prune -o \
-    -name '*imunoise*' -print
-}
+# shellcheck source=tests/packaging/checks.sh
+source /packages/checks.sh
 
 echo "== installs, with nothing but Debian's packages"
 apt-get update -qq
@@ -51,17 +28,7 @@ test -s /usr/share/zsh/vendor-completions/_imunoise
 [[ $(systemctl is-failed imunoised) != failed ]] || fail "without campaigns it does not start, which is no failure"
 
 echo "== starts, and records"
-cat > /etc/imunoise/trial.toml << 'CAMPAIGN'
-name = "trial"
-folder = "trial"
-length = "1 s"
-replicates = 10000
-reserve = "1 MB"
-[[device]]
-driver = "emulated"
-options.device = "xsens"
-options.seed = 7
-CAMPAIGN
+write_trial_campaign
 systemctl start imunoised
 until_true 60 "it records nothing" complete_replicates 2
 before=$(main_pid)
@@ -99,7 +66,7 @@ for recording in /var/lib/imunoise/trial/*/; do imunoise verify "$recording" > /
 echo "== is purged: nothing is left but recordings, and their user"
 apt-get purge -y -qq imunoise > /purge.log 2>&1
 grep "the recordings in /var/lib/imunoise are kept" /purge.log || fail "purge does not say so"
-left=$(leftovers)
+left=$(leftovers /packages)
 [[ -z $left ]] || fail "left behind: $left"
 complete_replicates 4 || fail "recordings are gone"
 getent passwd imunoise

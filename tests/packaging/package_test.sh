@@ -26,6 +26,7 @@ debootstrap --variant=minbase --include=systemd,systemd-sysv,dbus,udev,init-syst
   > "$folder/debootstrap.log" 2>&1 || skip "debootstrap failed: $(tail -n 1 "$folder/debootstrap.log")"
 
 mkdir "$root/packages"
+cp "$here/checks.sh" "$root/packages/"
 if [[ -n $second ]]; then
   cp "$first" "$root/packages/1.deb"
   cp "$second" "$root/packages/2.deb"
