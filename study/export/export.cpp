@@ -1,0 +1,215 @@
+#include "study/export/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/effects/parse_full_model.h"
+#include "study/words/number.h"
+
+namespace imunoise::study {
+namespace {
+
+Bounded coefficient(const v1::FitReport& fit, std::string_view symbol, double value) {
+  Bounded out{value, 0.0, 0.0};
+  int found = 0;
+  for (const v1::Term& term : fit.terms()) {
+    for (const v1::Coefficient& one : term.coefficients()) {
+      if (one.symbol() != symbol) continue;
+      ++found;
+      if (one.has_lower() && one.has_upper()) {
+        out.lower = one.lower();
+        out.upper = one.upper();
+      }
+    }
+  }
+  return found == 1 ? out : Bounded{value, 0.0, 0.0};
+}
+
+Result<AxisNoise> axis_of(const v1::FitReport& fit, Quantity quantity) {
+  const Hertz rate{fit.rate_hz()};
+  auto model = parse_full_model(fit.fitted_model(), rate);
+  if (!model) return tl::unexpected(model.error());
+  if (!complete(model->noise))
+    return fail(
+        fmt::format("{}: the fitted model '{}' has no values", fit.channel(), fit.fitted_model()));
+  AxisNoise out = axis_noise(fit.channel(), quantity, rate, std::move(model->noise));
+  if (fit.has_p_value() && fit.degrees_of_freedom() > 0) out.p_value = fit.p_value();
+  out.confidence = fit.confidence();
+  out.n = coefficient(fit, "N", out.n.value);
+  out.k = coefficient(fit, "K", out.k.value);
+  for (const EffectTerm& effect : model->effects) out.left_out.push_back(print(effect));
+  return out;
+}
+
+Model white_and(double n, const Process& bias, Hertz rate) {
+  return {{Term(WhiteNoise{n * n * rate.value}), Term(bias)}};
+}
+
+// What a consumer will think the axis is.
+Model held_by(const Consumer& to, const AxisNoise& axis) {
+  const double k = axis.k.value;
+  if (to.takes_markov && k == 0.0 && axis.markov) {
+    const Markov& bias = *axis.markov;
+    return white_and(axis.n.value, GaussMarkov{bias.sigma * bias.sigma, bias.tc, axis.rate},
+                     axis.rate);
+  }
+  return white_and(axis.n.value, RandomWalk{k * k / axis.rate.value}, axis.rate);
+}
+
+std::string horizon_words(const Horizon& horizon) {
+  return fmt::format("{:g} to {:g} s", horizon.begin, horizon.end);
+}
+
+void make_conservative(AxisNoise& axis, const Horizon& horizon) {
+  const WhiteAndWalk bound = smallest_bound(axis.noise, axis.rate, horizon);
+  axis.n = {bound.n, 0.0, 0.0};
+  axis.k = {bound.k, 0.0, 0.0};
+  axis.markov.reset();
+  axis.left_out.clear();
+  axis.remarks.push_back(
+      fmt::format("{}: N and K bound the integrated error of the whole model over {}; they "
+                  "overstate it by a factor of up to {:.2f} ({:.2f} in the mean square)",
+                  axis.channel, horizon_words(horizon), bound.most, bound.usual));
+}
+
+// N and K for a consumer that needs values the model does not have.
+void fill(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
+  const bool needs_n = !(axis.n.value > 0.0);
+  const bool bias = axis.k.value > 0.0 || (to.takes_markov && axis.markov);
+  const bool needs_k = !bias && (!axis.left_out.empty() || !to.takes_zero);
+  if (!needs_n && !needs_k) return;
+  const WhiteAndWalk bound = smallest_bound(axis.noise, axis.rate, horizon);
+  if (needs_n) {
+    axis.n = {bound.n, 0.0, 0.0};
+    axis.remarks.push_back(
+        fmt::format("{}: the model has no white noise; N bounds its error over {}", axis.channel,
+                    horizon_words(horizon)));
+  }
+  if (!needs_k) return;
+  if (axis.k.upper > 0.0) {
+    axis.k = {axis.k.upper, 0.0, 0.0};
+    axis.remarks.push_back(
+        fmt::format("{}: the data show no random walk; K is its upper bound", axis.channel));
+  } else if (bound.k > 0.0) {
+    axis.k = {bound.k, 0.0, 0.0};
+    axis.remarks.push_back(
+        fmt::format("{}: the model has no random walk; K bounds its error over {}", axis.channel,
+                    horizon_words(horizon)));
+  } else if (!to.takes_zero) {
+    // K²t³/3 is a hundredth of N²t at the end of the horizon.
+    axis.k = {axis.n.value * std::sqrt(0.03) / horizon.end, 0.0, 0.0};
+    axis.remarks.push_back(
+        fmt::format("{}: the model has no random walk and {} refuses 0; K adds 0.5 % to the "
+                    "integrated error over {:g} s",
+                    axis.channel, to.title, horizon.end));
+  }
+}
+
+std::string fit_words(const AxisNoise& axis) {
+  if (!axis.p_value) return "";
+  const std::string p = report::p_value(*axis.p_value, report::Digits::kPlain);
+  const std::string equal = p.starts_with("<") ? "p " + p : "p = " + p;
+  return *axis.p_value < 0.01 ? fmt::format("; it does NOT fit ({})", equal)
+                              : fmt::format("; it fits ({})", equal);
+}
+
+void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consumer& to,
+                const ExportOptions& options, std::vector<std::string>& heading) {
+  const bool gyro = from.quantity == Quantity::kAngularRate;
+  const std::string name = gyro ? "gyroscope" : "accelerometer";
+  if (from.axes.empty()) {
+    heading.push_back(fmt::format("{}: none in the source", name));
+    return;
+  }
+  heading.push_back(fmt::format("{}, sampled at {:g} Hz; {}:", name, from.axes.front().rate.value,
+                                given.reduction));
+  double most = 1.0;
+  std::set<std::string> left_out;
+  std::vector<std::string> remarks;
+  for (const AxisNoise& one : from.axes) {
+    heading.push_back(
+        fmt::format("  {}: {}{}", one.channel, print_with_values(one.noise), fit_words(one)));
+    for (const std::string& word : one.left_out) left_out.insert(word);
+    remarks.insert(remarks.end(), one.remarks.begin(), one.remarks.end());
+    most = std::max(most, underestimate(one.noise, held_by(to, one), one.rate, options.horizon));
+  }
+  for (const std::string& one : left_out)
+    heading.push_back(fmt::format("  {} takes no {}", to.title, one));
+  if (most > 1.05) {
+    heading.push_back(fmt::format(
+        "  What it does not take makes integrated errors over {} up to {:.2g} times larger; "
+        "option conservative bounds them.",
+        horizon_words(options.horizon), most));
+  }
+  for (const std::string& one : remarks) heading.push_back("  " + one);
+}
+
+}  // namespace
+
+Result<ImuNoise> imu_noise(const std::vector<v1::FitReport>& fits) {
+  ImuNoise out;
+  std::set<std::pair<Quantity, char>> seen;
+  for (const v1::FitReport& fit : fits) {
+    const auto unit = parse_unit(fit.unit());
+    SensorNoise* const sensor = !unit                                       ? nullptr
+                                : unit->quantity == Quantity::kAngularRate  ? &out.gyro
+                                : unit->quantity == Quantity::kAcceleration ? &out.accelerometer
+                                                                            : nullptr;
+    if (sensor == nullptr) continue;
+    auto axis = axis_of(fit, unit->quantity);
+    if (!axis) return tl::unexpected(axis.error());
+    const bool twice = axis->axis != ' ' && !seen.emplace(unit->quantity, axis->axis).second;
+    sensor->axes.push_back(std::move(*axis));
+    if (!twice && sensor->axes.size() <= 3) continue;
+    return fail(fmt::format(
+        "{} is one axis too many: an IMU has three of a kind; choose with --channel or --device",
+        fit.channel()));
+  }
+  if (out.gyro.axes.empty() && out.accelerometer.axes.empty())
+    return fail("no fit of an angular rate or an acceleration; give units with --unit");
+  return out;
+}
+
+Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const ExportSource& source,
+                           const ExportOptions& options) {
+  if (to.fields == nullptr) return fail(fmt::format("{}: {}", to.title, to.remark));
+  if (options.step && to.step == 0.0)
+    return fail(fmt::format("{}: its values do not depend on a step; omit --step", to.title));
+  const AxisRule rule = options.axes.value_or(to.axes);
+  if (rule == AxisRule::kEach && to.axes != AxisRule::kEach)
+    return fail(
+        fmt::format("{}: it has one value for all axes; pass --axis worst or mean", to.title));
+  Sheet out;
+  out.heading = {
+      fmt::format("Noise of an IMU for {}, written by imunoise {}", to.title, IMUNOISE_VERSION),
+      fmt::format("source: {}{}", source.name,
+                  source.sha256.empty() ? "" : ", sha256 " + source.sha256)};
+  const std::pair<const SensorNoise*, SensorNoise*> sensors[] = {
+      {&imu.gyro, &out.imu.gyro}, {&imu.accelerometer, &out.imu.accelerometer}};
+  for (const auto& [from, into] : sensors) {
+    SensorNoise all = *from;
+    for (AxisNoise& axis : all.axes)
+      options.conservative ? make_conservative(axis, options.horizon)
+                           : fill(axis, to, options.horizon);
+    *into = reduced(all, rule);
+    // A file for axes has three values also where one stands for all.
+    if (to.axes == AxisRule::kEach && into->axes.size() == 1) into->axes.resize(3, into->axes[0]);
+    add_sensor(all, *into, to, options, out.heading);
+  }
+  out.heading.push_back(fmt::format("{} holds {}.", to.title, to.holds));
+  if (!to.remark.empty()) out.heading.emplace_back(to.remark);
+  out.fields = to.fields(out.imu, options.step.value_or(to.step));
+  return out;
+}
+
+Result<std::string> export_noise(const ImuNoise& imu, const Consumer& to,
+                                 const ExportSource& source, const ExportOptions& options) {
+  const auto sheet = export_sheet(imu, to, source, options);
+  if (!sheet) return tl::unexpected(sheet.error());
+  return to.write(*sheet);
+}
+
+}  // namespace imunoise::study

@@ -1,0 +1,185 @@
+#include "study/export/export.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "study/export/known_consumers.h"
+#include "study/export/sha256.h"
+#include "tests/study/export/example_imu.h"
+
+namespace imunoise::testing {
+namespace {
+
+using study::AxisRule;
+using study::consumer_called;
+using study::export_noise;
+using study::ExportOptions;
+
+constexpr Hertz kRate{200.0};
+const char* const kGyro = "WN(sigma2=8e-6) + RW(gamma2=8e-12)";
+
+std::string written(const study::ImuNoise& imu, const char* to, const ExportOptions& options = {}) {
+  const auto text = export_noise(imu, *consumer_called(to), {"imu.json", "abc"}, options);
+  EXPECT_TRUE(text) << text.error().message;
+  return text.value_or("");
+}
+
+// Allan variance at the middle of each pair of grid points, and at them.
+void expect_bound(const Model& model, const study::WhiteAndWalk& bound,
+                  const study::Horizon& horizon) {
+  const Model held{{Term(WhiteNoise{bound.n * bound.n * kRate.value}),
+                    Term(RandomWalk{bound.k * bound.k / kRate.value})}};
+  const auto first = static_cast<int>(horizon.begin * kRate.value);
+  const auto last = static_cast<int>(horizon.end * kRate.value);
+  const Eigen::ArrayXd m = Eigen::ArrayXd::LinSpaced(last - first + 1, first, last);
+  const Eigen::ArrayXd ratio = variance(held, m) / variance(model, m);
+  EXPECT_GT(ratio.minCoeff(), 1.0 - 1e-4);
+  EXPECT_LT(ratio.minCoeff(), 1.0 + 1e-6) << "not the smallest";
+  EXPECT_NEAR(std::sqrt(ratio.maxCoeff()), bound.most, 1e-3 * bound.most);
+}
+
+TEST(Conservative, OfWhiteNoiseAndRandomWalkIsThemselves) {
+  const auto model = parse_model(kGyro, kRate).value();
+  const auto bound = study::smallest_bound(model, kRate, {0.1, 10.0});
+  EXPECT_NEAR(bound.n, std::sqrt(8e-6 / 200.0), 1e-6 * bound.n);
+  EXPECT_NEAR(bound.k, std::sqrt(8e-12 * 200.0), 1e-4 * bound.k);
+  EXPECT_NEAR(bound.most, 1.0, 1e-6);
+}
+
+TEST(Conservative, BoundsEveryAveragingTimeOfTheHorizon) {
+  for (const char* const text :
+       {"WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=3) + RW(gamma2=1e-13)", "FN(b2=1e-8) + WN(sigma2=1e-6)",
+        "QN(q2=1e-5) + WN(sigma2=1e-6) + GM(sigma2=1e-8, tc=300)", "WN(sigma2=1e-6)",
+        "WN(sigma2=1e-6) + RES(sigma2=1e-8, f=2, zeta=0.1)"}) {
+    SCOPED_TRACE(text);
+    const auto model = parse_model(text, kRate);
+    if (!model) FAIL() << model.error().message;
+    for (const study::Horizon& horizon : {study::Horizon{0.1, 10.0}, study::Horizon{0.5, 60.0}})
+      expect_bound(*model, study::smallest_bound(*model, kRate, horizon), horizon);
+  }
+}
+
+// No other N and K that bound the model have a smaller mean ratio: scaled to bound, each is worse.
+TEST(Conservative, NoOtherBoundIsSmaller) {
+  const auto model = parse_model("WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=3)", kRate).value();
+  const Eigen::ArrayXd m = study::horizon_samples(kRate, {0.1, 10.0});
+  const auto best = study::smallest_bound(model, kRate, {0.1, 10.0});
+  const Eigen::ArrayXd allan = 2.0 * variance(model, m);
+  for (const double tilt : {0.25, 0.5, 0.9, 1.1, 2.0, 4.0}) {
+    const Model other{{Term(WhiteNoise{best.n * best.n * kRate.value}),
+                       Term(RandomWalk{tilt * best.k * best.k / kRate.value})}};
+    Eigen::ArrayXd ratio = 2.0 * variance(other, m) / allan;
+    ratio /= ratio.minCoeff();
+    EXPECT_GT(std::sqrt(ratio.mean()), best.usual * 0.999) << tilt;
+  }
+}
+
+TEST(Export, KalibrNeverGetsZero) {
+  const auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=1e-4) + GM(sigma2=1e-6, tc=100)", kRate);
+  const std::string file = written(imu, "kalibr");
+  for (const char* const key : {"gyroscope_noise_density", "gyroscope_random_walk",
+                                "accelerometer_noise_density", "accelerometer_random_walk"}) {
+    ASSERT_EQ(numbers_of(file, key).size(), 1U) << file;
+    EXPECT_GT(numbers_of(file, key)[0], 0.0) << key;
+  }
+  EXPECT_NE(file.find("refuses 0"), std::string::npos) << file;
+  EXPECT_NE(file.find("has no random walk; K bounds its error"), std::string::npos) << file;
+}
+
+TEST(Export, AxesWorstMeanEach) {
+  auto imu = example_imu(kGyro, kGyro, kRate);
+  imu.gyro.axes[1].n.value *= 3.0;
+  imu.gyro.axes[2].k.value *= 2.0;
+  const double n = imu.gyro.axes[0].n.value;
+  const double k = imu.gyro.axes[0].k.value;
+  const auto near = [](const std::vector<double>& x, double value) {
+    ASSERT_EQ(x.size(), 1U);
+    EXPECT_NEAR(x[0], value, 1e-6 * value);
+  };
+  const std::string worst = written(imu, "kalibr");
+  near(numbers_of(worst, "gyroscope_noise_density"), 3.0 * n);
+  near(numbers_of(worst, "gyroscope_random_walk"), 2.0 * k);
+  EXPECT_NE(worst.find("worst of gyro_x, gyro_y, gyro_z"), std::string::npos);
+  const std::string mean = written(imu, "kalibr", {.axes = AxisRule::kMean});
+  near(numbers_of(mean, "gyroscope_noise_density"), n * std::sqrt(11.0 / 3.0));
+  near(numbers_of(mean, "gyroscope_random_walk"), k * std::sqrt(2.0));
+  EXPECT_NE(mean.find("root mean square of"), std::string::npos);
+  const auto each = numbers_of(written(imu, "basalt"), "gyro_noise_std");
+  ASSERT_EQ(each.size(), 3U);
+  EXPECT_NEAR(each[1], 3.0 * each[0], 1e-6 * each[1]);
+  const auto all = numbers_of(written(imu, "basalt", {.axes = AxisRule::kWorst}), "gyro_noise_std");
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0], all[1]);
+  const auto refused =
+      export_noise(imu, *consumer_called("kalibr"), {"x", ""}, {.axes = AxisRule::kEach});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("--axis worst or mean"), std::string::npos);
+}
+
+TEST(Export, StatesWhatAConsumerDoesNotTake) {
+  const auto imu = example_imu("WN(sigma2=8e-6) + GM(sigma2=4e-6, tc=3) + RW(gamma2=8e-12)", kGyro, kRate);
+  const std::string file = written(imu, "orb-slam3");
+  EXPECT_NE(file.find("ORB-SLAM3 takes no Gauss-Markov noise"), std::string::npos) << file;
+  EXPECT_NE(file.find("times larger"), std::string::npos) << file;
+  EXPECT_NE(file.find("sha256 abc"), std::string::npos) << file;
+  const std::string safe = written(imu, "orb-slam3", {.conservative = true});
+  EXPECT_EQ(safe.find("times larger"), std::string::npos) << safe;
+  EXPECT_NE(safe.find("overstate it by a factor of up to"), std::string::npos) << safe;
+  EXPECT_GT(numbers_of(safe, "IMU.NoiseGyro")[0], numbers_of(file, "IMU.NoiseGyro")[0]);
+}
+
+TEST(Export, IsaacSimHasNoPlaceForNoise) {
+  const auto refused = export_noise(example_imu(kGyro, kGyro, kRate),
+                                    *consumer_called("isaac-sim"), {"x", ""}, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("no noise fields"), std::string::npos);
+}
+
+TEST(Export, StepOfTheFilterChangesAutopilotsAlone) {
+  const auto imu = example_imu(kGyro, kGyro, kRate);
+  const double usual = numbers_of(written(imu, "px4"), "EKF2_GYR_NOISE")[0];
+  const double slow = numbers_of(written(imu, "px4", {.step = 0.04}), "EKF2_GYR_NOISE")[0];
+  EXPECT_NEAR(slow, usual / 2.0, 1e-6 * usual);
+  EXPECT_FALSE(export_noise(imu, *consumer_called("kalibr"), {"x", ""}, {.step = 0.04}));
+}
+
+TEST(Export, IntervalsFollowTheFit) {
+  v1::FitReport fit;
+  fit.set_channel("gyro_x");
+  fit.set_unit("rad/s");
+  fit.set_rate_hz(200.0);
+  fit.set_fitted_model(kGyro);
+  v1::Coefficient& n = *fit.add_terms()->add_coefficients();
+  n.set_symbol("N");
+  n.set_value(2e-4);
+  n.set_lower(1.9e-4);
+  n.set_upper(2.1e-4);
+  const auto imu = study::imu_noise({fit});
+  ASSERT_TRUE(imu) << imu.error().message;
+  EXPECT_EQ(imu->gyro.axes[0].axis, 'x');
+  const auto sheet = study::export_sheet(*imu, *consumer_called("gtsam"), {"x", ""}, {});
+  ASSERT_TRUE(sheet);
+  const study::Field& field = sheet->fields.front();
+  EXPECT_EQ(field.key, "gyroscopeCovariance");
+  ASSERT_EQ(field.values.size(), 3U);
+  EXPECT_DOUBLE_EQ(field.values[0].lower, 1.9e-4 * 1.9e-4);
+  EXPECT_DOUBLE_EQ(field.values[0].upper, 2.1e-4 * 2.1e-4);
+  const auto twice = study::imu_noise({fit, fit});
+  ASSERT_FALSE(twice);
+  EXPECT_NE(twice.error().message.find("one axis too many"), std::string::npos);
+}
+
+// FIPS 180-4 examples, and lengths around the block of 64 bytes (from sha256sum).
+TEST(Sha256, KnownDigests) {
+  EXPECT_EQ(study::sha256("abc"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(study::sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(study::sha256(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  EXPECT_EQ(study::sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+}  // namespace
+}  // namespace imunoise::testing
