@@ -27,6 +27,7 @@
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
 #include "study/calibration/calibrate.h"
+#include "study/export/export.h"
 
 namespace imunoise::cli {
 
@@ -184,6 +185,16 @@ struct CalibrateArguments {
   ShowArguments show;
 };
 
+/// Noise values in the form of another program.
+struct ExportArguments {
+  InputArguments input;  ///< one JSON file of fits, one folder of a recording, or recordings to fit
+  std::vector<std::string> models;  ///< for recordings; as CalibrateOptions::models
+  std::string to;                   ///< a consumer's name
+  std::string device;               ///< in the source; empty: its only one
+  study::ExportOptions options;
+  std::optional<std::filesystem::path> out;  ///< unset: standard output
+};
+
 /// A folder of recordings and its index, or the recordings of a daemon.
 struct CatalogueArguments {
   std::filesystem::path folder;          ///< empty: the daemon is asked
@@ -247,10 +258,10 @@ struct Arguments {
                    MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
                    StudyArguments, OpenArguments, SimulateArguments, RecordArguments,
                    VerifyArguments, EmulateArguments, DriversArguments, DecodeArguments,
-                   CalibrateArguments, RecordingsArguments, CalibrationsArguments, HistoryArguments,
-                   DevicesArguments, CampaignsArguments, StatusArguments, StartArguments,
-                   StopArguments, BatchNewArguments, BatchRunArguments, BatchShardArguments,
-                   BatchStatusArguments, BatchMergeArguments>;
+                   CalibrateArguments, ExportArguments, RecordingsArguments, CalibrationsArguments,
+                   HistoryArguments, DevicesArguments, CampaignsArguments, StatusArguments,
+                   StartArguments, StopArguments, BatchNewArguments, BatchRunArguments,
+                   BatchShardArguments, BatchStatusArguments, BatchMergeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -16,6 +16,7 @@ Examples:
   imunoise open run?.h5                                  see it in the browser
   imunoise record monday --device "xsens port=/dev/ttyUSB0" --duration 3600 --replicates 6
   imunoise calibrate monday                              fit all channels of a recording
+  imunoise export imu.json --to kalibr                   write noise values for another program
   imunoise history recordings --device 0042              compare calibrations over months
   imunoise status --follow                               watch campaigns of imunoised
 
@@ -35,7 +36,7 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"Analyse recordings",
-       {analysis_commands, diagnosis_commands, open_commands, array_commands}},
+       {analysis_commands, diagnosis_commands, open_commands, array_commands, export_commands}},
       {"Record, replay and simulate",
        {recording_commands, replay_commands, device_commands, emulation_commands}},
       {"Manage many recordings", {catalogue_commands, batch_commands}},

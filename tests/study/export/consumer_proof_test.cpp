@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -24,10 +25,10 @@ constexpr double kGravity = 9.80665;
 
 // The noise that a consumer takes a measurement to have: white numbers and a bias, step by step.
 struct Recursion {
-  double dt = 0.0;                                // s
-  std::function<double(RandomStream&)> white;     // of one step
-  double phi = 1.0;                               // what remains of the bias after a step
-  double walk = 0.0;                              // standard deviation of what it gains
+  double dt = 0.0;                             // s
+  std::function<double(RandomStream&)> white;  // of one step
+  double phi = 1.0;                            // what remains of the bias after a step
+  double walk = 0.0;                           // standard deviation of what it gains
 };
 
 Recursion simple(double dt, double white, double walk, double phi = 1.0) {
@@ -64,8 +65,7 @@ Recursion by_orb_slam3(const std::string& file, bool gyro, double rate) {
 
 Recursion by_basalt(const std::string& file, bool gyro, double) {
   const double rate = first(file, "imu_update_rate\":");
-  return simple(1.0 / rate,
-                pick(file, gyro, "gyro_noise_std", "accel_noise_std") * std::sqrt(rate),
+  return simple(1.0 / rate, pick(file, gyro, "gyro_noise_std", "accel_noise_std") * std::sqrt(rate),
                 pick(file, gyro, "gyro_bias_std", "accel_bias_std") / std::sqrt(rate));
 }
 
@@ -149,8 +149,7 @@ Recursion by_matlab(const std::string& file, bool gyro, double rate) {
 Recursion by_kf_gins(const std::string& file, bool gyro, double rate) {
   const double dt = 1.0 / rate;
   const double density = gyro ? first(file, "arw") * kDegree / 60.0 : first(file, "vrw") / 60.0;
-  const double sigma =
-      gyro ? first(file, "gbstd") * kDegree / 3600.0 : first(file, "abstd") * 1e-5;
+  const double sigma = gyro ? first(file, "gbstd") * kDegree / 3600.0 : first(file, "abstd") * 1e-5;
   const double tau = first(file, "corrtime") * 3600.0;
   return simple(dt, density / std::sqrt(dt), std::sqrt(2.0 * sigma * sigma / tau * dt),
                 1.0 - dt / tau);
@@ -160,23 +159,23 @@ Recursion by_navego(const std::string& file, bool gyro, double rate) {
   const double dt = 1.0 / rate;
   const double density =
       gyro ? first(file, "imu.arw") / 60.0 * kDegree : first(file, "imu.vrw") / 60.0;
-  const double dyn = gyro ? first(file, "imu.gb_dyn") * kDegree
-                          : first(file, "imu.ab_dyn") * 0.001 * kGravity;
+  const double dyn =
+      gyro ? first(file, "imu.gb_dyn") * kDegree : first(file, "imu.ab_dyn") * 0.001 * kGravity;
   const double corr = pick(file, gyro, "imu.gb_corr", "imu.ab_corr");
   return simple(dt, density / std::sqrt(dt), dyn / std::sqrt(corr) * std::sqrt(dt),
                 1.0 - dt / corr);
 }
 
 Recursion by_ros(const std::string& file, bool gyro, double rate) {
-  return simple(1.0 / rate,
-                std::sqrt(pick(file, gyro, "angular_velocity_covariance",
-                               "linear_acceleration_covariance")),
-                0.0);
+  return simple(
+      1.0 / rate,
+      std::sqrt(pick(file, gyro, "angular_velocity_covariance", "linear_acceleration_covariance")),
+      0.0);
 }
 
 Recursion by_autoware(const std::string& file, bool gyro, double rate) {
-  return simple(1.0 / rate,
-                pick(file, gyro, "angular_velocity_stddev_xx", "acceleration_stddev"), 0.0);
+  return simple(1.0 / rate, pick(file, gyro, "angular_velocity_stddev_xx", "acceleration_stddev"),
+                0.0);
 }
 
 struct Proof {
@@ -189,16 +188,23 @@ struct Proof {
 void PrintTo(const Proof& proof, std::ostream* to) { *to << proof.consumer; }
 
 const std::vector<Proof>& proofs() {
-  static const std::vector<Proof> kProofs = {
-      {"kalibr", by_densities},          {"openvins", by_densities},
-      {"orb-slam3", by_orb_slam3},       {"basalt", by_basalt},
-      {"gtsam", by_gtsam},               {"lio-sam", by_lio_sam},
-      {"vins-fusion", by_vins},          {"fast-lio", by_fast_lio},
-      {"px4", by_px4},                   {"ardupilot", by_ardupilot},
-      {"gazebo", by_gazebo, true, true}, {"airsim", by_airsim},
-      {"matlab", by_matlab},             {"kf-gins", by_kf_gins, true, true},
-      {"navego", by_navego, true, true}, {"ros", by_ros, false},
-      {"autoware", by_autoware, false}};
+  static const std::vector<Proof> kProofs = {{"kalibr", by_densities},
+                                             {"openvins", by_densities},
+                                             {"orb-slam3", by_orb_slam3},
+                                             {"basalt", by_basalt},
+                                             {"gtsam", by_gtsam},
+                                             {"lio-sam", by_lio_sam},
+                                             {"vins-fusion", by_vins},
+                                             {"fast-lio", by_fast_lio},
+                                             {"px4", by_px4},
+                                             {"ardupilot", by_ardupilot},
+                                             {"gazebo", by_gazebo, true, true},
+                                             {"airsim", by_airsim},
+                                             {"matlab", by_matlab},
+                                             {"kf-gins", by_kf_gins, true, true},
+                                             {"navego", by_navego, true, true},
+                                             {"ros", by_ros, false},
+                                             {"autoware", by_autoware, false}};
   return kProofs;
 }
 
@@ -222,7 +228,7 @@ void expect_noise_of(const Recursion& recursion, const std::string& model, std::
   const Hertz rate{1.0 / recursion.dt};
   // The model has its densities at any rate: the grammar's values are per sample at this one.
   const Model noise = parse_model(model, rate).value();
-  const Scales scales = Scales::dyadic(kSamples);
+  const Scales scales = Scales::for_samples(kSamples);
   const WaveletVariance measured = wavelet_variance(Signal(std::span(x), rate), scales);
   const Eigen::ArrayXd expected = variance(noise, scales.half_widths());
   const Eigen::MatrixXd covariance = moment_covariance(sum_covariance(noise), scales, kSamples);
@@ -243,27 +249,27 @@ std::string white_and_walk(double n, double k, double rate) {
 
 class ConsumerProof : public ::testing::TestWithParam<Proof> {};
 
-constexpr double kRate = 200.0;
+constexpr double kSampling = 200.0;
 constexpr double kGyroN = 2e-4;
 constexpr double kGyroK = 4e-5;
 constexpr double kAccN = 1.5e-3;
 constexpr double kAccK = 5e-4;
 
 std::string file_for(const Proof& proof, const std::string& gyro, const std::string& acc) {
-  const auto imu = example_imu(gyro, acc, Hertz{kRate});
-  const auto text = study::export_noise(imu, *study::consumer_called(proof.consumer),
-                                        {"test", ""}, ExportOptions{});
+  const auto imu = example_imu(gyro, acc, Hertz{kSampling});
+  const auto text = study::export_noise(imu, *study::consumer_called(proof.consumer), {"test", ""},
+                                        ExportOptions{});
   EXPECT_TRUE(text) << text.error().message;
   return text.value_or("");
 }
 
 TEST_P(ConsumerProof, WhiteNoiseAndRandomWalk) {
   const Proof& proof = GetParam();
-  const std::string file =
-      file_for(proof, white_and_walk(kGyroN, kGyroK, kRate), white_and_walk(kAccN, kAccK, kRate));
+  const std::string file = file_for(proof, white_and_walk(kGyroN, kGyroK, kSampling),
+                                    white_and_walk(kAccN, kAccK, kSampling));
   SCOPED_TRACE(file);
   for (const bool gyro : {true, false}) {
-    const Recursion recursion = proof.read(file, gyro, kRate);
+    const Recursion recursion = proof.read(file, gyro, kSampling);
     const double n = gyro ? kGyroN : kAccN;
     const double k = gyro ? kGyroK : kAccK;
     expect_noise_of(recursion, white_and_walk(n, proof.walks ? k : 0.0, 1.0 / recursion.dt),
@@ -278,23 +284,22 @@ TEST_P(ConsumerProof, MarkovBias) {
   const std::string acc = "WN(sigma2=4.5e-4) + GM(sigma2=6e-6, tc=20)";
   const std::string file = file_for(proof, gyro, acc);
   SCOPED_TRACE(file);
-  expect_noise_of(proof.read(file, true, kRate), gyro, 13);
-  expect_noise_of(proof.read(file, false, kRate), acc, 14);
+  expect_noise_of(proof.read(file, true, kSampling), gyro, 13);
+  expect_noise_of(proof.read(file, false, kSampling), acc, 14);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ConsumerProof, ::testing::ValuesIn(proofs()),
-                         [](const auto& one) {
-                           std::string name = one.param.consumer;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, ConsumerProof, ::testing::ValuesIn(proofs()), [](const auto& one) {
+  std::string name = one.param.consumer;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST(KnownConsumers, EachWithNoiseValuesIsProven) {
   for (const study::Consumer* const one : study::known_consumers()) {
     if (one->fields == nullptr) continue;
-    EXPECT_TRUE(std::any_of(proofs().begin(), proofs().end(),
-                            [&](const Proof& proof) { return proof.consumer == one->name; }))
-        << one->name;
+    EXPECT_TRUE(std::any_of(proofs().begin(), proofs().end(), [&](const Proof& proof) {
+      return proof.consumer == one->name;
+    })) << one->name;
   }
 }
 

@@ -16,7 +16,7 @@ using study::consumer_called;
 using study::export_noise;
 using study::ExportOptions;
 
-constexpr Hertz kRate{200.0};
+constexpr Hertz kAt{200.0};
 const char* const kGyro = "WN(sigma2=8e-6) + RW(gamma2=8e-12)";
 
 std::string written(const study::ImuNoise& imu, const char* to, const ExportOptions& options = {}) {
@@ -25,13 +25,25 @@ std::string written(const study::ImuNoise& imu, const char* to, const ExportOpti
   return text.value_or("");
 }
 
+ExportOptions by(AxisRule rule) {
+  ExportOptions out;
+  out.axes = rule;
+  return out;
+}
+
+ExportOptions with_step(double seconds) {
+  ExportOptions out;
+  out.step = seconds;
+  return out;
+}
+
 // Allan variance at the middle of each pair of grid points, and at them.
 void expect_bound(const Model& model, const study::WhiteAndWalk& bound,
                   const study::Horizon& horizon) {
-  const Model held{{Term(WhiteNoise{bound.n * bound.n * kRate.value}),
-                    Term(RandomWalk{bound.k * bound.k / kRate.value})}};
-  const auto first = static_cast<int>(horizon.begin * kRate.value);
-  const auto last = static_cast<int>(horizon.end * kRate.value);
+  const Model held{{Term(WhiteNoise{bound.n * bound.n * kAt.value}),
+                    Term(RandomWalk{bound.k * bound.k / kAt.value})}};
+  const auto first = static_cast<int>(horizon.begin * kAt.value);
+  const auto last = static_cast<int>(horizon.end * kAt.value);
   const Eigen::ArrayXd m = Eigen::ArrayXd::LinSpaced(last - first + 1, first, last);
   const Eigen::ArrayXd ratio = variance(held, m) / variance(model, m);
   EXPECT_GT(ratio.minCoeff(), 1.0 - 1e-4);
@@ -40,8 +52,8 @@ void expect_bound(const Model& model, const study::WhiteAndWalk& bound,
 }
 
 TEST(Conservative, OfWhiteNoiseAndRandomWalkIsThemselves) {
-  const auto model = parse_model(kGyro, kRate).value();
-  const auto bound = study::smallest_bound(model, kRate, {0.1, 10.0});
+  const auto model = parse_model(kGyro, kAt).value();
+  const auto bound = study::smallest_bound(model, kAt, {0.1, 10.0});
   EXPECT_NEAR(bound.n, std::sqrt(8e-6 / 200.0), 1e-6 * bound.n);
   EXPECT_NEAR(bound.k, std::sqrt(8e-12 * 200.0), 1e-4 * bound.k);
   EXPECT_NEAR(bound.most, 1.0, 1e-6);
@@ -49,26 +61,26 @@ TEST(Conservative, OfWhiteNoiseAndRandomWalkIsThemselves) {
 
 TEST(Conservative, BoundsEveryAveragingTimeOfTheHorizon) {
   for (const char* const text :
-       {"WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=3) + RW(gamma2=1e-13)", "FN(b2=1e-8) + WN(sigma2=1e-6)",
-        "QN(q2=1e-5) + WN(sigma2=1e-6) + GM(sigma2=1e-8, tc=300)", "WN(sigma2=1e-6)",
-        "WN(sigma2=1e-6) + RES(sigma2=1e-8, f=2, zeta=0.1)"}) {
+       {"WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=3) + RW(gamma2=1e-13)",
+        "FN(b2=1e-8) + WN(sigma2=1e-6)", "QN(q2=1e-5) + WN(sigma2=1e-6) + GM(sigma2=1e-8, tc=300)",
+        "WN(sigma2=1e-6)", "WN(sigma2=1e-6) + RES(sigma2=1e-12, r=0.99, omega=0.0628)"}) {
     SCOPED_TRACE(text);
-    const auto model = parse_model(text, kRate);
+    const auto model = parse_model(text, kAt);
     if (!model) FAIL() << model.error().message;
     for (const study::Horizon& horizon : {study::Horizon{0.1, 10.0}, study::Horizon{0.5, 60.0}})
-      expect_bound(*model, study::smallest_bound(*model, kRate, horizon), horizon);
+      expect_bound(*model, study::smallest_bound(*model, kAt, horizon), horizon);
   }
 }
 
 // No other N and K that bound the model have a smaller mean ratio: scaled to bound, each is worse.
 TEST(Conservative, NoOtherBoundIsSmaller) {
-  const auto model = parse_model("WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=3)", kRate).value();
-  const Eigen::ArrayXd m = study::horizon_samples(kRate, {0.1, 10.0});
-  const auto best = study::smallest_bound(model, kRate, {0.1, 10.0});
+  const auto model = parse_model("WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=3)", kAt).value();
+  const Eigen::ArrayXd m = study::horizon_samples(kAt, {0.1, 10.0});
+  const auto best = study::smallest_bound(model, kAt, {0.1, 10.0});
   const Eigen::ArrayXd allan = 2.0 * variance(model, m);
   for (const double tilt : {0.25, 0.5, 0.9, 1.1, 2.0, 4.0}) {
-    const Model other{{Term(WhiteNoise{best.n * best.n * kRate.value}),
-                       Term(RandomWalk{tilt * best.k * best.k / kRate.value})}};
+    const Model other{{Term(WhiteNoise{best.n * best.n * kAt.value}),
+                       Term(RandomWalk{tilt * best.k * best.k / kAt.value})}};
     Eigen::ArrayXd ratio = 2.0 * variance(other, m) / allan;
     ratio /= ratio.minCoeff();
     EXPECT_GT(std::sqrt(ratio.mean()), best.usual * 0.999) << tilt;
@@ -76,7 +88,7 @@ TEST(Conservative, NoOtherBoundIsSmaller) {
 }
 
 TEST(Export, KalibrNeverGetsZero) {
-  const auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=1e-4) + GM(sigma2=1e-6, tc=100)", kRate);
+  const auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=1e-4) + GM(sigma2=1e-6, tc=100)", kAt);
   const std::string file = written(imu, "kalibr");
   for (const char* const key : {"gyroscope_noise_density", "gyroscope_random_walk",
                                 "accelerometer_noise_density", "accelerometer_random_walk"}) {
@@ -88,7 +100,7 @@ TEST(Export, KalibrNeverGetsZero) {
 }
 
 TEST(Export, AxesWorstMeanEach) {
-  auto imu = example_imu(kGyro, kGyro, kRate);
+  auto imu = example_imu(kGyro, kGyro, kAt);
   imu.gyro.axes[1].n.value *= 3.0;
   imu.gyro.axes[2].k.value *= 2.0;
   const double n = imu.gyro.axes[0].n.value;
@@ -101,47 +113,50 @@ TEST(Export, AxesWorstMeanEach) {
   near(numbers_of(worst, "gyroscope_noise_density"), 3.0 * n);
   near(numbers_of(worst, "gyroscope_random_walk"), 2.0 * k);
   EXPECT_NE(worst.find("worst of gyro_x, gyro_y, gyro_z"), std::string::npos);
-  const std::string mean = written(imu, "kalibr", {.axes = AxisRule::kMean});
+  const std::string mean = written(imu, "kalibr", by(AxisRule::kMean));
   near(numbers_of(mean, "gyroscope_noise_density"), n * std::sqrt(11.0 / 3.0));
   near(numbers_of(mean, "gyroscope_random_walk"), k * std::sqrt(2.0));
   EXPECT_NE(mean.find("root mean square of"), std::string::npos);
   const auto each = numbers_of(written(imu, "basalt"), "gyro_noise_std");
   ASSERT_EQ(each.size(), 3U);
   EXPECT_NEAR(each[1], 3.0 * each[0], 1e-6 * each[1]);
-  const auto all = numbers_of(written(imu, "basalt", {.axes = AxisRule::kWorst}), "gyro_noise_std");
+  const auto all = numbers_of(written(imu, "basalt", by(AxisRule::kWorst)), "gyro_noise_std");
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[0], all[1]);
   const auto refused =
-      export_noise(imu, *consumer_called("kalibr"), {"x", ""}, {.axes = AxisRule::kEach});
+      export_noise(imu, *consumer_called("kalibr"), {"x", ""}, by(AxisRule::kEach));
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("--axis worst or mean"), std::string::npos);
 }
 
 TEST(Export, StatesWhatAConsumerDoesNotTake) {
-  const auto imu = example_imu("WN(sigma2=8e-6) + GM(sigma2=4e-6, tc=3) + RW(gamma2=8e-12)", kGyro, kRate);
+  const auto imu =
+      example_imu("WN(sigma2=8e-6) + GM(sigma2=4e-6, tc=3) + RW(gamma2=8e-12)", kGyro, kAt);
   const std::string file = written(imu, "orb-slam3");
   EXPECT_NE(file.find("ORB-SLAM3 takes no Gauss-Markov noise"), std::string::npos) << file;
   EXPECT_NE(file.find("times larger"), std::string::npos) << file;
   EXPECT_NE(file.find("sha256 abc"), std::string::npos) << file;
-  const std::string safe = written(imu, "orb-slam3", {.conservative = true});
+  ExportOptions options;
+  options.conservative = true;
+  const std::string safe = written(imu, "orb-slam3", options);
   EXPECT_EQ(safe.find("times larger"), std::string::npos) << safe;
   EXPECT_NE(safe.find("overstate it by a factor of up to"), std::string::npos) << safe;
   EXPECT_GT(numbers_of(safe, "IMU.NoiseGyro")[0], numbers_of(file, "IMU.NoiseGyro")[0]);
 }
 
 TEST(Export, IsaacSimHasNoPlaceForNoise) {
-  const auto refused = export_noise(example_imu(kGyro, kGyro, kRate),
-                                    *consumer_called("isaac-sim"), {"x", ""}, {});
+  const auto refused =
+      export_noise(example_imu(kGyro, kGyro, kAt), *consumer_called("isaac-sim"), {"x", ""}, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("no noise fields"), std::string::npos);
 }
 
 TEST(Export, StepOfTheFilterChangesAutopilotsAlone) {
-  const auto imu = example_imu(kGyro, kGyro, kRate);
+  const auto imu = example_imu(kGyro, kGyro, kAt);
   const double usual = numbers_of(written(imu, "px4"), "EKF2_GYR_NOISE")[0];
-  const double slow = numbers_of(written(imu, "px4", {.step = 0.04}), "EKF2_GYR_NOISE")[0];
+  const double slow = numbers_of(written(imu, "px4", with_step(0.04)), "EKF2_GYR_NOISE")[0];
   EXPECT_NEAR(slow, usual / 2.0, 1e-6 * usual);
-  EXPECT_FALSE(export_noise(imu, *consumer_called("kalibr"), {"x", ""}, {.step = 0.04}));
+  EXPECT_FALSE(export_noise(imu, *consumer_called("kalibr"), {"x", ""}, with_step(0.04)));
 }
 
 TEST(Export, IntervalsFollowTheFit) {

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "cli/commands/commands.h"
+#include "cli/input.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/progress_line.h"
+#include "recording/import/table/file.h"
+#include "study/calibration/calibrate.h"
+#include "study/calibration/calibration_file.h"
+#include "study/export/known_consumers.h"
+#include "study/export/sha256.h"
+#include "study/export/source.h"
+
+namespace imunoise::cli {
+namespace {
+
+// Fits, and the bytes that they come from.
+struct Fits {
+  std::vector<study::SourceFit> fits;
+  study::ExportSource source;
+};
+
+bool is_json(const std::filesystem::path& path) {
+  const auto file = recording::File::open(path);
+  if (!file) return false;
+  std::array<char, 64> start{};
+  const auto count = file->read_at(0, start);
+  if (!count) return false;
+  const std::string_view text(start.data(), *count);
+  const std::size_t at = text.find_first_not_of(" \t\r\n");
+  return at != std::string_view::npos && text[at] == '{';
+}
+
+Result<std::string> hash_of(const std::vector<std::filesystem::path>& paths) {
+  study::Sha256 hash;
+  std::vector<char> block(std::size_t{1} << 20U);
+  for (const std::filesystem::path& path : paths) {
+    const auto file = recording::File::open(path);
+    if (!file) return tl::unexpected(file.error());
+    for (std::uint64_t at = 0; at < file->size();) {
+      const auto count = file->read_at(at, block);
+      if (!count) return tl::unexpected(count.error());
+      if (*count == 0) break;
+      hash.add({block.data(), *count});
+      at += *count;
+    }
+  }
+  return hash.hex();
+}
+
+study::CalibrateOptions calibrate_options(const ExportArguments& arguments) {
+  study::CalibrateOptions out;
+  out.models = arguments.models;
+  out.channels = arguments.input.import.channels;
+  out.diagnose = false;
+  out.bootstrap.sets = 0;
+  return out;
+}
+
+Result<Fits> fits_of_files(const ExportArguments& arguments) {
+  const auto& files = arguments.input.files;
+  const Interrupt interrupt;
+  const auto replicates = read_input(arguments.input);
+  if (!replicates) return tl::unexpected(replicates.error());
+  ProgressLine line("fitting");
+  const auto done = study::calibrate_files(*replicates, calibrate_options(arguments),
+                                           line.progress(interrupt.token()));
+  if (!done) return tl::unexpected(done.error());
+  auto hash = hash_of(files);
+  if (!hash) return tl::unexpected(hash.error());
+  std::string names;
+  for (const auto& one : files) names += (names.empty() ? "" : ", ") + one.filename().string();
+  return Fits{study::fits_of(*done), {names, *hash}};
+}
+
+Result<Fits> fits_of_recording(const ExportArguments& arguments) {
+  const std::filesystem::path& folder = arguments.input.files.front();
+  recording::FileSystem& files = recording::posix_file_system();
+  const auto known = study::read_calibration(files, folder);
+  if (!known) return tl::unexpected(known.error());
+  if (*known && arguments.models.empty()) {
+    const auto hash = hash_of({folder / study::kCalibrationName});
+    if (!hash) return tl::unexpected(hash.error());
+    return Fits{study::fits_of(**known), {(folder / study::kCalibrationName).string(), *hash}};
+  }
+  const Interrupt interrupt;
+  ProgressLine line("fitting");
+  const auto done = study::calibrate(files, folder, calibrate_options(arguments),
+                                     line.progress(interrupt.token()));
+  if (!done) return tl::unexpected(done.error());
+  return Fits{study::fits_of(*done), {folder.string(), done->fingerprint()}};
+}
+
+Result<Fits> fits_of_json(const std::filesystem::path& path) {
+  const auto text = recording::posix_file_system().read(path);
+  if (!text) return tl::unexpected(text.error());
+  auto fits = study::parse_fits(*text);
+  if (!fits) return fail(path.string() + ": " + fits.error().message);
+  return Fits{std::move(*fits), {path.filename().string(), study::sha256(*text)}};
+}
+
+Result<Fits> read_fits(const ExportArguments& arguments) {
+  const auto& files = arguments.input.files;
+  if (files.size() == 1 && std::filesystem::is_directory(files.front()))
+    return fits_of_recording(arguments);
+  if (files.size() == 1 && is_json(files.front())) return fits_of_json(files.front());
+  return fits_of_files(arguments);
+}
+
+Result<std::string> export_text(const ExportArguments& arguments) {
+  const auto fits = read_fits(arguments);
+  if (!fits) return tl::unexpected(fits.error());
+  const auto chosen =
+      study::chosen_fits(fits->fits, arguments.device, arguments.input.import.channels);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const auto imu = study::imu_noise(*chosen);
+  if (!imu) return tl::unexpected(imu.error());
+  return study::export_noise(*imu, *study::consumer_called(arguments.to), fits->source,
+                             arguments.options);
+}
+
+}  // namespace
+
+int run(const ExportArguments& arguments) {
+  const auto text = export_text(arguments);
+  if (!text) return print_error(text.error());
+  if (!arguments.out) {
+    print(*text);
+    return 0;
+  }
+  if (auto done = write_file(*arguments.out, *text); !done) return print_error(done.error());
+  tell(fmt::format("wrote {}\n", arguments.out->string()));
+  return 0;
+}
+
+}  // namespace imunoise::cli
