@@ -21,7 +21,7 @@ std::string interval_words(const Field& field) {
   std::string out;
   for (const Bounded& one : field.values) {
     if (!one.bounded()) continue;
-    out += fmt::format("{}{:.3g} … {:.3g}", out.empty() ? "" : "; ", one.lower, one.upper);
+    out += fmt::format("{}{:.4g} … {:.4g}", out.empty() ? "" : "; ", one.lower, one.upper);
   }
   return out.empty() ? "" : fmt::format(" ({})", out);
 }
@@ -67,8 +67,7 @@ std::string value_list(const Field& field, std::string_view open, std::string_vi
 }
 
 std::string field_words(const Field& field) {
-  return fmt::format("{}{}{}{}", field.formula, field.unit.empty() ? "" : " in ", field.unit,
-                     interval_words(field));
+  return fmt::format("{}; {}{}", field.unit, field.formula, interval_words(field));
 }
 
 std::string commented(const Sheet& sheet, std::string_view prefix) {

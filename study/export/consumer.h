@@ -74,7 +74,7 @@ std::string yaml_under(std::string_view root, const Sheet& sheet);
 std::string commented(const Sheet& sheet, std::string_view prefix);
 /// The heading as a member of a JSON object: `"comment": ["...", ...],` and a line end.
 std::string json_comment(const Sheet& sheet, std::string_view indent);
-/// "N in rad/s/√Hz (1.1e-4 … 1.3e-4)": what stands beside a value.
+/// "rad/s/√Hz; N (1.1e-4 … 1.3e-4)": what stands beside a value.
 std::string field_words(const Field& field);
 /// Values as programs read them: "0.00012" or "[1, 2, 3]" with the brackets and separator given.
 std::string value_list(const Field& field, std::string_view open = "[",

@@ -75,6 +75,24 @@ void make_conservative(AxisNoise& axis, const Horizon& horizon) {
                   axis.channel, horizon_words(horizon), bound.most, bound.usual));
 }
 
+// Where a bias may be a Markov process: the random walk or the slowest Markov process, whichever
+// leaves less of the model out.
+void choose_bias(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
+  if (!to.takes_markov || !axis.markov || !(axis.n.value > 0.0)) return;
+  AxisNoise by_markov = axis;
+  by_markov.k = {};
+  const auto missing = [&](const AxisNoise& one) {
+    return underestimate(axis.noise, held_by(to, one), axis.rate, horizon);
+  };
+  if (axis.k.value > 0.0 && missing(axis) <= missing(by_markov)) {
+    axis.markov.reset();
+    return;
+  }
+  std::erase(axis.left_out, axis.markov_words);
+  if (axis.k.value > 0.0) axis.left_out.push_back(axis.walk_words);
+  axis.k = {};
+}
+
 // N and K for a consumer that needs values the model does not have.
 void fill(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
   const bool needs_n = !(axis.n.value > 0.0);
@@ -141,7 +159,7 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
   if (most > 1.05) {
     heading.push_back(fmt::format(
         "  What it does not take makes integrated errors over {} up to {:.2g} times larger; "
-        "option conservative bounds them.",
+        "pass --conservative to bound them.",
         horizon_words(options.horizon), most));
   }
   for (const std::string& one : remarks) heading.push_back("  " + one);
@@ -191,9 +209,14 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
       {&imu.gyro, &out.imu.gyro}, {&imu.accelerometer, &out.imu.accelerometer}};
   for (const auto& [from, into] : sensors) {
     SensorNoise all = *from;
-    for (AxisNoise& axis : all.axes)
-      options.conservative ? make_conservative(axis, options.horizon)
-                           : fill(axis, to, options.horizon);
+    for (AxisNoise& axis : all.axes) {
+      if (options.conservative) {
+        make_conservative(axis, options.horizon);
+      } else {
+        choose_bias(axis, to, options.horizon);
+        fill(axis, to, options.horizon);
+      }
+    }
     *into = reduced(all, rule);
     // A file for axes has three values also where one stands for all.
     if (to.axes == AxisRule::kEach && into->axes.size() == 1) into->axes.resize(3, into->axes[0]);

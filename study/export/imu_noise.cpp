@@ -100,14 +100,19 @@ AxisNoise axis_noise(std::string channel, Quantity quantity, Hertz rate, Model n
   out.channel = std::move(channel);
   out.rate = rate;
   for (const Term& term : noise.terms) {
+    const std::string words = term_words(term.process, quantity, rate);
     if (const auto* white = std::get_if<WhiteNoise>(&term.process)) {
       out.n.value = square_sum(out.n.value, std::sqrt(white->sigma2 / rate.value));
     } else if (const auto* walk = std::get_if<RandomWalk>(&term.process)) {
       out.k.value = square_sum(out.k.value, std::sqrt(walk->gamma2 * rate.value));
+      out.walk_words = words;
     } else {
       const auto slow = markov_of(term.process, rate);
-      if (slow && (!out.markov || slow->tc > out.markov->tc)) out.markov = slow;
-      out.left_out.push_back(term_words(term.process, quantity, rate));
+      if (slow && (!out.markov || slow->tc > out.markov->tc)) {
+        out.markov = slow;
+        out.markov_words = words;
+      }
+      out.left_out.push_back(words);
     }
   }
   out.noise = std::move(noise);

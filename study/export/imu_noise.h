@@ -39,6 +39,8 @@ struct AxisNoise {
   Bounded n;                          ///< unit/√Hz; 0: the model has no white noise
   Bounded k;                          ///< unit/s/√Hz; 0: the model has no random walk
   std::optional<Markov> markov;       ///< the slowest Markov process of at least kSlowest
+  std::string markov_words;           ///< term_words() of that process; empty: there is none
+  std::string walk_words;             ///< and of the random walk
   std::vector<std::string> left_out;  ///< terms and effects that N and K do not hold, in words
   std::vector<std::string> remarks;   ///< how N and K differ from the model's, in words
 };

@@ -208,7 +208,7 @@ const std::vector<Proof>& proofs() {
   return kProofs;
 }
 
-constexpr std::size_t kSamples = std::size_t{1} << 17U;
+constexpr std::size_t kSamples = std::size_t{1} << 19U;
 
 std::vector<double> simulate_consumer(const Recursion& recursion, std::uint64_t seed) {
   RandomStream rng(seed);
@@ -250,10 +250,11 @@ std::string white_and_walk(double n, double k, double rate) {
 class ConsumerProof : public ::testing::TestWithParam<Proof> {};
 
 constexpr double kSampling = 200.0;
+// The walk takes over after 0.3 s, so that both K and N are seen to a few per cent.
 constexpr double kGyroN = 2e-4;
-constexpr double kGyroK = 4e-5;
+constexpr double kGyroK = 1e-3;
 constexpr double kAccN = 1.5e-3;
-constexpr double kAccK = 5e-4;
+constexpr double kAccK = 8e-3;
 
 std::string file_for(const Proof& proof, const std::string& gyro, const std::string& acc) {
   const auto imu = example_imu(gyro, acc, Hertz{kSampling});
@@ -280,8 +281,8 @@ TEST_P(ConsumerProof, WhiteNoiseAndRandomWalk) {
 TEST_P(ConsumerProof, MarkovBias) {
   const Proof& proof = GetParam();
   if (!proof.markov) return;
-  const std::string gyro = "WN(sigma2=8e-6) + GM(sigma2=4e-8, tc=20)";
-  const std::string acc = "WN(sigma2=4.5e-4) + GM(sigma2=6e-6, tc=20)";
+  const std::string gyro = "WN(sigma2=8e-6) + GM(sigma2=4e-6, tc=1.5)";
+  const std::string acc = "WN(sigma2=4.5e-4) + GM(sigma2=2e-4, tc=1.5)";
   const std::string file = file_for(proof, gyro, acc);
   SCOPED_TRACE(file);
   expect_noise_of(proof.read(file, true, kSampling), gyro, 13);

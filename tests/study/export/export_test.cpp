@@ -144,6 +144,18 @@ TEST(Export, StatesWhatAConsumerDoesNotTake) {
   EXPECT_GT(numbers_of(safe, "IMU.NoiseGyro")[0], numbers_of(file, "IMU.NoiseGyro")[0]);
 }
 
+// A random walk that hardly matters beside a Markov process, and the reverse.
+TEST(Export, GazeboGetsTheBiasThatExplainsMore) {
+  const auto imu = example_imu("WN(sigma2=8e-6) + GM(sigma2=4e-6, tc=3) + RW(gamma2=1e-15)",
+                               "WN(sigma2=8e-6) + GM(sigma2=4e-10, tc=3) + RW(gamma2=1e-9)", kAt);
+  const std::string file = written(imu, "gazebo");
+  EXPECT_EQ(numbers_of(file, "<dynamic_bias_correlation_time").front(), 3.0) << file;
+  EXPECT_NE(file.find("takes no random walk"), std::string::npos) << file;
+  const std::string second = file.substr(file.find("<linear_acceleration>"));
+  EXPECT_EQ(numbers_of(second, "<dynamic_bias_correlation_time").front(), study::kEndless);
+  EXPECT_NE(file.find("takes no Gauss-Markov noise"), std::string::npos) << file;
+}
+
 TEST(Export, IsaacSimHasNoPlaceForNoise) {
   const auto refused =
       export_noise(example_imu(kGyro, kGyro, kAt), *consumer_called("isaac-sim"), {"x", ""}, {});
