@@ -73,7 +73,7 @@ void add_values(CLI::App& command, RawExport& raw) {
   command
       .add_option("--horizon", raw.horizon,
                   "Times over which the filter relies on the sensor alone (s)")
-      ->type_name("FROM..TO")
+      ->type_name("SPAN")
       ->capture_default_str();
   command.add_option("--step", raw.step, "Step of the filter (s), for px4 and ardupilot")
       ->type_name("SECONDS")
