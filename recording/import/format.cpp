@@ -18,6 +18,9 @@
   FORMAT(mcap)                          \
   FORMAT(ros1_bag)                      \
   FORMAT(ros2_sqlite)                   \
+  FORMAT(ulog)                          \
+  FORMAT(candump)                       \
+  FORMAT(xbus)                          \
   FORMAT(text)
 
 namespace imunoise::recording {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/support/result.h"
+#include "recording/import/table/blocks.h"
 #include "recording/import/table/options.h"
 #include "recording/import/table/table.h"
 
@@ -32,33 +33,6 @@ bool is_imu_type(std::string_view type);
 
 /// Decodes one message; nothing where the bytes are not one. CDR: plain, of either byte order.
 std::optional<ImuMessage> decode_imu(Encoding encoding, std::string_view bytes);
-
-/// Numbers that come one by one, kept in blocks: memory holds them once.
-template <class Number>
-class Blocks {
- public:
-  void push(Number value) {
-    if (blocks_.empty() || blocks_.back().size() == kNumbers) {
-      blocks_.emplace_back().reserve(kNumbers);
-    }
-    blocks_.back().push_back(value);
-  }
-  /// All of them; none stay behind.
-  std::vector<Number> take() {
-    std::vector<Number> out;
-    if (!blocks_.empty()) out.reserve((blocks_.size() - 1) * kNumbers + blocks_.back().size());
-    for (std::vector<Number>& block : blocks_) {
-      out.insert(out.end(), block.begin(), block.end());
-      block = {};
-    }
-    blocks_.clear();
-    return out;
-  }
-
- private:
-  static constexpr std::size_t kNumbers = std::size_t{1} << 16U;
-  std::vector<std::vector<Number>> blocks_;
-};
 
 /// Collects the messages of the one wanted topic: that which `options` name, else the only one that
 /// holds messages of an IMU.

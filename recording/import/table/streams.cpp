@@ -1,0 +1,176 @@
+#include "recording/import/table/streams.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "recording/import/table/names.h"
+#include "recording/import/table/select.h"
+
+namespace imunoise::recording {
+namespace {
+
+constexpr double kSameRate = 0.01;
+constexpr double kEnough = 0.9;  // of the rows that have a partner
+
+// ns; of most samples: gaps and bursts hardly change it.
+double usual_step(const TimedStream& one) {
+  const std::size_t count = one.times.size();
+  if (count < 2) return 0.0;
+  const std::size_t stride = std::max<std::size_t>(1, count / 8192);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < count; i += stride)
+    steps.push_back(static_cast<double>(one.times[i] - one.times[i - 1]));
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  double sum = 0.0;
+  double usual = 0.0;
+  for (const double step : steps) {
+    if (std::abs(step - *middle) > 0.5 * *middle) continue;
+    sum += step;
+    usual += 1.0;
+  }
+  return usual > 0.0 ? sum / usual : *middle;
+}
+
+bool has_rates(const TimedStream& one) {
+  return std::any_of(one.columns.begin(), one.columns.end(), [](const Column& column) {
+    return role_of(column.name).quantity == Quantity::kAngularRate;
+  });
+}
+
+bool has_channel(const TimedStream& one, const std::string& wanted) {
+  return std::any_of(one.columns.begin(), one.columns.end(), [&](const Column& column) {
+    return column.name == wanted || matches(wanted, column.name);
+  });
+}
+
+// How much later than `first` the samples of `second` usually come (ns), within half a step: the
+// mean direction on a circle of one step.
+double usual_delay(const std::vector<std::int64_t>& first, const std::vector<std::int64_t>& second,
+                   double step) {
+  double sine = 0.0;
+  double cosine = 0.0;
+  std::size_t at = 0;
+  const std::size_t stride = std::max<std::size_t>(1, first.size() / 4096);
+  for (std::size_t i = 0; i < first.size(); i += stride) {
+    while (at < second.size() && second[at] < first[i]) ++at;
+    if (at == second.size()) break;
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(second[at] - first[i]) / step;
+    sine += std::sin(turn);
+    cosine += std::cos(turn);
+  }
+  return step * std::atan2(sine, cosine) / (2.0 * std::numbers::pi);
+}
+
+constexpr std::size_t kAlone = std::numeric_limits<std::size_t>::max();
+
+// For each row of `first` the sample of `second` that belongs to it.
+std::vector<std::size_t> partners(const std::vector<std::int64_t>& first,
+                                  const std::vector<std::int64_t>& second, double step) {
+  const double delay = usual_delay(first, second, step);
+  std::vector<std::size_t> out(first.size(), kAlone);
+  std::size_t at = 0;
+  const auto away = [&](std::size_t i, std::size_t j) {
+    return std::abs(static_cast<double>(second[j] - first[i]) - delay);
+  };
+  for (std::size_t i = 0; i < first.size() && at < second.size(); ++i) {
+    while (at + 1 < second.size() && away(i, at + 1) <= away(i, at)) ++at;
+    if (away(i, at) > 0.5 * step) continue;
+    out[i] = at;
+    if (i > 0 && out[i - 1] == at) out[i] = kAlone;
+  }
+  return out;
+}
+
+Result<std::size_t> main_stream(const std::string& file, const std::vector<TimedStream>& streams,
+                                const ImportOptions& options) {
+  std::string all;
+  for (const TimedStream& one : streams) all += (all.empty() ? "" : ", ") + one.name;
+  const auto find = [&](auto&& good) {
+    return static_cast<std::size_t>(std::find_if(streams.begin(), streams.end(), good) -
+                                    streams.begin());
+  };
+  std::size_t found = 0;
+  if (!options.topic.empty()) {
+    found = find([&](const TimedStream& one) { return one.name == options.topic; });
+    if (found < streams.size()) return found;
+    return fail(fmt::format("{}: no topic '{}' with samples (it has: {}); choose with --topic",
+                            file, options.topic, all));
+  }
+  if (!options.channels.empty()) {
+    found = find([&](const TimedStream& one) { return has_channel(one, options.channels[0]); });
+    if (found < streams.size()) return found;
+  }
+  found = find(has_rates);
+  if (found < streams.size()) return found;
+  return static_cast<std::size_t>(std::max_element(streams.begin(), streams.end(),
+                                                   [](const TimedStream& a, const TimedStream& b) {
+                                                     return a.times.size() < b.times.size();
+                                                   }) -
+                                  streams.begin());
+}
+
+// Adds the columns of `other` to `to`. False: it has another rate.
+bool joined(TimedStream& to, TimedStream& other) {
+  const double step = usual_step(to);
+  const double other_step = usual_step(other);
+  if (!(step > 0.0) || !(std::abs(other_step / step - 1.0) < kSameRate)) return false;
+  const std::vector<std::size_t> partner = partners(to.times, other.times, step);
+  const auto there =
+      partner.size() - static_cast<std::size_t>(std::count(partner.begin(), partner.end(), kAlone));
+  if (static_cast<double>(there) < kEnough * static_cast<double>(partner.size())) return false;
+  for (Column& column : other.columns) {
+    const auto& from = std::get<std::vector<double>>(column.samples);
+    std::vector<double> values(partner.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < partner.size(); ++i) {
+      if (partner[i] != kAlone) values[i] = from[partner[i]];
+    }
+    column.samples = std::move(values);
+    to.columns.push_back(std::move(column));
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<Table> join_streams(const std::string& file, std::vector<TimedStream> streams,
+                           const std::string& time_name, const ImportOptions& options) {
+  std::erase_if(streams, [](const TimedStream& one) { return one.times.empty(); });
+  if (streams.empty()) return fail(fmt::format("{}: holds no samples of a sensor", file));
+  const Result<std::size_t> chosen = main_stream(file, streams, options);
+  if (!chosen) return tl::make_unexpected(chosen.error());
+  Table table;
+  TimedStream& first = streams[*chosen];
+  std::string names = first.name;
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    if (s == *chosen) continue;
+    TimedStream& other = streams[s];
+    const double rate = usual_step(other) > 0.0 ? 1e9 / usual_step(other) : 0.0;
+    if (options.topic.empty() && joined(first, other)) {
+      names += ", " + other.name;
+    } else {
+      table.notes.push_back(fmt::format("topic {} ({:.4g} Hz) is left out: read it with --topic {}",
+                                        other.name, rate, other.name));
+    }
+  }
+  table.notes.insert(table.notes.begin(), fmt::format("topic {}", names));
+  std::vector<Offer> offers;
+  for (const Column& one : first.columns) {
+    const bool known = one.unit.empty() || parse_unit(one.unit);
+    offers.push_back({one.name, known, one.unit});
+  }
+  const auto wanted = select_columns(file, offers, options);
+  if (!wanted) return tl::make_unexpected(wanted.error());
+  for (const std::size_t c : *wanted) table.columns.push_back(std::move(first.columns[c]));
+  if (!options.rate) table.time = TimeColumn{time_name, "ns", std::move(first.times)};
+  table.row = [](std::size_t i) { return fmt::format("sample {}", i); };
+  return table;
+}
+
+}  // namespace imunoise::recording
