@@ -143,12 +143,31 @@ ParsedCommand simulate_command(CLI::App& program) {
           }};
 }
 
-// "driver name=value 'name=value with blanks'".
-DeviceArguments device_from(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::string& word : CLI::detail::split_up(text)) {
-    if (!word.empty()) words.push_back(std::move(word));
+// Words between blanks; within '' or "", blanks are part of a word.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> out;
+  char quote = 0;
+  bool inside = false;  // of a word
+  for (const char c : text) {
+    const bool blank = quote == 0 && (c == ' ' || c == '\t');
+    if (!blank && !inside) out.emplace_back();
+    inside = !blank;
+    if (blank) continue;
+    if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = 0;
+    } else {
+      out.back() += c;
+    }
   }
+  if (quote != 0) refuse("--device", std::string("a quote is not closed: ") + quote);
+  return out;
+}
+
+// "driver name=value name='value with blanks'".
+DeviceArguments device_from(const std::string& text) {
+  const std::vector<std::string> words = words_of(text);
   if (words.empty())
     refuse("--device", "expected a driver and its options, such as \"xsens port=/dev/ttyUSB0\"");
   DeviceArguments out{words.front(), {}};
