@@ -28,6 +28,9 @@ class NothingRecorded : public service::CampaignControl {
   std::vector<v1::RejectedFile> rejected() const override { return {}; }
   std::string trouble() const override { return ""; }
   std::vector<v1::LiveReplicate> live() const override { return {}; }
+  Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const override {
+    return tl::unexpected(unknown(request.campaign()).error());
+  }
   Result<void> start(const std::string& campaign, bool) override { return unknown(campaign); }
   Result<void> stop(const std::string& campaign, const std::string&) override {
     return unknown(campaign);

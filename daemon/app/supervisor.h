@@ -57,6 +57,9 @@ class Supervisor : public service::CampaignControl {
   std::vector<service::CampaignSnapshot> campaigns() const override;
   std::vector<v1::RejectedFile> rejected() const override;
   std::vector<v1::LiveReplicate> live() const override { return live_.state(); }
+  Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const override {
+    return live_.samples(request);
+  }
   std::string trouble() const override;
   Result<void> start(const std::string& campaign, bool once) override;
   Result<void> stop(const std::string& campaign, const std::string& recording) override;

@@ -174,22 +174,36 @@ Result<v1::CalibrationList> Catalogue::calibrations() {
   return out;
 }
 
-Result<v1::CataloguedDevice> Catalogue::device(const std::string& wanted) {
+Result<Catalogue::AllDevices> Catalogue::all_devices() {
   const auto rows = database_->query(
       "select d.id, d.name, d.driver, d.serial from devices d join recordings r "
       "on r.bench = d.bench and r.folder = d.folder order by r.started_ns, d.name");
   if (!rows) return tl::unexpected(rows.error());
-  std::map<std::string, v1::CataloguedDevice> known;  // by id, as it was recorded last
-  std::set<std::string> exact;
-  std::set<std::string> meant;
+  AllDevices out;
   for (const Row& row : *rows) {
-    const v1::CataloguedDevice one = device_of(row);
-    known[one.id()] = one;
-    if (one.id() == wanted) exact.insert(one.id());
-    if (one.serial() == wanted || one.name() == wanted) meant.insert(one.id());
+    v1::CataloguedDevice one = device_of(row);
+    out.ids[one.serial()].insert(one.id());
+    out.ids[one.name()].insert(one.id());
+    out.newest[one.id()] = std::move(one);
   }
-  if (!exact.empty()) return known[wanted];
-  if (meant.size() == 1) return known[*meant.begin()];
+  return out;
+}
+
+Result<std::vector<v1::CataloguedDevice>> Catalogue::devices() {
+  auto all = all_devices();
+  if (!all) return tl::unexpected(all.error());
+  std::vector<v1::CataloguedDevice> out;
+  for (auto& [id, one] : all->newest) out.push_back(std::move(one));
+  return out;
+}
+
+Result<v1::CataloguedDevice> Catalogue::device(const std::string& wanted) {
+  auto every = all_devices();
+  if (!every) return tl::unexpected(every.error());
+  const std::map<std::string, v1::CataloguedDevice>& known = every->newest;
+  const std::set<std::string>& meant = every->ids[wanted];
+  if (known.contains(wanted)) return known.at(wanted);
+  if (meant.size() == 1) return known.at(*meant.begin());
   std::set<std::string> all;
   for (const auto& [id, one] : known) all.insert(id);
   std::string list;

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,6 +64,8 @@ class Catalogue {
   /// The device of this id, serial number, or name in a recording. Error: there is none (those
   /// known are listed), or several.
   Result<v1::CataloguedDevice> device(const std::string& wanted);
+  /// All devices, by id, as they were recorded last.
+  Result<std::vector<v1::CataloguedDevice>> devices();
   /// What every calibration said of a device.
   Result<Parameters> parameters(const std::string& device_id);
 
@@ -70,6 +74,11 @@ class Catalogue {
       : database_(std::move(sound.database)),
         repair_(std::move(sound.repair)),
         bench_(std::move(bench)) {}
+  struct AllDevices {
+    std::map<std::string, v1::CataloguedDevice> newest;  // by id, as it was recorded last
+    std::map<std::string, std::set<std::string>> ids;    // by serial number and by name
+  };
+  Result<AllDevices> all_devices();
   Result<bool> put(const Found& found, const std::function<void()>& again);
   // Programs that write about one bench do so one after the other.
   std::string lock() const { return "bench " + bench_; }

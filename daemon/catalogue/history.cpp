@@ -8,6 +8,7 @@
 
 #include "core/inference/parameter_history.h"
 #include "core/support/distributions.h"
+#include "daemon/catalogue/parameter_names.h"
 
 namespace imunoise::catalogue {
 namespace {
@@ -15,16 +16,6 @@ namespace {
 // The confidence of the intervals that calibrations keep.
 constexpr double kConfidence = 0.95;
 constexpr double kTests = 2.0;  // the newest one, and a trend
-
-bool is_called(const v1::ParameterHistory& one, const std::string& wanted) {
-  std::string plain = one.parameter();
-  if (plain == "σ") plain = "sigma";
-  if (plain == "ζ") plain = "zeta";
-  for (const std::string& name : {one.parameter(), plain}) {
-    if (wanted == name || wanted == one.term() + "." + name) return true;
-  }
-  return wanted == one.title();
-}
 
 // Takes those that were asked for.
 Result<Parameters> chosen(Parameters all, const HistoryOptions& options) {
@@ -54,11 +45,6 @@ Result<Parameters> chosen(Parameters all, const HistoryOptions& options) {
            (!p.empty() && std::none_of(p.begin(), p.end(), is_meant));
   });
   return all;
-}
-
-bool is_seen(const v1::HistoryPoint& point) {
-  return point.has_lower() && point.has_upper() && point.lower() > 0.0 &&
-         point.lower() < point.value() && point.value() < point.upper();
 }
 
 // Marks the points that can be compared, and gives them with days and logarithms; none where the

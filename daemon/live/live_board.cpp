@@ -1,5 +1,7 @@
 #include "daemon/live/live_board.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -92,6 +94,19 @@ std::optional<v1::LiveReplicate> LiveReplicate::state() const {
   return out;
 }
 
+Result<v1::SampleRanges> LiveReplicate::samples(const v1::GetLiveSamplesRequest& request) const {
+  for (const auto& one : devices()) {
+    const std::lock_guard own(one->mutex);
+    if (one->live.name() != request.device()) continue;
+    auto out = one->live.samples(request);
+    const std::lock_guard lock(mutex_);
+    if (out) out->set_replicate(about_.replicate());
+    return out;
+  }
+  return fail(
+      fmt::format("campaign '{}' does not record a device '{}' now", campaign_, request.device()));
+}
+
 std::vector<std::string> LiveReplicate::new_warnings() {
   std::vector<std::string> out;
   std::set<std::string> holding;
@@ -133,6 +148,14 @@ std::vector<v1::LiveReplicate> LiveBoard::state() const {
     if (auto state = campaign->state()) out.push_back(std::move(*state));
   }
   return out;
+}
+
+Result<v1::SampleRanges> LiveBoard::samples(const v1::GetLiveSamplesRequest& request) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = campaigns_.find(request.campaign());
+  if (found == campaigns_.end())
+    return fail(fmt::format("campaign '{}' does not record now", request.campaign()));
+  return found->second->samples(request);
 }
 
 std::vector<std::string> LiveBoard::new_warnings() {

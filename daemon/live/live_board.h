@@ -32,6 +32,8 @@ class LiveReplicate : public acquire::ReplicateObserver {
 
   /// Nothing while none is recorded.
   std::optional<v1::LiveReplicate> state() const;
+  /// The latest samples of a device. Error: none is recorded, there is no such device or stream.
+  Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const;
   /// What keeps it from being recorded.
   std::optional<Trouble> trouble(Steady::time_point now) const;
   /// Of the warnings that hold now, those that did not at the last call: "imu0: gyro_x: ...".
@@ -68,6 +70,8 @@ class LiveBoard {
   std::optional<Trouble> trouble(const std::string& campaign, Steady::time_point now) const;
   /// Replicates that are being recorded, by campaign.
   std::vector<v1::LiveReplicate> state() const;
+  /// As LiveReplicate's.
+  Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const;
   /// "campaign: imu0: gyro_x: ..."
   std::vector<std::string> new_warnings();
 

@@ -16,18 +16,6 @@ namespace {
 constexpr std::int64_t kStuckAfter = 60'000'000'000;  // ns
 constexpr double kWarming = 2.0 / 3600.0;             // K/s
 
-struct Known {
-  Quantity quantity = Quantity::kUnknown;
-  double scale = 1.0;  // SI units a number
-};
-
-Known known_of(const v1::RecordedChannel& channel) {
-  const auto unit = parse_unit(channel.units());
-  if (!unit) return {};
-  return {unit->quantity,
-          unit->to_si * (channel.has_scale_factor() ? channel.scale_factor() : 1.0)};
-}
-
 bool of_inertia(Quantity quantity) {
   return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
 }
@@ -89,12 +77,12 @@ std::string outlook(const v1::LiveDevice& state) {
 
 LiveDevice::LiveDevice(const v1::RecordedDevice& device) : device_(device) {
   for (const v1::RecordedStream& stream : device.streams()) {
-    Stream& to = streams_.emplace_back();
+    Stream& to = streams_.emplace_back(stream);
     for (int c = 0; c < stream.channels_size(); ++c) {
-      const Known known = known_of(stream.channels(c));
+      const recording::ChannelUnits known = recording::units_of(stream.channels(c));
       const auto index = static_cast<std::size_t>(c);
       if (known.quantity == Quantity::kTemperature) {
-        to.warmths.push_back({index, known.scale, {}});
+        to.warmths.push_back({index, known, {}, {}});
       } else if (of_inertia(known.quantity) && stream.rate_hz() > 0.0) {
         to.channels.push_back({index, {Hertz{stream.rate_hz()}, known.scale}, 0.0, 0, {}});
       }
@@ -109,21 +97,34 @@ void LiveDevice::take(const recording::Block& block) {
   to.refused += refused;
   if (refused > 0) to.lost.see(rows.size() > 0 ? rows.host_time.back() : to.now_ns, refused);
   if (rows.size() == 0) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if ((rows.flags[i] & recording::kLostBefore) == 0 || to.samples + i == 0) continue;
-    ++to.gaps;
-    to.lost.see(rows.host_time[i]);
-  }
   const v1::RecordedStream& stream = device_.streams(static_cast<int>(block.stream));
+  take_gaps(rows, stream.rate_hz(), to);
+  to.rings.take(rows);
   for (Channel& channel : to.channels) take_channel(rows, stream, channel);
   for (Warmth& one : to.warmths) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      one.slope.take(rows.host_time[i], one.scale * number_at(rows.channels[one.index], i));
+      const double number = number_at(rows.channels[one.index], i);
+      if (!std::isfinite(number)) continue;
+      one.newest = one.units.value(number);
+      one.slope.take(rows.host_time[i], *one.newest);
     }
   }
   if (!to.begin_ns) to.begin_ns = rows.host_time.front();
   to.now_ns = rows.host_time.back();
   to.samples += rows.size();
+  to.rate.take(to.now_ns, to.samples);
+}
+
+// How many are missing follows from the time stamps.
+void LiveDevice::take_gaps(const recording::Rows& rows, double rate_hz, Stream& to) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((rows.flags[i] & recording::kLostBefore) == 0 || to.samples + i == 0) continue;
+    ++to.gaps;
+    to.lost.see(rows.host_time[i]);
+    const std::int64_t before = i > 0 ? rows.host_time[i - 1] : to.now_ns;
+    const double steps = 1e-9 * static_cast<double>(rows.host_time[i] - before) * rate_hz;
+    to.missing += static_cast<std::uint64_t>(std::max(0.0, std::round(steps - 1.0)));
+  }
 }
 
 void LiveDevice::take_channel(const recording::Rows& rows, const v1::RecordedStream& stream,
@@ -139,12 +140,26 @@ void LiveDevice::take_channel(const recording::Rows& rows, const v1::RecordedStr
   }
 }
 
+v1::LiveStream LiveDevice::describe(const v1::RecordedStream& stream, const Stream& of) {
+  v1::LiveStream out;
+  out.set_stream(stream.name());
+  out.set_nominal_hz(stream.rate_hz());
+  if (const auto rate = of.rate.hz()) out.set_rate_hz(*rate);
+  out.set_samples(of.samples);
+  out.set_missing(of.missing);
+  out.set_gaps(of.gaps);
+  out.set_refused(of.refused);
+  if (!of.warmths.empty() && of.warmths.front().newest)
+    out.set_temperature_k(*of.warmths.front().newest);
+  return out;
+}
+
 v1::LiveChannel LiveDevice::describe(const v1::RecordedStream& stream, const Channel& channel) {
   const v1::RecordedChannel& recorded = stream.channels(static_cast<int>(channel.index));
   v1::LiveChannel out;
   out.set_stream(stream.name());
   out.set_channel(recorded.name());
-  out.set_units(std::string(si_symbol(known_of(recorded).quantity)));
+  out.set_units(recording::units_of(recorded).symbol);
   for (const KnownScale& scale : channel.variance.known())
     *out.add_scales() = live::describe(scale);
   return out;
@@ -198,6 +213,7 @@ v1::LiveDevice LiveDevice::state() const {
     out.set_samples(out.samples() + of.samples);
     out.set_refused(out.refused() + of.refused);
     out.set_gaps(out.gaps() + of.gaps);
+    *out.add_streams() = describe(stream, of);
     if (!of.begin_ns) continue;
     out.set_last_sample_ns(std::max(out.last_sample_ns(), of.now_ns));
     const double elapsed = static_cast<double>(of.now_ns - *of.begin_ns) * 1e-9;
@@ -207,6 +223,21 @@ v1::LiveDevice LiveDevice::state() const {
   out.set_outlook(outlook(out));
   for (v1::LiveWarning& one : warnings()) *out.add_warnings() = std::move(one);
   return out;
+}
+
+Result<v1::SampleRanges> LiveDevice::samples(const v1::GetLiveSamplesRequest& request) const {
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    const std::string& name = device_.streams(static_cast<int>(s)).name();
+    if (!request.stream().empty() && request.stream() != name) continue;
+    auto out = streams_[s].rings.ranges(request.samples_each(), request.from(),
+                                        {request.channel().begin(), request.channel().end()});
+    if (!out) return out;
+    out->set_stream(name);
+    if (streams_[s].begin_ns)
+      out->set_length_s(1e-9 * static_cast<double>(streams_[s].now_ns - *streams_[s].begin_ns));
+    return out;
+  }
+  return fail(fmt::format("stream '{}': device '{}' has none", request.stream(), name()));
 }
 
 std::vector<v1::LiveWarning> LiveDevice::warnings() const {

@@ -9,7 +9,11 @@
 
 #include "daemon/live/concern.h"
 #include "daemon/live/live_variance.h"
+#include "daemon/live/recent_rate.h"
+#include "daemon/live/sample_rings.h"
 #include "imunoise/v1/live.pb.h"
+#include "imunoise/v1/service.pb.h"
+#include "recording/store/stream/channel_units.h"
 #include "recording/store/stream/stream.h"
 
 namespace imunoise::live {
@@ -25,6 +29,9 @@ class LiveDevice {
   v1::LiveDevice state() const;
   /// What state() warns of.
   std::vector<v1::LiveWarning> warnings() const;
+  /// The latest samples of a stream (empty: the first), as SampleRings gives them. Error: also a
+  /// stream that it has not.
+  Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const;
   const std::string& name() const { return device_.name(); }
 
  private:
@@ -37,20 +44,27 @@ class LiveDevice {
   };
   struct Warmth {
     std::size_t index = 0;
-    double scale = 1.0;  // K a number
+    recording::ChannelUnits units;  // K
     Slope slope;
+    std::optional<double> newest;  // K
   };
   struct Stream {
+    explicit Stream(const v1::RecordedStream& stream) : rings(stream) {}
+    SampleRings rings;
+    RecentRate rate;
     std::vector<Channel> channels;
     std::vector<Warmth> warmths;
     std::uint64_t samples = 0;
     std::uint64_t refused = 0;
     std::uint64_t gaps = 0;
+    std::uint64_t missing = 0;
     std::optional<std::int64_t> begin_ns;
     std::int64_t now_ns = 0;
     Concern lost;
   };
   void take_channel(const recording::Rows& rows, const v1::RecordedStream& stream, Channel& to);
+  static void take_gaps(const recording::Rows& rows, double rate_hz, Stream& to);
+  static v1::LiveStream describe(const v1::RecordedStream& stream, const Stream& of);
   static v1::LiveChannel describe(const v1::RecordedStream& stream, const Channel& channel);
   static void warn(const v1::RecordedStream& stream, const Stream& of,
                    std::vector<v1::LiveWarning>& to);

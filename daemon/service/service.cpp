@@ -14,6 +14,7 @@
 #include "daemon/service/campaigns/free_space.h"
 #include "daemon/service/campaigns/metrics.h"
 #include "daemon/service/event_hub.h"
+#include "daemon/service/live/live_methods.h"
 #include "daemon/service/recordings/record_methods.h"
 #include "daemon/service/studies/study_methods.h"
 
@@ -60,6 +61,7 @@ class Service::Implementation {
         routes_(*v1::Refusal::descriptor()->file()),
         jobs_(options.waiting_jobs, [this](const v1::Job& job) { tell(job); }) {
     add_campaign_methods(methods_, control_, subjects.drivers);
+    add_live_methods(methods_, control_);
     add_record_methods(methods_, *records_);
     add_study_methods(methods_, {jobs_, studies_, *records_, options_.inputs},
                       options.largest_study, options.compute);
@@ -219,7 +221,7 @@ Result<std::unique_ptr<Service>> Service::start(const ServiceOptions& options,
   auto how = handler_options(options);
   if (!how) return tl::unexpected(how.error());
   auto records = Records::open([&control = subjects.control] { return campaigns_of(control); },
-                               options.freshness, subjects.calls);
+                               options.freshness, subjects.calls, options.largest_study);
   if (!records) return tl::unexpected(records.error());
   auto out =
       std::make_unique<Implementation>(options, subjects, std::move(*records), std::move(*how));

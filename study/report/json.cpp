@@ -37,6 +37,10 @@ void clean(Message& m, const Reflection& r, const FieldDescriptor* f) {
       assert(f->has_optional_keyword() && "only optional numbers may be unknown");
       r.ClearField(&m, f);
       return;
+    case FieldDescriptor::CPPTYPE_FLOAT:
+      assert(f->is_repeated() && "a single number is a double");
+      for (int i = 0; i < size; ++i) assert(std::isfinite(r.GetRepeatedFloat(m, f, i)));
+      return;
     case FieldDescriptor::CPPTYPE_STRING:
       if (!f->is_repeated()) r.SetString(&m, f, clean_text(r.GetString(m, f)));
       for (int i = 0; i < size; ++i)

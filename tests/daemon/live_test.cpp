@@ -99,6 +99,81 @@ TEST(LiveVariance, AMomentAfterTheBeginningItKnowsShortTimes) {
   EXPECT_DOUBLE_EQ(known[1].variance, (7.0 - 4.0) * (7.0 - 4.0) / 16.0);
 }
 
+// Rows whose numbers count up from 0, in counts of 0.05 °/s.
+recording::Block counted(int from, int rows) {
+  recording::Block out{0, recording::empty_rows(device().streams(0))};
+  for (int i = from; i < from + rows; ++i) {
+    out.rows.host_time.push_back(kStart + i * 10'000'000LL);
+    out.rows.flags.push_back(0);
+    std::get<std::vector<std::int16_t>>(out.rows.channels[0])
+        .push_back(static_cast<std::int16_t>(i));
+    std::get<std::vector<double>>(out.rows.channels[1]).push_back(i == 5 ? NAN : 20.0);
+  }
+  return out;
+}
+
+TEST(SampleRings, HoldTheLeastAndTheGreatestOfEachRange) {
+  constexpr double kCount = 0.05 * M_PI / 180.0;  // rad/s
+  SampleRings rings(device().streams(0));
+  rings.take(counted(0, 3).rows);
+  recording::Block rest = counted(3, 8);
+  rest.rows.flags[2] = recording::kLostBefore;
+  rings.take(rest.rows);
+  const auto four = rings.ranges(4, 0, {"gyro_x"});
+  ASSERT_TRUE(four) << four.error().message;
+  EXPECT_EQ(four->next(), 2U) << "the third is not complete";
+  EXPECT_EQ(four->begin_ns(), kStart);
+  ASSERT_EQ(four->time_s_size(), 2);
+  EXPECT_NEAR(four->time_s(1), 0.04, 1e-9);
+  EXPECT_EQ(four->gaps(0), 1U) << "within a range";
+  ASSERT_EQ(four->channels_size(), 1);
+  EXPECT_EQ(four->channels(0).units(), "rad/s");
+  EXPECT_FLOAT_EQ(four->channels(0).lower(1), static_cast<float>(4.0 * kCount));
+  EXPECT_FLOAT_EQ(four->channels(0).upper(1), static_cast<float>(7.0 * kCount));
+  const auto each = rings.ranges(0, 9, {});
+  ASSERT_EQ(each->time_s_size(), 2);
+  EXPECT_EQ(each->next(), 11U);
+  EXPECT_FLOAT_EQ(each->channels(1).lower(0), 293.15F) << "K";
+  EXPECT_FLOAT_EQ(rings.ranges(1, 5, {"temperature"})->channels(0).lower(0), 293.15F)
+      << "what is no number repeats the one before";
+}
+
+TEST(SampleRings, KeepTheLatestAndSayWhatTheyHave) {
+  SampleRings rings(device().streams(0));
+  rings.take(counted(0, 5000).rows);
+  const auto all = rings.ranges(1, 0, {});
+  EXPECT_EQ(all->time_s_size(), 1023);
+  EXPECT_NEAR(all->time_s(0), 39.77, 1e-9);
+  EXPECT_EQ(rings.ranges(4096, 0, {})->time_s_size(), 1);
+  EXPECT_EQ(rings.ranges(1, 5000, {})->time_s_size(), 0);
+  EXPECT_EQ(rings.ranges(1, 1'000'000, {})->time_s_size(), 0);
+  EXPECT_NE(rings.ranges(3, 0, {}).error().message.find("1, 4, 16"), std::string::npos);
+  EXPECT_NE(rings.ranges(1, 0, {"gyro_y"}).error().message.find("gyro_y"), std::string::npos);
+}
+
+TEST(LiveDevice, TellsRateMissingSamplesAndTemperatureOfEachStream) {
+  LiveDevice live(device());
+  Source source;
+  live.take(source.block(500));
+  source.skip(7);
+  recording::Block after = source.block(500);
+  after.rows.flags[0] = recording::kLostBefore;
+  live.take(after);
+  const v1::LiveDevice state = live.state();
+  ASSERT_EQ(state.streams_size(), 1);
+  const v1::LiveStream& stream = state.streams(0);
+  EXPECT_EQ(stream.stream(), "imu");
+  EXPECT_EQ(stream.nominal_hz(), kRate);
+  EXPECT_EQ(stream.missing(), 7U);
+  EXPECT_EQ(stream.gaps(), 1U);
+  EXPECT_NEAR(stream.rate_hz(), 500.0 / 5.07, 0.01) << "over the time since the first block";
+  EXPECT_NEAR(stream.temperature_k(), 303.15, 1e-9);
+  v1::GetLiveSamplesRequest request;
+  EXPECT_EQ(live.samples(request)->stream(), "imu");
+  request.set_stream("other");
+  EXPECT_NE(live.samples(request).error().message.find("other"), std::string::npos);
+}
+
 TEST(LiveDevice, TellsScalesAndHowLongTheyTake) {
   LiveDevice live(device());
   Source source;

@@ -160,6 +160,8 @@ const std::vector<Room>& rooms() {
       {"daemon/service/campaigns",
        {"core/support", "recording", "drivers", "proto", "daemon/acquire", "daemon/service/http",
         "daemon/service/api"}},
+      {"daemon/service/live",
+       {"core/support", "study", "proto", "daemon/service/api", "daemon/service/campaigns"}},
       {"daemon/service/recordings",
        {"core/support", "recording", "study", "proto", "daemon/catalogue", "daemon/service/api"}},
       {"daemon/service/studies",

@@ -60,6 +60,20 @@ TEST(ArraySeries, GivesThePlainMeanWhereTheBestWeightsAreNoisierOnHeldOutReplica
   EXPECT_FALSE(best.scale_gains(best.scale_gains_size() - 1).has_measured());
 }
 
+// One sensor is quiet at short averaging times, the other at long ones.
+TEST(ArraySeries, TradesShortAveragingTimesForLongOnes) {
+  const std::string fast = "WN(sigma2=1) + RW(gamma2=1e-8)";
+  const std::string slow = "WN(sigma2=0.01) + RW(gamma2=1e-4)";
+  const Simulated both{{{drawn(fast, 8192, 20), drawn(fast, 8192, 21)},
+                        {drawn(slow, 8192, 22), drawn(slow, 8192, 23)}}};
+  const v1::ArrayReport report = report_of(both, "WN + RW");
+  ASSERT_EQ(report.trade_offs_size(), report.virtual_sensor().scale_gains_size());
+  EXPECT_LT(report.trade_offs(0).weights(0).weight(), 0.1);
+  EXPECT_GT(report.trade_offs(report.trade_offs_size() - 1).weights(0).weight(), 0.8);
+  EXPECT_TRUE(report.trade_offs(0).scale_gains(0).has_measured());
+  EXPECT_LT(report.trade_offs(0).scale_gains(0).measured(), 0.1);
+}
+
 TEST(ArraySeries, JudgesNoPairThatTheModelDoesNotFit) {
   const std::string slow = "WN(sigma2=1) + AR1(sigma2=0.01, phi=0.99)";
   const Simulated sensors{

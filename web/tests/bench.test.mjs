@@ -21,6 +21,37 @@ async function signIn(page, url, token) {
   await page.getByRole("button", { name: "Sign in" }).click();
 }
 
+// The samples of a device as they come, its Allan deviation, and how much longer.
+async function look(page) {
+  await page.getByRole("link", { name: "left" }).click();
+  await page.getByRole("heading", { name: "left" }).waitFor();
+  const trace = page.getByRole("img", { name: /^gyro_x: from/ });
+  await trace.waitFor({ timeout: 30_000 });
+  const before = await trace.getAttribute("aria-label");
+  await page.waitForFunction((label) => document.querySelector(".trace canvas")?.getAttribute("aria-label") !== label, before);
+  await page.locator(".knowledge .figure-canvas circle.measured").nth(3).waitFor({ timeout: 30_000 });
+  await page.getByText("By the model WN + FN + RW").waitFor({ timeout: 30_000 });
+  assert.equal(await page.locator(".parameters tbody tr").count(), 3);
+  assert.match(await page.locator(".parameters tbody tr").first().textContent(), /angle random walk.*°\/√h.*(long enough|more for ±10 %|not seen)/);
+  assert.ok((await page.locator(".traces table.visually-hidden tbody tr").count()) >= 6);
+  assert.deepEqual(await violations(page), []);
+  await page.getByText(/· 1\d s recorded/).waitFor({ timeout: 30_000 });
+  await page.waitForTimeout(1500);
+  await picture(page, "live");
+  await page.getByRole("button", { name: "Hold" }).click();
+  await page.waitForTimeout(700);
+  const held = await trace.getAttribute("aria-label");
+  await page.waitForTimeout(1500);
+  assert.equal(await trace.getAttribute("aria-label"), held, "nothing moves while it is held");
+  await page.getByRole("button", { name: "Continue" }).click();
+  await page.getByLabel("span").selectOption("600");
+  await page.getByText(/least and greatest of \d+ samples each/).waitFor();
+  await page.getByLabel("channel").selectOption({ label: "gyro_z" });
+  await page.locator(".knowledge .figure-frame").focus();
+  await page.keyboard.press("ArrowRight");
+  await page.getByText(/^At 0\.0\d+ s: /).waitFor();
+}
+
 test("a campaign records, is stopped knowingly and started again", { timeout: 90_000 }, async (t) => {
   const { url } = await serve(t, folder(), campaign, 8471);
   const { page, problems } = await browse(t);
@@ -32,10 +63,10 @@ test("a campaign records, is stopped knowingly and started again", { timeout: 90
   await picture(page, "sign_in");
   await signIn(page, url, operator);
   await page.locator(".devices tbody tr").first().waitFor({ timeout: 30_000 });
-  await page.getByRole("button", { name: "left" }).click();
-  await page.locator(".deviation td").first().waitFor({ timeout: 30_000 });
   assert.deepEqual(await violations(page), []);
   await picture(page, "bench");
+  await look(page);
+  await page.getByRole("link", { name: "The bench" }).click();
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   await page.getByText("This ends recording").waitFor();
   await picture(page, "stop");

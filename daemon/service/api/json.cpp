@@ -45,6 +45,11 @@ bool set(Message& message, const FieldDescriptor& field, const std::string& text
       if (number) reflection.SetUInt32(&message, &field, *number);
       return number.has_value();
     }
+    case FieldDescriptor::CPPTYPE_UINT64: {
+      const auto number = number_of<std::uint64_t>(text);
+      if (number) reflection.SetUInt64(&message, &field, *number);
+      return number.has_value();
+    }
     case FieldDescriptor::CPPTYPE_DOUBLE: {
       const auto number = number_of<double>(text);
       if (number) reflection.SetDouble(&message, &field, *number);

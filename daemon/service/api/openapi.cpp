@@ -143,6 +143,8 @@ class Schemas {
     switch (of.type()) {
       case FieldDescriptor::TYPE_DOUBLE:
         return simple("number", "double");
+      case FieldDescriptor::TYPE_FLOAT:
+        return simple("number", "float");
       case FieldDescriptor::TYPE_BOOL:
         return simple("boolean");
       case FieldDescriptor::TYPE_UINT32:

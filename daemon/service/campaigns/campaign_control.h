@@ -38,6 +38,9 @@ class CampaignControl {
   virtual std::string trouble() const = 0;
   /// What is known of the replicates that are being recorded.
   virtual std::vector<v1::LiveReplicate> live() const = 0;
+  /// The latest samples of a device that is being recorded. Error: it is not, or there is no such
+  /// stream, channel or size of ranges.
+  virtual Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const = 0;
   /// Error: it runs already, or is not for us to start; says the way out.
   virtual Result<void> start(const std::string& campaign, bool once) = 0;
   /// Asks for an orderly end, and does not wait for it. Nothing stops a recording by accident:

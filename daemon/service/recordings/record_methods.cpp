@@ -29,6 +29,18 @@ void add_record_methods(Methods& methods, Records& records) {
         out.mutable_arrays()->Swap(calibration->mutable_arrays());
         return out;
       });
+  methods.on_waiting<v1::GetArrayFigureRequest>(
+      [&records](const v1::GetArrayFigureRequest& request) {
+        return records.array_figure(request);
+      });
+  methods.on_waiting<v1::GetSamplesRequest>(
+      [&records](const v1::GetSamplesRequest& request) { return records.samples(request); });
+  methods.on_waiting<v1::GetFleetRequest>(
+      [&records](const v1::GetFleetRequest& request) { return records.fleet(request); });
+  methods.on_waiting<v1::GetFleetFigureRequest>(
+      [&records](const v1::GetFleetFigureRequest& request) {
+        return records.fleet_figure(request);
+      });
   methods.on_waiting<v1::GetHistoryRequest>(
       [&records](const v1::GetHistoryRequest& request) { return records.history(request); });
   methods.on_waiting<v1::GetHistoryFigureRequest>(

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/catalogue/fleet.h"
 #include "daemon/catalogue/history.h"
 #include "daemon/service/api/figure_answer.h"
 #include "daemon/service/recordings/confined_files.h"
 #include "recording/store/manifest/manifest.h"
 #include "study/calibration/calibration_file.h"
+#include "study/report/figures/cross_figure.h"
+#include "study/report/figures/fleet_figure.h"
 #include "study/report/figures/history_figure.h"
+#include "study/report/figures/virtual_sensor_figures.h"
 
 namespace imunoise::service {
 namespace {
@@ -46,11 +50,12 @@ std::vector<fs::path> folders_in(const std::map<std::string, fs::path>& roots) {
 
 Result<std::unique_ptr<Records>> Records::open(Campaigns campaigns,
                                                std::chrono::milliseconds freshness,
-                                               recording::DiskCalls& calls) {
+                                               recording::DiskCalls& calls,
+                                               std::uint64_t largest_shown) {
   auto catalogue = catalogue::Catalogue::open(":memory:");
   if (!catalogue) return tl::unexpected(catalogue.error());
   return std::unique_ptr<Records>(
-      new Records(std::move(campaigns), std::move(*catalogue), freshness, calls));
+      new Records(std::move(campaigns), std::move(*catalogue), freshness, calls, largest_shown));
 }
 
 Records::View::View(Roots of, recording::DiskCalls& calls)
@@ -178,6 +183,84 @@ Answer<v1::Text> Records::history_figure(const v1::GetHistoryFigureRequest& requ
   const auto figure = report::history_figure(*found);
   if (!figure) return refuse(404, "this parameter was calibrated once; record the device again");
   return figure_answer(*figure, request);
+}
+
+Answer<v1::Fleet> Records::fleet(const v1::GetFleetRequest& request) {
+  const std::lock_guard lock(mutex_);
+  if (auto done = refresh(); !done) return tl::unexpected(done.error());
+  auto devices = catalogue_.devices();
+  if (!devices) return refuse(500, devices.error().message);
+  std::vector<catalogue::DeviceParameters> all;
+  for (v1::CataloguedDevice& one : *devices) {
+    auto parameters = catalogue_.parameters(one.id());
+    if (!parameters) return refuse(500, parameters.error().message);
+    all.emplace_back(std::move(one), std::move(*parameters));
+  }
+  auto out = catalogue::fleet_of(
+      all, {.type = request.type(),
+            .channels = {request.channel().begin(), request.channel().end()},
+            .parameters = {request.parameter().begin(), request.parameter().end()}});
+  if (!out) return refuse(404, out.error().message);
+  return std::move(*out);
+}
+
+Answer<v1::Text> Records::fleet_figure(const v1::GetFleetFigureRequest& request) {
+  if (auto good = check_figure_size(request.width(), request.height()); !good)
+    return tl::unexpected(good.error());
+  v1::GetFleetRequest wanted;
+  wanted.set_type(request.type());
+  const auto known = fleet(wanted);
+  if (!known) return tl::unexpected(known.error());
+  const auto found = std::find_if(
+      known->parameters().begin(), known->parameters().end(), [&](const v1::FleetParameter& one) {
+        return one.stream() == request.stream() && one.channel() == request.channel() &&
+               one.term() == request.term() && one.parameter() == request.parameter();
+      });
+  if (found == known->parameters().end())
+    return refuse(404, "stream, channel, term and parameter: name one as /v1/fleet lists it");
+  const auto figure = report::fleet_figure(*found);
+  if (!figure) return refuse(404, "no device has a value above zero");
+  return figure_answer(*figure, request);
+}
+
+Answer<v1::Text> Records::array_figure(const v1::GetArrayFigureRequest& request) const {
+  if (auto good = check_figure_size(request.width(), request.height()); !good)
+    return tl::unexpected(good.error());
+  const auto known = calibration(request.campaign(), request.folder());
+  if (!known) return tl::unexpected(known.error());
+  if (request.array() >= static_cast<std::uint32_t>(known->arrays_size()))
+    return refuse(404, fmt::format("array {}: the recording has {}, counted from 0",
+                                   request.array(), known->arrays_size()));
+  const v1::ArrayReport& report = known->arrays(static_cast<int>(request.array())).report();
+  const v1::VirtualSensor* sensor = &report.virtual_sensor();
+  if (request.has_emphasis()) {
+    if (request.emphasis() >= static_cast<std::uint32_t>(report.trade_offs_size()))
+      return refuse(404, fmt::format("emphasis: the array has {} trade-offs, counted from 0",
+                                     report.trade_offs_size()));
+    sensor = &report.trade_offs(static_cast<int>(request.emphasis()));
+  }
+  std::optional<figure::Figure> figure;
+  if (request.view() == "covariances") {
+    figure = report::cross_figure(report);
+  } else if (request.view() == "correlations") {
+    figure = report::correlations_figure(report);
+  } else if (request.view() == "gain") {
+    figure = report::gain_figure(*sensor);
+  } else if (request.view() == "weights") {
+    figure = report::weights_figure(*sensor);
+  } else {
+    return refuse(400, "view: covariances, correlations, gain or weights");
+  }
+  if (!figure) return refuse(404, "this array has nothing to show here");
+  return figure_answer(*figure, request);
+}
+
+Answer<v1::SampleRanges> Records::samples(const v1::GetSamplesRequest& request) {
+  const auto known = manifest(request.campaign(), request.folder());
+  if (!known) return tl::unexpected(known.error());
+  const auto path = path_of(request.campaign(), request.folder());
+  if (!path) return tl::unexpected(path.error());
+  return samples_.ranges(view()->files, *path, *known, request);
 }
 
 Answer<fs::path> Records::path_of(const std::string& campaign, const std::string& folder) const {

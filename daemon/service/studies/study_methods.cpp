@@ -7,6 +7,7 @@
 
 #include "daemon/config/quantity_text.h"
 #include "daemon/service/studies/study_pictures.h"
+#include "study/report/documents/inference_documents.h"
 
 namespace imunoise::service {
 namespace {
@@ -222,6 +223,14 @@ void add_study_methods(Methods& methods, const StudySubjects& subjects,
         auto study = studies.read(request.study());
         if (!study) return study;
         return without_pictures(std::move(*study));
+      });
+  methods.on_waiting<v1::GetStudyReportRequest>(
+      [&studies](const v1::GetStudyReportRequest& request) -> Answer<v1::Text> {
+        const auto study = studies.read(request.study());
+        if (!study) return tl::unexpected(study.error());
+        v1::Text out;
+        out.set_text(report::html_page(report::document(*study, report::Digits::kTypeset)));
+        return out;
       });
   methods.on_waiting<v1::DeleteStudyRequest>(
       [&studies](const v1::DeleteStudyRequest& request) -> Answer<v1::DeletedStudy> {

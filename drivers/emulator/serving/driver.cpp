@@ -50,6 +50,9 @@ drivers::DriverInfo describe_driver() {
            .description = "Random seed; a reopened device continues with new values",
            .by_default = "1",
            .minimum = 0},
+          {.name = "serial",
+           .type = kText,
+           .description = "Serial number (default: the same for all devices of a kind)"},
           {.name = "rate",
            .type = kNumber,
            .description = "Sampling rate (default: 102.4 for an adis16405, else 100)",
@@ -107,6 +110,7 @@ std::unique_ptr<plugin::Device> open_device(const plugin::Options& options,
   plan.speed = options.number("speed");
   if (options.has("length")) plan.length_s = options.number("length");
   plan.preset = options.text("preset");
+  if (options.has("serial")) plan.serial = options.text("serial");
   if (adis) return open_adis16405(plan, host);
   if (plan.speed != 1.0) {
     refuse("speed: an emulated " + plan.driver +

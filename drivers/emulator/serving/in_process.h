@@ -20,6 +20,7 @@ struct InProcessPlan {
   double speed = 1.0;  ///< adis16405: speed relative to real time; 0 is as fast as possible.
   std::optional<double> length_s = {};  ///< adis16405: ends after so much of its own time.
   std::string preset = "mti600";        ///< can: which IMU.
+  std::string serial = {};              ///< Empty: that of the emulated device.
 };
 
 /// The driver's own device, started and configured as ever, with an emulated one at the other end

@@ -25,7 +25,7 @@ class EmulatedAdis16405 final : public plugin::Device {
                     const plugin::Host& host)
       : source_(plugin::or_throw(ModelledSource::make(plan.source))),
         sensor_(*source_, plan.source.seed, Memory::kNone),
-        bridge_(sensor_, "EMULATED"),
+        bridge_(sensor_, plan.serial.empty() ? "EMULATED" : plan.serial),
         begin_ns_(host.now_ns()),
         begin_(Clock::now()),
         bus_(std::make_shared<EmulatedBus>(bridge_, begin_ns_)),

@@ -39,7 +39,7 @@ class PrivateFolder {
 
 class EmulatedOnLine final : public plugin::Device {
  public:
-  EmulatedOnLine(const InProcessPlan& plan, const plugin::Host& host) {
+  EmulatedOnLine(const InProcessPlan& plan, const plugin::Host& host) : serial_(plan.serial) {
     const bool can = plan.driver == "can";
     const std::string place = (can ? "unix:" : "") + folder_.file(plan.driver);
     served_ = plugin::or_throw(serve({.driver = plan.driver,
@@ -65,6 +65,7 @@ class EmulatedOnLine final : public plugin::Device {
   drivers::DeviceInfo describe() override {
     drivers::DeviceInfo out = device_->describe();
     out.product += " (emulated)";
+    if (!serial_.empty()) out.serial = serial_;
     return out;
   }
   void read(plugin::Samples& samples, const plugin::Wait& wait) override {
@@ -73,6 +74,7 @@ class EmulatedOnLine final : public plugin::Device {
   void interrupt() noexcept override { device_->interrupt(); }
 
  private:
+  std::string serial_;
   PrivateFolder folder_;
   std::unique_ptr<ServedDevice> served_;
   std::unique_ptr<plugin::Device> device_;  // last: it listens to the others

@@ -225,11 +225,8 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
     return fit_of(sensors, *setup, count, options, part);
   };
   const ArrayFit fit = fit_first(measured.size(), progress.part(0.6, 0.8));
-  std::optional<VirtualSensor> half;
-  if (measured.size() > 1) {
-    half = virtual_sensor_of(fit_first((measured.size() + 1) / 2, progress.part(0.8, 1.0)),
-                             measured.front().scales, *scale_weights, options.rule);
-  }
+  std::optional<ArrayFit> half;
+  if (measured.size() > 1) half = fit_first((measured.size() + 1) / 2, progress.part(0.8, 1.0));
   if (progress.stopped()) return fail("stopped");
 
   v1::ArrayReport out;
@@ -248,6 +245,7 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   add_sensor_fits(fit, measured, out);
   add_pairs(fit, measured, sensors, options.confidence, out);
   add_virtual_sensor(fit, measured, *scale_weights, options, half, out);
+  add_trade_offs(fit, measured, options, half, out);
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {

@@ -98,16 +98,22 @@ bool noisier_than_mean(const HeldOutHalf& held, const VirtualSensor& sensor,
 
 }  // namespace
 
-void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
-                        const Eigen::VectorXd& scale_weights, const ArraySeriesOptions& options,
-                        const std::optional<VirtualSensor>& half, v1::ArrayReport& out) {
+namespace {
+
+// `options` less their scales, which `scale_weights` stand for.
+v1::VirtualSensor virtual_sensor_message(const ArrayFit& fit, const Measured& measured,
+                                         const Eigen::VectorXd& scale_weights,
+                                         const ArraySeriesOptions& options,
+                                         const std::optional<ArrayFit>& half_fit,
+                                         const v1::ArrayReport& out) {
   const Scales& scales = measured.front().scales;
+  std::optional<VirtualSensor> half;
+  if (half_fit) half = virtual_sensor_of(*half_fit, scales, scale_weights, options.rule);
   const auto gammas = covariance(fit.model, scales);
   const Eigen::MatrixXd weighted = weighted_covariance(gammas, scale_weights);
   VirtualSensor sensor = best_virtual_sensor(weighted, options.rule);
-  v1::VirtualSensor& to = *out.mutable_virtual_sensor();
+  v1::VirtualSensor to;
   to.set_rule(rule_name(options.rule));
-  to.set_scales(options.scales);
   for (const double w : scale_weights) to.add_scale_weights(w);
   const Eigen::ArrayXd predicted = gain_over_mean(gammas, sensor.weights);
   const HeldOutHalf held = half ? held_out_half(measured, scales, weighted.rows()) : HeldOutHalf{};
@@ -139,6 +145,34 @@ void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
     if (errors.size() > 0 && std::isfinite(errors(i))) weight.set_standard_error(errors(i));
   }
   to.set_gain(sensor.gain);
+  return to;
+}
+
+}  // namespace
+
+void add_virtual_sensor(const ArrayFit& fit, const Measured& measured,
+                        const Eigen::VectorXd& scale_weights, const ArraySeriesOptions& options,
+                        const std::optional<ArrayFit>& half, v1::ArrayReport& out) {
+  v1::VirtualSensor made = virtual_sensor_message(fit, measured, scale_weights, options, half, out);
+  made.set_scales(options.scales);
+  *out.mutable_virtual_sensor() = std::move(made);
+}
+
+void add_trade_offs(const ArrayFit& fit, const Measured& measured,
+                    const ArraySeriesOptions& options, const std::optional<ArrayFit>& half,
+                    v1::ArrayReport& out) {
+  if (options.rule == WeightRule::kUnitLength) return;
+  const auto count = static_cast<Eigen::Index>(measured.front().scales.size());
+  for (Eigen::Index j = 0; j < count; ++j) {
+    Eigen::VectorXd near = Eigen::VectorXd::Zero(count);
+    near(j) = 1.0;
+    if (j > 0) near(j - 1) = 0.5;
+    if (j + 1 < count) near(j + 1) = 0.5;
+    near /= near.sum();
+    v1::VirtualSensor made = virtual_sensor_message(fit, measured, near, options, half, out);
+    made.set_scales(fmt::format("{:.3g} s", made.scale_gains(static_cast<int>(j)).tau_s()));
+    *out.add_trade_offs() = std::move(made);
+  }
 }
 
 }  // namespace imunoise::study

@@ -5,7 +5,7 @@
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/figures/cross_figure.h"
-#include "study/report/figures/interval_figure.h"
+#include "study/report/figures/virtual_sensor_figures.h"
 #include "study/report/view/verdict.h"
 
 namespace imunoise::report {
@@ -88,22 +88,6 @@ Table gains(const v1::VirtualSensor& sensor, Digits digits) {
                         one.has_measured() ? number(one.measured(), 3, digits) : "–"});
   }
   return out;
-}
-
-std::optional<figure::Figure> gain_figure(const v1::VirtualSensor& sensor) {
-  std::vector<IntervalRow> rows;
-  for (const v1::ScaleGain& one : sensor.scale_gains()) {
-    const double seen = one.has_measured() ? one.measured() : one.predicted();
-    rows.push_back({duration(one.tau_s()), seen, std::min(seen, one.predicted()),
-                    std::max(seen, one.predicted()), seen > 1.0});
-  }
-  return interval_figure("Gain of the virtual sensor",
-                         "wavelet variance relative to the mean of the sensors",
-                         "One dot per scale: measured on held-out replicates if there are "
-                         "any, else by the model; the whisker ends at the prediction of the model. "
-                         "Left of 1, the virtual "
-                         "sensor is quieter than the mean of all sensors; orange: noisier there.",
-                         rows, 1.0);
 }
 
 }  // namespace

@@ -22,6 +22,11 @@ class FakeCampaignControl : public service::CampaignControl {
     const std::lock_guard lock(mutex_);
     return live_;
   }
+  Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const override {
+    const std::lock_guard lock(mutex_);
+    if (request.device() != samples_of_) return fail("no such device");
+    return samples_;
+  }
   std::string trouble() const override { return ""; }
   Result<void> start(const std::string& campaign, bool once) override {
     const std::lock_guard lock(mutex_);
@@ -67,6 +72,12 @@ class FakeCampaignControl : public service::CampaignControl {
     const std::lock_guard lock(mutex_);
     live_ = std::move(live);
   }
+  /// What is told of one device's latest samples.
+  void show(const std::string& device, v1::SampleRanges samples) {
+    const std::lock_guard lock(mutex_);
+    samples_of_ = device;
+    samples_ = std::move(samples);
+  }
   /// What clients asked for, a line each.
   std::string asked() const {
     const std::lock_guard lock(mutex_);
@@ -79,6 +90,8 @@ class FakeCampaignControl : public service::CampaignControl {
   std::vector<service::CampaignSnapshot> campaigns_;
   std::vector<v1::RejectedFile> rejected_;
   std::vector<v1::LiveReplicate> live_;
+  std::string samples_of_;
+  v1::SampleRanges samples_;
   std::string asked_;
   Watcher watcher_;
 };

@@ -72,6 +72,15 @@ Moments moments(const std::vector<double>& values, std::size_t from, std::size_t
   return out;
 }
 
+TEST(EmulatedDriver, DevicesOfOneKindAreToldApartByTheirSerialNumbers) {
+  for (const char* const device : {"adis16405", "xsens"}) {
+    const std::string known = open(options_of(device))->info().serial;
+    EXPECT_FALSE(known.empty());
+    EXPECT_NE(known, "AB107");
+    EXPECT_EQ(open(options_of(device, {{"serial", "AB107"}}))->info().serial, "AB107") << device;
+  }
+}
+
 TEST(EmulatedDriver, AnAdis16405RunsAsFastAsItIsRead) {
   const Session session = open(options_of("adis16405", {{"speed", "0"}, {"rate", "819.2"}}));
   EXPECT_EQ(session->info().product, "ADIS16405 (emulated)");

@@ -1,17 +1,17 @@
 // A figure of the service in the page: fetched in the size that it has here.
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { getText, type Refused } from "../api/client";
+import { type Fields, getText, type Refused } from "../api/client";
 import { Skeleton } from "../parts/states";
 import { number } from "../parts/numbers";
 import { useSize } from "./size";
 import { axisTitles, indexOf, type Place, places, pointAt, showTerm, terms } from "./figure";
 
-interface Asked {
-  readonly study: string;
-  readonly view: string;
-  readonly variance: boolean;
-  readonly ghost: string;
+interface Props {
+  readonly path: string; // of the method that draws it
+  readonly fields: Fields; // in the path
+  readonly asked: Fields;
   readonly version: string; // changes when the figure may have changed
+  readonly onPlace: (place: Place | null) => void;
 }
 
 const Table = ({ all, titles }: { all: readonly Place[]; titles: readonly [string, string] }) => (
@@ -24,7 +24,7 @@ const Table = ({ all, titles }: { all: readonly Place[]; titles: readonly [strin
   </table>
 );
 
-export function FigureView({ asked, onPlace }: { asked: Asked; onPlace: (place: Place | null) => void }) {
+export function FigureView({ path, fields, asked, version, onPlace }: Props) {
   const frame = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLDivElement>(null);
   const size = useSize(frame);
@@ -36,24 +36,23 @@ export function FigureView({ asked, onPlace }: { asked: Asked; onPlace: (place: 
   const [hidden, hide] = useState<ReadonlySet<string>>(new Set());
   const [at, move] = useState<number | null>(null);
 
+  const words = JSON.stringify([fields, asked]);
   useEffect(() => {
     if (!size) return;
     const stop = new AbortController();
-    const { study, view, variance, ghost } = asked;
-    getText("/v1/studies/{study}/figure", { study },
-      { view, variance, ghost, width: size.width, height: size.height }, stop.signal)
+    getText(path, fields, { ...asked, width: size.width, height: size.height }, stop.signal)
       .then((text) => { draw(text); tell(""); })
       .catch((error: Refused) => { if (!stop.signal.aborted) { draw(""); tell(error.message); } });
     return () => stop.abort();
-  }, [asked.study, asked.view, asked.variance, asked.ghost, asked.version, size?.width, size?.height]);
+  }, [path, words, version, size?.width, size?.height]);
 
   useLayoutEffect(() => {
     const drawn = canvas.current?.querySelector("svg");
     setAll(drawn ? places(drawn) : []);
     setNames(drawn ? terms(drawn) : []);
     if (drawn) setTitles(axisTitles(drawn));
-    move(null);
   }, [svg]);
+  useLayoutEffect(() => move(null), [words]);
   useLayoutEffect(() => {
     const drawn = canvas.current?.querySelector("svg");
     if (!drawn) return;

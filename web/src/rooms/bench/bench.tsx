@@ -5,7 +5,7 @@ import type { CampaignState, LiveDevice, LiveReplicate } from "../../api/schema"
 import { duration } from "../../parts/numbers";
 import { Empty, Skeleton, Trouble } from "../../parts/states";
 import { campaigns, live, mayChange } from "../../state";
-import { Deviation } from "./deviation";
+import { deviceFacts } from "./stream_words";
 
 const phases: Record<string, string> = {
   settling: "waits until the sensors are still", recording: "records", pausing: "pauses", calibrating: "calibrates",
@@ -31,15 +31,16 @@ function Stop({ state, replicate, onDone }: { state: CampaignState; replicate: L
   );
 }
 
-function Row({ device, open, onOpen }: { device: LiveDevice; open: boolean; onOpen: () => void }) {
-  const rate = device.elapsed_s > 0 ? Math.round(Number(device.samples) / device.elapsed_s) : 0;
+function Row({ campaign, device }: { campaign: string; device: LiveDevice }) {
+  const facts = deviceFacts(device);
   return (
     <tr class={device.warnings.length > 0 || device.disk_trouble ? "doubt" : ""}>
-      <th scope="row"><button type="button" class="title" aria-expanded={open} onClick={onOpen}>{device.device}</button></th>
-      <td>{rate} /s</td>
+      <th scope="row"><a href={`#/bench/${encodeURIComponent(campaign)}/${encodeURIComponent(device.device)}`}>{device.device}</a></th>
+      <td class={facts.rateOff ? "alarm" : ""}>{facts.rate}</td>
       <td>{device.samples}</td>
-      <td class={device.gaps !== "0" ? "alarm" : ""}>{device.gaps}</td>
+      <td class={facts.missing !== "0" ? "alarm" : ""}>{facts.missing}</td>
       <td class={device.refused !== "0" ? "alarm" : ""}>{device.refused}</td>
+      <td>{facts.temperature}</td>
       <td>{duration(device.elapsed_s)}</td>
       <td>{device.disk_trouble || device.warnings[0]?.sentence || device.outlook}</td>
     </tr>
@@ -47,16 +48,12 @@ function Row({ device, open, onOpen }: { device: LiveDevice; open: boolean; onOp
 }
 
 function Devices({ replicate }: { replicate: LiveReplicate }) {
-  const [open, show] = useState("");
   return (
-    <div class="scroll">
+    <div class="scroll" tabIndex={0} role="group" aria-label={`devices of ${replicate.campaign}`}>
       <table class="devices">
-        <thead><tr>{["device", "rows", "samples", "gaps", "rejected", "recorded", "state"].map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
+        <thead><tr>{["device", "rate", "samples", "missing", "rejected", "temperature", "recorded", "state"].map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
         <tbody>
-          {replicate.devices.map((one) => [
-            <Row key={one.device} device={one} open={open === one.device} onOpen={() => show(open === one.device ? "" : one.device)} />,
-            open === one.device && <tr key={`${one.device} deviation`}><td colSpan={7}><Deviation device={one} /></td></tr>,
-          ])}
+          {replicate.devices.map((one) => <Row key={one.device} campaign={replicate.campaign} device={one} />)}
         </tbody>
       </table>
     </div>

@@ -31,6 +31,10 @@ export function deviceRows(recordings: readonly CataloguedRecording[]): DeviceRo
   return [...rows.values()].sort((a, b) => a.id.localeCompare(b.id));
 }
 
+/** Those of one device, newest first. */
+export const recordingsOf = (recordings: readonly CataloguedRecording[], device: string): CataloguedRecording[] =>
+  recordings.filter((one) => one.devices.some((each) => each.id === device)).reverse();
+
 /** The device while its campaign records it. */
 export function liveOf(row: DeviceRow, live: ReadonlyMap<string, LiveReplicate>): LiveDevice | undefined {
   return live.get(row.campaign)?.devices.find((one) => one.device === row.name);

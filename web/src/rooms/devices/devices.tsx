@@ -3,12 +3,15 @@ import { get } from "../../api/client";
 import { useLoaded } from "../../parts/loaded";
 import { Empty, Skeleton } from "../../parts/states";
 import { campaigns, live } from "../../state";
+import { deviceFacts } from "../bench/stream_words";
 import { type DeviceRow, deviceRows, deviceState, liveOf, minute } from "./device_rows";
 
-const titles = ["device", "name", "recordings", "calibrated", "newest (UTC)", "now"];
+const titles = ["device", "name", "recordings", "calibrated", "newest (UTC)", "rate", "missing", "temperature", "now"];
 
 function Row({ row }: { row: DeviceRow }) {
-  const state = deviceState(liveOf(row, live.value));
+  const now = liveOf(row, live.value);
+  const state = deviceState(now);
+  const facts = deviceFacts(now);
   return (
     <tr>
       <th scope="row"><a href={`#/devices/${encodeURIComponent(row.id)}`}>{row.id}</a></th>
@@ -16,6 +19,9 @@ function Row({ row }: { row: DeviceRow }) {
       <td>{row.recordings}</td>
       <td>{row.calibrated}</td>
       <td>{minute(row.newest)}</td>
+      <td class={facts.rateOff ? "alarm" : ""}>{facts.rate}</td>
+      <td class={facts.missing !== "0" && facts.missing !== "–" ? "alarm" : ""}>{facts.missing}</td>
+      <td>{facts.temperature}</td>
       <td class={state.alarm ? "alarm" : "soft"}>{state.words}</td>
     </tr>
   );

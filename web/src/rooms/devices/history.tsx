@@ -4,7 +4,7 @@ import type { History as Answer, ParameterHistory } from "../../api/schema";
 import { Picture } from "../../figure/picture";
 import { useLoaded } from "../../parts/loaded";
 import { Empty, Skeleton } from "../../parts/states";
-import { minute } from "./device_rows";
+import { minute, recordingsOf } from "./device_rows";
 import { parameterRow, pointRows } from "./parameter_rows";
 
 const moods = { drift: "alarm", compatible: "good", "not compared": "plain" } as const;
@@ -46,10 +46,24 @@ const Points = ({ device, one }: { device: string; one: ParameterHistory }) => (
   </details>
 );
 
+function Recordings({ device }: { device: string }) {
+  const { answer } = useLoaded(() => get("/v1/recordings"), device);
+  const all = recordingsOf(answer?.recordings ?? [], device);
+  if (all.length === 0) return null;
+  return (
+    <details>
+      <summary>{all.length === 1 ? "One recording" : `${all.length} recordings`}</summary>
+      <ul class="plain-list">
+        {all.map((one) => <li key={`${one.bench} ${one.folder}`}><a href={`#/recordings/${encodeURIComponent(one.bench)}/${encodeURIComponent(one.folder)}`}>Samples of {one.folder}</a> <span class="soft">{one.bench}{one.calibrated ? ", calibrated" : ""}</span></li>)}
+      </ul>
+    </details>
+  );
+}
+
 export function History({ device }: { device: string }) {
   const { answer, problem } = useLoaded(() => get("/v1/history", {}, { device }), device);
   const back = <p><a href="#/devices">All devices</a></p>;
-  if (problem) return <Empty title={`No history of ${device}`} sentence={problem}>{back}</Empty>;
+  if (problem) return <Empty title={`No history of ${device}`} sentence={problem}>{back}<Recordings device={device} /></Empty>;
   if (!answer) return <Skeleton lines={8} />;
   return (
     <div class="list">
@@ -58,6 +72,7 @@ export function History({ device }: { device: string }) {
       <p class={answer.alarm ? "alarm" : ""} role="status">{answer.summary}</p>
       <Overview history={answer} />
       {answer.notes.map((one) => <p class="soft" key={one}>{one}</p>)}
+      <Recordings device={answer.device?.id ?? device} />
       <h2>Calibrations</h2>
       {answer.parameters.map((one) => <Points key={`${one.stream} ${one.channel} ${one.term} ${one.parameter}`} device={device} one={one} />)}
     </div>

@@ -90,8 +90,9 @@ export function StudyRoom({ name }: { name: string }) {
           )}
         </Views>
         <div id="view" role="tabpanel" aria-label={views[view]}>
-          <FigureView onPlace={move}
-            asked={{ study: name, view, variance, ghost: view === "averaging_times" || view === "spectrum" ? store.preview.value : "", version: `${study.current} ${study.attempts.length} ${study.diagnosis ? 1 : 0}` }} />
+          <FigureView onPlace={move} path="/v1/studies/{study}/figure" fields={{ study: name }}
+            asked={{ view, variance, ghost: view === "averaging_times" || view === "spectrum" ? store.preview.value : "" }}
+            version={`${study.current} ${study.attempts.length} ${study.diagnosis ? 1 : 0}`} />
         </div>
         <p class="sentence" aria-live="polite">{placeSentence(study, view, at, variance)}</p>
       </section>

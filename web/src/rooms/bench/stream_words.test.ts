@@ -1,0 +1,18 @@
+import { expect, test } from "vitest";
+import type { LiveDevice, LiveStream } from "../../api/schema";
+import { deviceFacts, rateWords } from "./stream_words";
+
+const stream = (more: Partial<LiveStream>): LiveStream =>
+  ({ stream: "imu", nominal_hz: 100, samples: "9", missing: "0", gaps: "0", refused: "0", ...more });
+
+test("a rate stands beside the nominal one", () => {
+  expect(rateWords(stream({}))).toBe("100 Hz");
+  expect(rateWords(stream({ rate_hz: 99.984 }))).toBe("99.98 of 100 Hz");
+  expect(rateWords(stream({ nominal_hz: 0, rate_hz: 50 }))).toBe("50 Hz");
+});
+
+test("a device's streams are one row: the fastest rate, all that is missing, a temperature", () => {
+  const facts = deviceFacts({ streams: [stream({ nominal_hz: 10, missing: "2", temperature_k: 300.15 }), stream({ rate_hz: 90, missing: "3" })] } as unknown as LiveDevice);
+  expect(facts).toEqual({ rate: "90 of 100 Hz", rateOff: true, missing: "5", temperature: "27 °C" });
+  expect(deviceFacts(undefined).rate).toBe("–");
+});
