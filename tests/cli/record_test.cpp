@@ -54,6 +54,14 @@ TEST_F(Record, WhatWasRecordedHasTheVeryMomentsOfWhatWasReplayed) {
   EXPECT_EQ(json_of("wv copy")["variance"], json_of("wv run.h5")["variance"]);
 }
 
+TEST_F(Record, TakesQuotesAroundAValueThatHasBlanks) {
+  const json report =
+      json_of("record lines --device \"text command='seq 1 40' columns=x rate=100 listen=0.2\"");
+  EXPECT_EQ(report["streams"][0]["stored"], "40");
+  EXPECT_NE(run("record open --device \"text command='seq 1 40\"").errors.find("not closed"),
+            std::string::npos);
+}
+
 TEST_F(Record, NumbersReplicates) {
   const std::string replay = "record monday --device 'replay file=run.h5 speed=0'";
   EXPECT_EQ(json_of(replay + " --replicates 2")["streams"][1]["replicate"], 2);
