@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "cli/manual/manual.h"
 #include "cli/parse/commands.h"
+#include "cli/parse/unknown_word.h"
 
 namespace imunoise::cli {
 namespace {
@@ -65,6 +66,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   program.footer(kExamples);
   program.require_subcommand(1);
   program.fallthrough();
+  program.failure_message(usage_error);
   std::size_t threads = 0;
   program.add_option("--threads", threads, "Number of threads; results do not depend on it")
       ->type_name("COUNT")

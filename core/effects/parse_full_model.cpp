@@ -10,10 +10,9 @@
 namespace imunoise {
 namespace {
 
-std::string known_effect_names() {
-  std::string out;
-  for (const Effect* one : known_effects())
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", one->name);
+std::vector<std::string> known_effect_names() {
+  std::vector<std::string> out;
+  for (const Effect* one : known_effects()) out.emplace_back(one->name);
   return out;
 }
 
@@ -72,9 +71,7 @@ Result<FullModel> parse_full_model(std::string_view text, Hertz rate, const Gram
     const Effect* const effect = effect_of(one.name);
     if (effect == nullptr && !one.name.empty() && !is_process(one.name))
       return tl::unexpected(
-          model_error(text, one.name,
-                      fmt::format("unknown process or effect '{}' (processes: {}; effects: {})",
-                                  one.name, known_process_names(), known_effect_names())));
+          model_error(text, one.name, unknown_term(one.name, known_effect_names())));
     auto done = effect != nullptr ? add_effect(*effect, one, text, grammar, out.effects)
                                   : add_process(one, text, rate, grammar, out.noise);
     if (!done) return tl::unexpected(done.error());

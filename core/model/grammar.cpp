@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/model/common_names.h"
 #include "core/model/trend.h"
 
 namespace imunoise {
@@ -199,11 +200,22 @@ std::string print(const Model& model, bool all) {
 
 bool is_process(std::string_view name) { return process_called(name) != nullptr; }
 
-std::string known_process_names() {
-  std::string out;
-  for (const Process& process : known_processes())
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", info(process).name);
+std::vector<std::string> known_process_names() {
+  std::vector<std::string> out;
+  for (const Process& process : known_processes()) out.emplace_back(info(process).name);
   return out;
+}
+
+std::string unknown_term(std::string_view name, const std::vector<std::string>& effects) {
+  const std::vector<std::string> processes = known_process_names();
+  std::vector<std::string> known = processes;
+  known.insert(known.end(), effects.begin(), effects.end());
+  const std::string what =
+      fmt::format("unknown process{} '{}'", effects.empty() ? "" : " or effect", name);
+  const std::string meant = meant_by(name, known);
+  if (!meant.empty()) return what + "; " + meant;
+  return fmt::format("{} (processes: {}{}{})", what, fmt::join(processes, ", "),
+                     effects.empty() ? "" : "; effects: ", fmt::join(effects, ", "));
 }
 
 Result<void> add_process(const WrittenTerm& written, std::string_view text, Hertz rate,
@@ -212,11 +224,10 @@ Result<void> add_process(const WrittenTerm& written, std::string_view text, Hert
     return tl::unexpected(model_error(text, place, what));
   };
   if (written.name.empty())
-    return wrong(written.name, "expected the name of a process (" + known_process_names() + ")");
+    return wrong(written.name, fmt::format("expected the name of a process ({})",
+                                           fmt::join(known_process_names(), ", ")));
   const Process* const known = process_called(written.name);
-  if (known == nullptr)
-    return wrong(written.name, fmt::format("unknown process '{}' (known: {})", written.name,
-                                           known_process_names()));
+  if (known == nullptr) return wrong(written.name, unknown_term(written.name, {}));
   Process process = *known;
   if (auto* markov = std::get_if<GaussMarkov>(&process)) markov->rate = rate;
   const Result<Term> term = ProcessReader(text, grammar).read(written, std::move(process));

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/model/model.h"
 #include "core/model/syntax.h"
@@ -31,7 +32,10 @@ Result<void> add_process(const WrittenTerm& written, std::string_view text, Hert
 
 /// True where a name is that of a process; case does not matter.
 bool is_process(std::string_view name);
-/// "WN, QN, RW, ..."
-std::string known_process_names();
+/// WN, QN, RW, ...
+std::vector<std::string> known_process_names();
+/// "unknown process or effect 'ARW'; did you mean WN (angle random walk)?", or the names that there
+/// are.
+std::string unknown_term(std::string_view name, const std::vector<std::string>& effects);
 
 }  // namespace imunoise

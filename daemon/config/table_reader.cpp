@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "daemon/config/nearest.h"
+#include "core/support/nearest_word.h"
 #include "daemon/config/quantity_text.h"
 
 namespace imunoise::config {
@@ -149,8 +149,8 @@ void TableReader::finish() {
 }
 
 std::string unknown_name(std::string_view name, const std::vector<std::string>& known) {
-  const std::string_view near = nearest(name, known);
-  if (!near.empty()) return fmt::format("unknown; did you mean '{}'?", near);
+  const std::string meant = did_you_mean(name, known);
+  if (!meant.empty()) return "unknown; " + meant;
   if (known.empty()) return "unknown; this table has no keys";
   return fmt::format("unknown; known keys: {}", fmt::join(known, ", "));
 }

@@ -130,6 +130,20 @@ TEST_F(Cli, WaveletVarianceOfOneFileAndOfSeveral) {
   EXPECT_NEAR(all["variance"][0].get<double>() / mean, 1.0, 1e-12);
 }
 
+TEST_F(Cli, NamesTheNearestCommandAndOption) {
+  const auto refused = [&](const std::string& typed, const std::string& meant) {
+    const Outcome done = run(typed);
+    EXPECT_EQ(done.status, 2) << typed;
+    EXPECT_NE(done.errors.find(meant), std::string::npos) << done.errors;
+  };
+  refused("fti run.h5", "unknown command 'fti'; did you mean 'fit'?");
+  refused("batch nwe", "unknown command 'nwe'; did you mean 'new'?\nRun imunoise batch --help");
+  refused("fit run.h5 --modle=WN", "unknown option '--modle'; did you mean '--model'?");
+  refused("fit run.h5 --thread 2", "did you mean '--threads'?");
+  refused("zzzzzz", "unknown command 'zzzzzz'\n");
+  refused("", "A subcommand is required");
+}
+
 TEST_F(Cli, SameSeedSameBytesWhateverTheThreads) {
   simulate("a.csv");
   simulate("b.csv", "--threads 1");

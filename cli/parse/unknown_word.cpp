@@ -1,0 +1,62 @@
+#include "cli/parse/unknown_word.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "core/support/nearest_word.h"
+
+namespace imunoise::cli {
+namespace {
+
+// The command that was recognised last: of `batch nwe` it is batch.
+const CLI::App* recognised(const CLI::App* app) {
+  const std::vector<CLI::App*> below = app->get_subcommands();
+  return below.empty() ? app : recognised(below.back());
+}
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> out;
+  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
+    out.push_back(one->get_name());
+  return out;
+}
+
+std::vector<std::string> options_of(const CLI::App& app, const CLI::App& program) {
+  std::vector<std::string> out;
+  for (const CLI::App* one : {&app, &program}) {
+    for (const CLI::Option* option : one->get_options()) {
+      for (const std::string& name : option->get_lnames()) out.push_back("--" + name);
+    }
+  }
+  return out;
+}
+
+std::string unknown(const char* what, const std::string& word,
+                    const std::vector<std::string>& known) {
+  const std::string meant = did_you_mean(word, known);
+  return fmt::format("unknown {} '{}'{}{}", what, word, meant.empty() ? "" : "; ", meant);
+}
+
+std::string sentence(const CLI::App& program, const CLI::Error& error) {
+  const CLI::App& at = *recognised(&program);
+  const bool wants_command = at.get_require_subcommand_min() > 0;
+  for (const std::string& word : program.remaining(true)) {
+    const bool option = word.starts_with("--");
+    if (option) return unknown("option", word.substr(0, word.find('=')), options_of(at, program));
+    if (wants_command) return unknown("command", word, commands_of(at));
+  }
+  return error.what();
+}
+
+}  // namespace
+
+std::string usage_error(const CLI::App* program, const CLI::Error& error) {
+  std::string path;
+  for (const CLI::App* at = recognised(program); at != nullptr; at = at->get_parent())
+    path = at->get_name() + " " + path;
+  return fmt::format("imunoise: {}\nRun {}--help for more information.\n",
+                     sentence(*program, error), path);
+}
+
+}  // namespace imunoise::cli
