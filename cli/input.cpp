@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "cli/progress_line.h"
+#include "recording/import/pieces.h"
 #include "recording/import/table/names.h"
 #include "recording/store/reading/across.h"
 #include "recording/store/reading/places.h"
@@ -14,11 +15,13 @@
 
 namespace imunoise::cli {
 
-namespace {
-
 bool is_recording(const InputArguments& arguments) {
-  return arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files.front());
+  const std::filesystem::path& first = arguments.files.front();
+  return arguments.files.size() == 1 && std::filesystem::is_directory(first) &&
+         recording::pieces_of(first).empty();
 }
+
+namespace {
 
 // Whether the channels lie in several devices. Files that cannot be read are reported elsewhere.
 bool several_devices(const InputArguments& arguments) {

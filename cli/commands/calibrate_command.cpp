@@ -31,7 +31,7 @@ int run(const CalibrateArguments& arguments) {
   study::CalibrateOptions options = arguments.calibrate;
   options.made_ns = acquire::now_ns();
   const std::filesystem::path& folder = arguments.input.files.front();
-  if (!std::filesystem::is_directory(folder)) return calibrate_plain_files(arguments, options);
+  if (!is_recording(arguments.input)) return calibrate_plain_files(arguments, options);
   const Interrupt interrupt;
   recording::FileSystem& files = recording::posix_file_system();
   const auto done = [&] {

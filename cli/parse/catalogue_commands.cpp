@@ -3,6 +3,7 @@
 #include "cli/parse/commands.h"
 #include "cli/parse/daemon_options.h"
 #include "cli/parse/raw_analysis.h"
+#include "recording/import/pieces.h"
 #include "study/analysis/arrays/array_series.h"
 
 namespace imunoise::cli {
@@ -73,7 +74,9 @@ ParsedCommand calibrate_command(CLI::App& program) {
   return {calibrate, [raw, options, array_model] {
             CalibrateArguments out{input_from(raw->input), *options, show_from(*raw)};
             out.calibrate.channels = out.input.import.channels;
-            const bool folder = std::filesystem::is_directory(out.input.files.front());
+            const std::filesystem::path& first = out.input.files.front();
+            const bool folder =
+                std::filesystem::is_directory(first) && recording::pieces_of(first).empty();
             if (folder && (out.input.files.size() > 1 || out.input.import.rate ||
                            !out.input.import.units.empty() || out.input.import.split_into > 1))
               refuse("FILES",

@@ -73,7 +73,7 @@ class Reader {
   /// It was there to the end, or had nothing more to say.
   bool connected() const { return connected_; }
   const std::string& disconnection() const { return disconnection_; }
-  const std::vector<v1::Disturbance>& disturbances() const { return stillness_.disturbances(); }
+  std::vector<v1::Disturbance> disturbances() const { return stillness_.disturbances(); }
   std::vector<v1::ClockComparison> clocks() const;
 
  private:

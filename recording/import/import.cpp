@@ -11,6 +11,7 @@
 
 #include "core/support/parallel.h"
 #include "recording/import/packed/unpacked_file.h"
+#include "recording/import/pieces.h"
 #include "recording/import/preflight/preflight.h"
 #include "recording/import/table/format.h"
 #include "recording/import/table/table.h"
@@ -55,9 +56,74 @@ Result<Table> read_content(const std::filesystem::path& path, const ImportOption
   return table;
 }
 
+// Puts what the next piece of a recording holds behind a table.
+Result<void> append(const std::filesystem::path& piece, Table next, Table& to) {
+  const auto differ = [&](const std::string& how) {
+    return fail(
+        fmt::format("{}: {} than the pieces before; choose with --topic or --channel, or "
+                    "read it by itself",
+                    piece.string(), how));
+  };
+  if (next.columns.size() != to.columns.size() || next.time.has_value() != to.time.has_value())
+    return differ("has other channels");
+  for (std::size_t c = 0; c < to.columns.size(); ++c) {
+    Column& first = to.columns[c];
+    Column& second = next.columns[c];
+    if (first.name != second.name || first.unit != second.unit || first.scale != second.scale ||
+        first.samples.index() != second.samples.index())
+      return differ("has other channels");
+    std::visit(
+        [&](auto& values) {
+          auto& more = std::get<std::decay_t<decltype(values)>>(second.samples);
+          values.insert(values.end(), more.begin(), more.end());
+          more = {};
+        },
+        first.samples);
+  }
+  if (to.time) {
+    if (to.time->stamps.index() != next.time->stamps.index()) return differ("has other times");
+    std::visit(
+        [&](auto& values) {
+          auto& more = std::get<std::decay_t<decltype(values)>>(next.time->stamps);
+          values.insert(values.end(), more.begin(), more.end());
+        },
+        to.time->stamps);
+  }
+  to.unreadable += next.unreadable;
+  if (to.first_unreadable.empty()) to.first_unreadable = std::move(next.first_unreadable);
+  to.truncated = to.truncated || next.truncated;
+  return {};
+}
+
+// Of a bag in a folder: its pieces, one behind the other.
+Result<Table> read_pieces(const std::filesystem::path& folder,
+                          const std::vector<std::filesystem::path>& pieces,
+                          const ImportOptions& options, FileProgress& progress) {
+  std::optional<Table> out;
+  for (const std::filesystem::path& piece : pieces) {
+    const Progress stopping = progress.only_stopping();
+    std::atomic<double> ignored = 0.0;
+    FileProgress own(stopping, ignored, 1);
+    Result<Table> table = read_content(piece, options, own);
+    if (!table) return table;
+    if (!out) {
+      out = std::move(*table);
+    } else if (auto done = append(piece, std::move(*table), *out); !done) {
+      return tl::make_unexpected(done.error());
+    }
+    progress.report(static_cast<double>(&piece - pieces.data() + 1) /
+                    static_cast<double>(pieces.size()));
+  }
+  out->notes.push_back(fmt::format("{} file{} of {}", pieces.size(), pieces.size() == 1 ? "" : "s",
+                                   folder.string()));
+  return std::move(*out);
+}
+
 Result<Judged> read_table(const std::filesystem::path& path, const ImportOptions& options,
                           FileProgress& progress) {
-  Result<Table> table = read_content(path, options, progress);
+  const std::vector<std::filesystem::path> pieces = pieces_of(path);
+  Result<Table> table = pieces.empty() ? read_content(path, options, progress)
+                                       : read_pieces(path, pieces, options, progress);
   if (!table) return tl::make_unexpected(table.error());
   if (auto even = check_lengths(path.string(), *table); !even)
     return tl::make_unexpected(even.error());
@@ -126,11 +192,15 @@ Result<void> check_agreement(const std::string& first_file, const Judged& first,
 
 // "run1"; with its folder where two files share a name.
 std::vector<std::string> replicate_names(std::span<const std::filesystem::path> paths) {
+  const auto without_slash = [](const std::filesystem::path& path) {
+    return path.has_filename() ? path : path.parent_path();
+  };
   std::map<std::string, int> stems;
-  for (const auto& path : paths) ++stems[path.stem().string()];
+  for (const auto& path : paths) ++stems[without_slash(path).stem().string()];
   std::map<std::string, int> seen;
   std::vector<std::string> names;
-  for (const auto& path : paths) {
+  for (const auto& given : paths) {
+    const std::filesystem::path path = without_slash(given);
     std::string name = path.stem().string();
     if (stems[name] > 1) name = (path.parent_path().filename() / path.filename()).string();
     const int repeat = ++seen[name];

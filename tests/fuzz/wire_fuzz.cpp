@@ -8,7 +8,7 @@
 #include "drivers/can/codec/presets.h"
 #include "drivers/codec/wire_format.h"
 #include "drivers/replay/wire/codec.h"
-#include "tests/fuzz/memory_file.h"
+#include "tests/fuzz/import/memory_file.h"
 
 using namespace imunoise;
 using namespace imunoise::replay;

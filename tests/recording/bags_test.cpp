@@ -188,5 +188,30 @@ TEST_F(Bags, Ros2InSqliteAndItsTruncations) {
   }
 }
 
+TEST_F(Bags, PiecesInAFolderAreOneRecording) {
+  std::filesystem::create_directory(path("bag"));
+  write("bag/metadata.yaml", "rosbag2_bagfile_information:\n");
+  int first = 0;
+  for (const std::string name : {"bag_2.db3", "bag_9.db3", "bag_10.db3", "bag_11.db3"}) {
+    const std::string how = std::to_string(first) + (name == "bag_9.db3" ? " packed" : "");
+    if (!made_by("/usr/bin/python3 write_db3.py", path("bag/" + name).string() + " 30 " + how))
+      GTEST_SKIP() << "no independent writer here: Python, zstd";
+    first += 30;
+  }
+  if (std::system(("zstd -q --rm " + path("bag/bag_11.db3").string() + " -o " +
+                   path("bag/bag_11.db3.zstd").string())
+                      .c_str()) != 0)
+    GTEST_SKIP() << "no zstd here";
+  for (const std::string folder : {"bag", "bag/"}) {
+    const auto got = import_one(path(folder));
+    ASSERT_TRUE(got) << got.error().message;
+    ASSERT_EQ(got->size(), 1U);
+    EXPECT_EQ(got->front().name, "bag");
+    expect_counted(got->front(), 120);
+  }
+  ASSERT_TRUE(made_by("node write_mcap.js", path("bag/bag_12.mcap").string() + " none 30 2"));
+  expect_parts(error_of(path("bag")), {"bag_12.mcap", "several topics"});
+}
+
 }  // namespace
 }  // namespace imunoise::recording

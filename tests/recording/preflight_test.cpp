@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -192,6 +193,169 @@ TEST_F(Odd, UnitsOfEachKind) {
   const auto wrong = odd("t,wx [deg/s],ax [g],ay [g],az [g]", row);
   ASSERT_TRUE(wrong) << wrong.error().message;
   expect_parts(findings(wrong->front()), {"stated in g", "not 9.81"});
+}
+
+// White noise of six axes at rest, with gravity, at 100 Hz; `also` is added to row i of axis a.
+using Also = std::function<double(int row, int axis)>;
+
+class Rest : public Odd {
+ protected:
+  static constexpr int kRestRows = 20'000;
+
+  static std::vector<std::array<double, 6>> rest(unsigned seed, const Also& also = {}) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<std::array<double, 6>> out(kRestRows);
+    for (int i = 0; i < kRestRows; ++i) {
+      for (int a = 0; a < 6; ++a) {
+        double& to = out[static_cast<std::size_t>(i)][static_cast<std::size_t>(a)];
+        to = (a < 3 ? 0.002 : 0.02) * normal(random) + (a == 5 ? 9.81 : 0.0);
+        if (also) to += also(i, a);
+      }
+    }
+    return out;
+  }
+  Result<std::vector<Replicate>> imported(const std::vector<std::array<double, 6>>& rows,
+                                          const std::string& unit = "rad/s") const {
+    std::string text = fmt::format("t [s],wx [{0}],wy [{0}],wz [{0}],ax,ay,az\n", unit);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      text += fmt::format("{:.2f}", 0.01 * static_cast<double>(i));
+      for (const double value : rows[i]) text += fmt::format(",{:.9g}", value);
+      text += "\n";
+    }
+    return import_one(write("rest.csv", text));
+  }
+};
+
+TEST_F(Rest, SoundSamplesRaiseNoDoubt) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto got = imported(rest(seed));
+    ASSERT_TRUE(got) << got.error().message;
+    EXPECT_EQ(got->size(), 1U) << "seed " << seed;
+    EXPECT_TRUE(got->front().preflight->findings.empty()) << findings(got->front());
+  }
+}
+
+TEST_F(Rest, AKnockOfSeveralAxesIsLeftOut) {
+  for (const int at : {15'000, 500}) {  // the second one before the watch knows the noise
+    const auto got = imported(rest(6, [&](int row, int axis) {
+      return row >= at && row < at + 250 ? (axis < 3 ? 0.05 : 0.5) * std::sin(0.3 * row) : 0.0;
+    }));
+    ASSERT_TRUE(got) << got.error().message;
+    const Finding& found = got->front().preflight->findings.front();
+    EXPECT_EQ(found.severity, Severity::kLeftOut);
+    expect_parts(found.text, {"disturbed from", "left out"});
+    std::size_t used = 0;
+    for (const Replicate& one : *got) {
+      const std::size_t begin = one.channels[0].begin;
+      const std::size_t end = begin + one.channels[0].count;
+      used += one.channels[0].count;
+      EXPECT_TRUE(end <= static_cast<std::size_t>(at) ||
+                  begin >= static_cast<std::size_t>(at) + 250)
+          << begin << " to " << end;
+    }
+    EXPECT_GT(used, kRestRows * 9U / 10U - 600U);
+  }
+}
+
+TEST_F(Rest, AStepOfOneAxisIsToldAndUsed) {
+  const auto got =
+      imported(rest(7, [](int row, int axis) { return axis == 1 && row > 9'000 ? 0.02 : 0.0; }));
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->size(), 1U);
+  expect_parts(findings(got->front()), {"wy changes from 90", "no other channel", "--exclude"});
+}
+
+TEST_F(Rest, RepeatedSamplesAreTold) {
+  auto rows = rest(8);
+  for (std::size_t i = 1; i < rows.size(); i += 2) {
+    for (std::size_t a = 3; a < 6; ++a) rows[i][a] = rows[i - 1][a];
+  }
+  const auto got = imported(rows);
+  ASSERT_TRUE(got) << got.error().message;
+  expect_parts(findings(got->front()),
+               {"50 % of the accelerations repeat", "about 50 Hz", "m/s^2"});
+}
+
+TEST_F(Rest, InterpolatedSamplesAreTold) {
+  auto rows = rest(9);
+  for (std::size_t i = 1; i + 1 < rows.size(); i += 2) {
+    for (std::size_t a = 0; a < 3; ++a) rows[i][a] = 0.5 * (rows[i - 1][a] + rows[i + 1][a]);
+  }
+  const auto got = imported(rows);
+  ASSERT_TRUE(got) << got.error().message;
+  expect_parts(findings(got->front()), {"50 % of the angular rates lie on straight lines"});
+}
+
+TEST_F(Rest, AFilteredStreamIsTold) {
+  auto rows = rest(10);
+  for (std::size_t i = 1; i < rows.size(); ++i) {  // two poles, half of the power at 9 Hz
+    for (std::size_t a = 0; a < 3; ++a) rows[i][a] = 0.6 * rows[i - 1][a] + 0.4 * rows[i][a];
+  }
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    for (std::size_t a = 0; a < 3; ++a) rows[i][a] = 0.6 * rows[i - 1][a] + 0.4 * rows[i][a];
+  }
+  const auto got = imported(rows);
+  ASSERT_TRUE(got) << got.error().message;
+  expect_parts(findings(got->front()), {"power of the angular rates falls", "filtered"});
+  // A random walk falls everywhere: it is no filter.
+  auto walk = rest(11);
+  for (std::size_t i = 1; i < walk.size(); ++i) {
+    for (std::size_t a = 0; a < 3; ++a) walk[i][a] += walk[i - 1][a];
+  }
+  const auto walked = imported(walk);
+  ASSERT_TRUE(walked) << walked.error().message;
+  EXPECT_EQ(findings(walked->front()).find("filtered"), std::string::npos);
+}
+
+TEST_F(Odd, IncrementsBecomeRates) {
+  const auto got = odd("t [s],dtheta_x [rad],dvx,dvy,dvz", [](int i) {
+    return fmt::format("{:.2f},{},0,0,{}", 0.01 * i, 0.001 * (i % 7), 0.0981 + 1e-5 * (i % 5));
+  });
+  ASSERT_TRUE(got) << got.error().message;
+  const Channel& rate = got->front().channels[0];
+  EXPECT_EQ(rate.unit.symbol, "rad/s");
+  EXPECT_NEAR(rate.signal().value(6), 0.6, 1e-12);
+  EXPECT_NEAR(got->front().channels[3].signal().value(0), 9.81, 1e-9);
+  expect_parts(findings(got->front()), {"increments: dtheta_x, dvx, dvy, dvz, divided by 0.01 s"});
+  const auto unnamed = odd("t [s],ax,ay,az", [](int i) {
+    return fmt::format("{:.2f},0,0,{}", 0.01 * i, 0.0981 + 1e-5 * (i % 5));
+  });
+  ASSERT_TRUE(unnamed) << unnamed.error().message;
+  EXPECT_NEAR(unnamed->front().channels[2].signal().value(0), 9.81, 1e-9);
+}
+
+TEST_F(Odd, SensorsOfTwoRatesInOneTableAreTakenApart) {
+  const auto got = odd("t [s],wx [rad/s],ax [m/s^2],temp", [](int i) {
+    const std::string acceleration = i % 4 == 0 ? "0.5" : "";
+    const std::string warmth = i % 50 == 0 ? "25" : "";
+    return fmt::format("{:.2f},{},{},{}", 0.01 * i, 0.1 * (i % 3), acceleration, warmth);
+  });
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->size(), 1U);
+  EXPECT_DOUBLE_EQ(got->front().rate.value, 100.0);
+  ASSERT_EQ(got->front().channels.size(), 1U);
+  EXPECT_EQ(got->front().channels[0].count, 200U);
+  expect_parts(findings(got->front()),
+               {"channel ax (25 Hz) is left out: read it with --channel ax", "temp"});
+  ImportOptions slow;
+  slow.channels = {"ax"};
+  const auto other = import_one(path("odd.csv"), slow);
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_DOUBLE_EQ(other->front().rate.value, 25.0);
+  EXPECT_EQ(other->front().channels[0].count, 50U);
+}
+
+TEST_F(Odd, SensorsInTurnAreJoined) {
+  const auto got = odd("t [s],wx [rad/s],ax [m/s^2]", [](int i) {
+    return i % 2 == 0 ? fmt::format("{:.3f},{},", 0.005 * i, i)
+                      : fmt::format("{:.3f},,{}", 0.005 * i, i);
+  });
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_DOUBLE_EQ(got->front().rate.value, 100.0);
+  ASSERT_EQ(got->front().channels.size(), 2U);
+  EXPECT_EQ(stored_doubles(got->front().channels[0])[10], 20.0);
+  EXPECT_EQ(stored_doubles(got->front().channels[1])[10], 21.0);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
-"""Writes a ROS 2 bag with Python's sqlite3: write_db3.py FILE MESSAGES. The messages are those of write_mcap.js."""
+"""Writes a ROS 2 bag with Python's sqlite3: write_db3.py FILE MESSAGES [FIRST] [packed]. The messages are those of write_mcap.js."""
 import sqlite3
 import struct
+import subprocess
 import sys
 
 path, messages = sys.argv[1], int(sys.argv[2])
+first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
+packed = "packed" in sys.argv
 bag = sqlite3.connect(path)
 bag.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
             "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)")
@@ -11,11 +14,13 @@ bag.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT 
             "timestamp INTEGER NOT NULL, data BLOB NOT NULL)")
 bag.execute("INSERT INTO topics VALUES(1, '/chatter', 'std_msgs/msg/String', 'cdr', '')")
 bag.execute("INSERT INTO topics VALUES(2, '/imu', 'sensor_msgs/msg/Imu', 'cdr', '')")
-for i in range(messages):
+for i in range(first, first + messages):
     head = struct.pack("<iII", 1700000000 + i // 100, i % 100 * 10000000, 9) + b"imu_link\0"
     head += bytes(-len(head) % 8)
     numbers = [0.0] * 13 + [i, i + 0.25, i + 0.5] + [0.0] * 9 + [9 + i, i / 2, -i] + [0.0] * 9
     data = b"\0\1\0\0" + head + struct.pack("<37d", *numbers)
+    if packed:
+        data = subprocess.run(["zstd", "-c", "-q"], input=data, stdout=subprocess.PIPE, check=True).stdout
     bag.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(1, ?, ?)", (i, b"\0\1\0\0"))
     bag.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(2, ?, ?)", (i, data))
 bag.commit()

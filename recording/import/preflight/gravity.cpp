@@ -85,4 +85,40 @@ std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
   return said;
 }
 
+std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz rate) {
+  std::string made;
+  std::vector<std::size_t> silent;  // accelerations without a unit
+  double squares = 0.0;
+  const auto make = [&](Column& column, const char* unit) {
+    column.scale *= rate.value;
+    column.offset *= rate.value;
+    column.unit = unit;
+    made += (made.empty() ? "" : ", ") + column.name;
+  };
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    Column& column = columns[c];
+    const Role role = role_of(column.name);
+    const std::string& unit = column.unit;
+    const bool none = unit.empty() || unit == "-";
+    if (role.increment && role.quantity == Quantity::kAngularRate) {
+      if (none || unit == "rad") make(column, "rad/s");
+      if (unit == "deg") make(column, "deg/s");
+    } else if (role.increment && role.quantity == Quantity::kAcceleration) {
+      if (none || unit == "m/s") make(column, "m/s^2");
+    } else if (none && role.unit.empty() && role.quantity == Quantity::kAcceleration &&
+               role.axis != ' ') {
+      silent.push_back(c);
+      squares += std::pow(mean_of(column), 2);
+    }
+  }
+  // The norm of accelerations in g or m/s^2 tells them from increments.
+  const double norm = std::sqrt(squares);
+  if (silent.size() == 3 && near(norm * rate.value, kGravity) && !near(norm, 1.0) &&
+      !near(norm, kGravity) && !near(norm, 1000.0)) {
+    for (const std::size_t c : silent) make(columns[c], "m/s^2");
+  }
+  if (made.empty()) return {};
+  return {fmt::format("increments: {}, divided by {:.6g} s", made, 1.0 / rate.value)};
+}
+
 }  // namespace imunoise::recording

@@ -16,4 +16,9 @@ std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
                                             std::vector<Unit>& units,
                                             std::vector<Finding>& findings);
 
+/// Makes rates of increments: of columns named so (delta_angle_x, dvel_z) that are in no unit, rad,
+/// deg or m/s, and of accelerations in no unit whose norm is gravity once it is divided by the
+/// period. To be called before units are resolved. Returns what it recognised.
+std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz rate);
+
 }  // namespace imunoise::recording

@@ -7,7 +7,10 @@
 #include <utility>
 
 #include "recording/import/preflight/gravity.h"
+#include "recording/import/preflight/motion.h"
 #include "recording/import/preflight/pace.h"
+#include "recording/import/preflight/streams_apart.h"
+#include "recording/import/preflight/suspect.h"
 #include "recording/import/table/select.h"
 
 namespace imunoise::recording {
@@ -52,6 +55,8 @@ class Judge {
     if (!readable) return tl::make_unexpected(readable.error());
     const auto paced = table_.time ? follow_time() : take_rate();
     if (!paced) return tl::make_unexpected(paced.error());
+    for (std::string& said : rates_of_increments(table_.columns, out_.rate))
+      report_.recognised.push_back(std::move(said));
     out_.units.reserve(table_.columns.size());
     for (const Column& column : table_.columns) {
       Result<Unit> unit = resolve_unit(file_, column.name, column.unit, options_);
@@ -62,8 +67,14 @@ class Judge {
       report_.recognised.push_back(std::move(said));
     find_missing();
     leave_out_times();
+    find_motion();
     const auto cut = cut_stretches();
     if (!cut) return tl::make_unexpected(cut.error());
+    const Stretch& longest =
+        *std::max_element(out_.stretches.begin(), out_.stretches.end(),
+                          [](const Stretch& a, const Stretch& b) { return a.count < b.count; });
+    find_suspects(table_.columns, out_.units, out_.rate, longest.begin, longest.count,
+                  report_.findings);
     if (options_.strict && !report_.findings.empty()) return refuse("--strict refuses the file");
     out_.columns = std::move(table_.columns);
     out_.report = std::make_shared<const Preflight>(std::move(report_));
@@ -240,9 +251,52 @@ class Judge {
       cuts_.push_back({row_at(one.begin), row_at(one.end)});
   }
 
-  Result<void> cut_stretches() {
+  void sort_cuts() {
     std::sort(cuts_.begin(), cuts_.end(),
               [](const Cut& a, const Cut& b) { return a.begin < b.begin; });
+  }
+
+  // What moves one channel alone may be its own noise: it is told, and used.
+  void find_motion() {
+    sort_cuts();
+    std::vector<bool> broken(rows_ + 1, false);
+    for (const Cut& cut : cuts_) {
+      for (std::size_t i = cut.begin; i <= std::min(cut.end, rows_); ++i) broken[i] = true;
+    }
+    const std::vector<Motion> all = motion_in(table_.columns, out_.units, out_.rate,
+                                              [&](std::size_t row) { return broken[row]; });
+    std::size_t rows = 0;
+    for (const Motion& one : all) rows += one.several ? one.end - one.begin : 0;
+    const bool moves = 2 * rows > rows_;
+    if (moves)
+      find(Severity::kDoubt,
+           "the sensor does not lie still for more than half of the time: its "
+           "motion is taken for noise");
+    std::size_t told = 0;
+    for (const Motion& one : all) {
+      const bool out = one.several && !moves;
+      if (out) cuts_.push_back({one.begin, one.end});
+      if (moves || told++ >= kTold) continue;
+      const double begin = time_of(one.begin);
+      const double end = time_of(std::min(one.end, rows_ - 1));
+      if (out) {
+        find(Severity::kLeftOut,
+             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} of its "
+                         "usual scatter): left out",
+                         begin, end, one.channel, one.size));
+      } else {
+        find(Severity::kDoubt,
+             fmt::format(
+                 "{} changes from {:.6g} to {:.6g} s, by {:.2g} of its usual scatter, and no "
+                 "other channel does: used; --exclude {:.6g}..{:.6g} leaves it out",
+                 one.channel, begin, end, one.size, begin, end));
+      }
+    }
+    if (told > kTold) find(Severity::kLeftOut, fmt::format("{} more disturbances", told - kTold));
+  }
+
+  Result<void> cut_stretches() {
+    sort_cuts();
     cuts_.push_back({rows_, rows_});
     std::size_t begin = 0;
     std::size_t longest = 0;
@@ -284,7 +338,9 @@ class Judge {
 }  // namespace
 
 Result<Judged> judge(const std::string& file, Table table, const ImportOptions& options) {
-  return Judge(file, std::move(table), options).judged();
+  Result<Table> apart = take_apart(file, std::move(table), options);
+  if (!apart) return tl::make_unexpected(apart.error());
+  return Judge(file, std::move(*apart), options).judged();
 }
 
 }  // namespace imunoise::recording

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "recording/import/packed/chunk.h"
 #include "recording/import/ros/imu_messages.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/format.h"
@@ -17,6 +18,7 @@ namespace imunoise::recording {
 namespace {
 
 constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
+constexpr std::string_view kPackedMessage = "\x28\xb5\x2f\xfd";  // a frame of zstd
 
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
 using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
@@ -60,17 +62,25 @@ class Ros2Database {
              });
     if (!topics) return tl::make_unexpected(topics.error());
     std::size_t rows = 0;
-    const Result<void> messages = each(
-        made, "SELECT topic_id, timestamp, data FROM messages",
-        [&](sqlite3_stmt* row) -> Result<void> {
-          if (++rows % 65536 == 0 && progress.stopped()) {
-            return fail(fmt::format("{}: the import was stopped", name_));
-          }
-          const auto topic = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
-          if (!collector_.wants(topic)) return {};
-          collector_.add(topic, Encoding::kCdr, sqlite_bytes(row, 2), sqlite3_column_int64(row, 1));
-          return {};
-        });
+    const Result<void> messages =
+        each(made, "SELECT topic_id, timestamp, data FROM messages",
+             [&](sqlite3_stmt* row) -> Result<void> {
+               if (++rows % 65536 == 0 && progress.stopped()) {
+                 return fail(fmt::format("{}: the import was stopped", name_));
+               }
+               const auto topic = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
+               if (!collector_.wants(topic)) return {};
+               std::string_view data = sqlite_bytes(row, 2);
+               Unpacked message;
+               if (data.starts_with(kPackedMessage)) {
+                 constexpr std::uint64_t largest = std::uint64_t{1} << 16U;  // an Imu has 340 bytes
+                 auto unpacked = unpack_chunk("zstd", data, largest);
+                 if (unpacked) message = std::move(*unpacked);
+                 data = message.bytes;
+               }
+               collector_.add(topic, Encoding::kCdr, data, sqlite3_column_int64(row, 1));
+               return {};
+             });
     if (!messages) return tl::make_unexpected(messages.error());
     return collector_.finish();
   }

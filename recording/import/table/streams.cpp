@@ -140,7 +140,8 @@ bool joined(TimedStream& to, TimedStream& other) {
 }  // namespace
 
 Result<Table> join_streams(const std::string& file, std::vector<TimedStream> streams,
-                           const std::string& time_name, const ImportOptions& options) {
+                           const std::string& time_name, const ImportOptions& options,
+                           std::string_view kind) {
   std::erase_if(streams, [](const TimedStream& one) { return one.times.empty(); });
   if (streams.empty()) return fail(fmt::format("{}: holds no samples of a sensor", file));
   const Result<std::size_t> chosen = main_stream(file, streams, options);
@@ -155,11 +156,11 @@ Result<Table> join_streams(const std::string& file, std::vector<TimedStream> str
     if (options.topic.empty() && joined(first, other)) {
       names += ", " + other.name;
     } else {
-      table.notes.push_back(fmt::format("topic {} ({:.4g} Hz) is left out: read it with --topic {}",
-                                        other.name, rate, other.name));
+      table.notes.push_back(fmt::format("{} {} ({:.4g} Hz) is left out: read it with --{} {}", kind,
+                                        other.name, rate, kind, other.name));
     }
   }
-  table.notes.insert(table.notes.begin(), fmt::format("topic {}", names));
+  table.notes.insert(table.notes.begin(), fmt::format("{} {}", kind, names));
   std::vector<Offer> offers;
   for (const Column& one : first.columns) {
     const bool known = one.unit.empty() || parse_unit(one.unit);

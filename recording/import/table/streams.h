@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/support/result.h"
@@ -23,9 +24,11 @@ struct TimedStream {
 /// The stream of the first wanted channel (options.topic, options.channels), else the first that
 /// holds angular rates, else the longest; and beside it those of its rate (to 1 %), each sample at
 /// the row that is nearest in time, less the usual delay between the two. Rows that another stream
-/// lacks miss its values. Notes say what was joined and what was left out. Error: no stream, none
+/// lacks miss its values. Notes say what was joined and what was left out; `kind` is what the user
+/// calls a stream, and the option that chooses one. Error: no stream, none
 /// of the wanted name or channel.
 Result<Table> join_streams(const std::string& file, std::vector<TimedStream> streams,
-                           const std::string& time_name, const ImportOptions& options);
+                           const std::string& time_name, const ImportOptions& options,
+                           std::string_view kind = "topic");
 
 }  // namespace imunoise::recording

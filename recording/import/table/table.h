@@ -63,6 +63,8 @@ class FileProgress {
     whole_.report(done_.fetch_add(step) + step);
   }
   bool stopped() const { return whole_.stopped(); }
+  /// For a part of the file whose progress is not told.
+  Progress only_stopping() const { return whole_.part(0.0, 0.0); }
 
  private:
   const Progress& whole_;

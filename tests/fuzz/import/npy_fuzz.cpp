@@ -4,10 +4,8 @@
 #include <cstdint>
 
 #include "recording/import/binary/npy.h"
-#include "recording/import/import.h"
-#include "tests/fuzz/memory_file.h"
+#include "tests/fuzz/import/memory_file.h"
 
-using namespace imunoise;
 using namespace imunoise::recording;
 
 namespace {
@@ -29,12 +27,6 @@ std::string framed(std::string_view bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return 0;
   const MemoryFile file(framed({static_cast<const char*>(static_cast<const void*>(data)), size}));
-  ImportOptions options;
-  options.rate = Hertz{100.0};
-  const std::filesystem::path paths[] = {file.path()};
-  const auto got = import_files(paths, options);
-  if (got) {
-    for (const Channel& channel : got->front().channels) require_finite(channel);
-  }
+  require_sound_import(file.path());
   return 0;
 }

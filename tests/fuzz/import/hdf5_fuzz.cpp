@@ -9,7 +9,7 @@
 
 #include "recording/hdf5/handle.h"
 #include "recording/import/hdf5/hdf5_table.h"
-#include "tests/fuzz/memory_file.h"
+#include "tests/fuzz/import/memory_file.h"
 
 using namespace imunoise;
 using namespace imunoise::recording;

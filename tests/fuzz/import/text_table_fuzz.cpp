@@ -6,7 +6,7 @@
 
 #include "recording/import/preflight/preflight.h"
 #include "recording/import/text/text_table.h"
-#include "tests/fuzz/memory_file.h"
+#include "tests/fuzz/import/memory_file.h"
 
 using namespace imunoise;
 using namespace imunoise::recording;

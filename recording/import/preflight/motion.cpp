@@ -1,0 +1,81 @@
+#include "recording/import/preflight/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stillness/stillness.h"
+
+namespace imunoise::recording {
+namespace {
+
+constexpr double kLearning = 31.0;    // s before the watch begins
+constexpr double kBackwards = 300.0;  // s from which the beginning is judged
+
+struct Watched {
+  std::vector<std::size_t> columns;
+  std::vector<double> quanta;
+};
+
+Watched watched_in(const std::vector<Column>& columns, const std::vector<Unit>& units) {
+  Watched out;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const Quantity quantity = units[c].quantity;
+    if (quantity != Quantity::kAngularRate && quantity != Quantity::kAcceleration) continue;
+    out.columns.push_back(c);
+    const bool counts = !std::holds_alternative<std::vector<double>>(columns[c].samples);
+    out.quanta.push_back(counts ? 1.0 : 0.0);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Motion> motion_in(const std::vector<Column>& columns, const std::vector<Unit>& units,
+                              Hertz rate, const std::function<bool(std::size_t)>& broken) {
+  const Watched watched = watched_in(columns, units);
+  std::vector<Motion> out;
+  if (watched.columns.empty()) return out;
+  const std::size_t rows = size(columns.front().samples);
+  const auto take = [&](Stillness& watch, std::size_t row) {
+    for (std::size_t c = 0; c < watched.columns.size(); ++c) {
+      std::visit([&](const auto& values) { watch.take(c, static_cast<double>(values[row])); },
+                 columns[watched.columns[c]].samples);
+    }
+    watch.end_row(static_cast<std::int64_t>(row));
+  };
+  const auto add = [&](const Disturbance& one) {
+    const auto [begin, end] = std::minmax(one.begin, one.end);
+    out.push_back({static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1,
+                   columns[watched.columns[one.channel]].name, one.size, one.channels > 1});
+  };
+  const auto whole = [&](std::size_t row) {
+    return std::none_of(watched.columns.begin(), watched.columns.end(), [&](std::size_t c) {
+      const auto* const values = std::get_if<std::vector<double>>(&columns[c].samples);
+      return values != nullptr && !std::isfinite((*values)[row]);
+    });
+  };
+  const double learning = kLearning * rate.value;
+  Stillness backwards(rate, watched.quanta);
+  const auto far =
+      static_cast<std::size_t>(std::min(static_cast<double>(rows), kBackwards * rate.value));
+  for (std::size_t row = far; row-- > 0;) {
+    if (row + 1 < rows && broken(row + 1)) backwards.lost();
+    if (whole(row)) take(backwards, row);
+  }
+  for (const Disturbance& one : backwards.found()) {
+    if (static_cast<double>(one.end) < learning) add(one);
+  }
+  std::reverse(out.begin(), out.end());
+  const std::size_t early = out.empty() ? 0 : out.back().end;
+  Stillness forwards(rate, watched.quanta);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (broken(row)) forwards.lost();
+    if (whole(row)) take(forwards, row);
+  }
+  for (const Disturbance& one : forwards.found()) {
+    if (static_cast<std::size_t>(one.begin) >= early) add(one);
+  }
+  return out;
+}
+
+}  // namespace imunoise::recording

@@ -1,0 +1,111 @@
+#include "recording/import/preflight/streams_apart.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <variant>
+
+#include "recording/import/preflight/clock.h"
+#include "recording/import/table/streams.h"
+
+namespace imunoise::recording {
+namespace {
+
+constexpr double kMany = 0.1;  // of the rows
+
+struct Missing {
+  std::uint64_t which = 14695981039346656037U;  // tells the rows (FNV-1a)
+  std::size_t count = 0;
+};
+
+Missing missing_in(const Column& column) {
+  Missing out;
+  const auto* const values = std::get_if<std::vector<double>>(&column.samples);
+  if (values == nullptr) return out;
+  for (std::size_t i = 0; i < values->size(); ++i) {
+    if (std::isfinite((*values)[i])) continue;
+    out.which = (out.which ^ i) * 1099511628211U;
+    ++out.count;
+  }
+  return out;
+}
+
+bool has_value(const Column& column, std::size_t row) {
+  const auto* const values = std::get_if<std::vector<double>>(&column.samples);
+  return values == nullptr || std::isfinite((*values)[row]);
+}
+
+void leave_out_empty(Table& table) {
+  const auto empty = [](const Column& column) {
+    return missing_in(column).count == size(column.samples);
+  };
+  if (std::all_of(table.columns.begin(), table.columns.end(), empty)) return;
+  for (const Column& column : table.columns) {
+    if (empty(column))
+      table.notes.push_back(fmt::format("column {} holds no value: left out", column.name));
+  }
+  std::erase_if(table.columns, empty);
+}
+
+TimedStream stream_of(const std::vector<Column*>& columns, const Clock& clock) {
+  TimedStream out;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < clock.size(); ++i) {
+    if (has_value(*columns.front(), i)) rows.push_back(i);
+  }
+  for (const std::size_t row : rows)
+    out.times.push_back(static_cast<std::int64_t>(std::llround(clock.at(row) * 1e9)));
+  for (Column* const from : columns) {
+    out.name += (out.name.empty() ? "" : ",") + from->name;
+    Column& to =
+        out.columns.emplace_back(Column{from->name, {}, from->scale, from->offset, from->unit});
+    std::vector<double> values;
+    std::visit(
+        [&](const auto& numbers) {
+          for (const std::size_t row : rows) values.push_back(static_cast<double>(numbers[row]));
+        },
+        from->samples);
+    to.samples = std::move(values);
+    from->samples = std::vector<double>();
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options) {
+  if (!table.time || options.rate) return table;
+  const std::size_t rows = size(table.time->stamps);
+  leave_out_empty(table);
+  std::map<std::uint64_t, std::vector<Column*>> groups;
+  bool many = false;
+  for (Column& column : table.columns) {
+    const Missing missing = missing_in(column);
+    many = many || static_cast<double>(missing.count) > kMany * static_cast<double>(rows);
+    groups[missing.which].push_back(&column);
+  }
+  if (!many) return table;
+  const auto clock = Clock::read(fmt::format("{}: column {}", file, table.time->name), *table.time,
+                                 options.time_unit);
+  if (!clock) return tl::make_unexpected(clock.error());
+  std::vector<TimedStream> streams;
+  for (const auto& [which, columns] : groups) streams.push_back(stream_of(columns, *clock));
+  // What was wanted was chosen by the reader.
+  ImportOptions all = options;
+  all.topic.clear();
+  if (options.channels.size() != 1) all.channels.clear();
+  Result<Table> out = join_streams(file, std::move(streams), table.time->name, all, "channel");
+  if (!out) return out;
+  out->notes.insert(out->notes.begin(), table.notes.begin(), table.notes.end());
+  out->notes.push_back(fmt::format("rows hold different sensors: time is {}", clock->said()));
+  out->unreadable = table.unreadable;
+  out->first_unreadable = table.first_unreadable;
+  out->truncated = table.truncated;
+  return out;
+}
+
+}  // namespace imunoise::recording
