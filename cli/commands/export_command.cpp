@@ -110,7 +110,20 @@ Result<Fits> read_fits(const ExportArguments& arguments) {
   return fits_of_files(arguments);
 }
 
+// Of an array; nothing where the files are not its JSON.
+std::optional<Result<std::string>> array_text(const ExportArguments& arguments) {
+  const std::filesystem::path& path = arguments.input.files.front();
+  if (arguments.input.files.size() > 1 || !is_json(path)) return std::nullopt;
+  const auto text = recording::posix_file_system().read(path);
+  if (!text) return std::nullopt;
+  const auto report = study::parse_array(*text);
+  if (!report) return std::nullopt;
+  return study::export_array(*report, *study::consumer_called(arguments.to),
+                             {path.filename().string(), study::sha256(*text)});
+}
+
 Result<std::string> export_text(const ExportArguments& arguments) {
+  if (auto array = array_text(arguments)) return std::move(*array);
   const auto fits = read_fits(arguments);
   if (!fits) return tl::unexpected(fits.error());
   const auto chosen =

@@ -17,7 +17,7 @@ Examples:
   imunoise calibrate imu.csv --json > imu.json
   imunoise export imu.json --to openvins --conservative --horizon 0.1..10
 
-FILES are recordings, which are fitted first; or one JSON file that imunoise calibrate or imunoise fit wrote; or the
+FILES are recordings, which are fitted first; or one JSON file of imunoise calibrate, fit or array; or the
 folder of one recording, whose calibration.json is used if there is one.
 
 Each file states its source with its SHA-256, the model of each axis, the formula and the unit of each value, and what
@@ -83,7 +83,7 @@ void add_values(CLI::App& command, RawExport& raw) {
 
 ParsedCommand export_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
-      "export", "Write noise values in the form of Kalibr, PX4 and other programs");
+      "export", "Write noise values in the form of Kalibr, PX4 and other programs, or as matrices");
   command->footer(kExportExamples + consumer_list());
   const auto raw = std::make_shared<RawExport>();
   add_input(*command, raw->analysis.input);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "study/export/imu_noise.h"
+#include "study/export/whole/state_space.h"
 
 namespace imunoise::study {
 
@@ -25,21 +26,31 @@ struct Sheet {
   std::vector<std::string> heading;  ///< lines of a comment: source, hash, models, what is left out
   std::vector<Field> fields;
   ImuNoise imu;  ///< after --axis
+  std::vector<StateSpace>
+      systems;  ///< of Holding::kStates: one an axis, or an array and its virtual sensor
+};
+
+/// What a consumer takes of a model.
+enum class Holding {
+  kDensities,  ///< N, K, and a Markov process where takes_markov says so
+  kTerms,      ///< every term, by its coefficients
+  kStates,     ///< every term, as matrices of a filter; arrays too
 };
 
 /// A program, and how its files say noise.
 struct Consumer {
-  std::string_view name;             ///< of --to: "kalibr"
-  std::string_view title;            ///< "Kalibr"
-  std::string_view file;             ///< customary name of the file, or of what holds the values
-  std::string_view holds;            ///< what it can express: "white noise and random walk"
+  std::string_view name;   ///< of --to: "kalibr"
+  std::string_view title;  ///< "Kalibr"
+  std::string_view file;   ///< customary name of the file, or of what holds the values
+  std::string_view holds;  ///< what it can express: "white noise and random walk"
+  Holding holding = Holding::kDensities;
   AxisRule axes = AxisRule::kWorst;  ///< kEach where its file has a value for each axis
   bool takes_markov = false;         ///< a bias may be a Markov process
   bool takes_zero = true;            ///< false: it refuses values of zero
   std::string_view remark{};         ///< what its user has to know; stands in the file
   double step = 0.0;                 ///< s, of its filter where values depend on it; else 0
+  std::vector<Field> (*fields)(const ImuNoise& imu, double step) = nullptr;  ///< of kDensities
   /// Null: the program has no place for noise values, and `remark` says so.
-  std::vector<Field> (*fields)(const ImuNoise& imu, double step) = nullptr;
   std::string (*write)(const Sheet& sheet) = nullptr;
 };
 

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "core/effects/parse_full_model.h"
+#include "study/export/whole/array_states.h"
+#include "study/export/whole/matrices.h"
 #include "study/words/number.h"
 
 namespace imunoise::study {
@@ -40,7 +42,16 @@ Result<AxisNoise> axis_of(const v1::FitReport& fit, Quantity quantity) {
   out.confidence = fit.confidence();
   out.n = coefficient(fit, "N", out.n.value);
   out.k = coefficient(fit, "K", out.k.value);
-  for (const EffectTerm& effect : model->effects) out.left_out.push_back(print(effect));
+  // The report lists the same coefficients in the same order, with intervals.
+  std::size_t at = 0;
+  for (const v1::Term& term : fit.terms()) {
+    for (const v1::Coefficient& one : term.coefficients()) {
+      if (at >= out.coefficients.size() || out.coefficients[at].symbol != one.symbol()) continue;
+      Bounded& value = out.coefficients[at++].value;
+      if (one.has_lower() && one.has_upper()) value = {value.value, one.lower(), one.upper()};
+    }
+  }
+  for (const EffectTerm& effect : model->effects) out.effects.push_back(print(effect));
   return out;
 }
 
@@ -63,12 +74,14 @@ std::string horizon_words(const Horizon& horizon) {
   return fmt::format("{:g} to {:g} s", horizon.begin, horizon.end);
 }
 
-void make_conservative(AxisNoise& axis, const Horizon& horizon) {
+void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizon) {
   const WhiteAndWalk bound = smallest_bound(axis.noise, axis.rate, horizon);
   axis.n = {bound.n, 0.0, 0.0};
   axis.k = {bound.k, 0.0, 0.0};
   axis.markov.reset();
   axis.left_out.clear();
+  axis.bound = white_and(bound.n, RandomWalk{bound.k * bound.k / axis.rate.value}, axis.rate);
+  axis.coefficients = axis_noise(axis.channel, quantity, axis.rate, *axis.bound).coefficients;
   axis.remarks.push_back(
       fmt::format("{}: N and K bound the integrated error of the whole model over {}; they "
                   "overstate it by a factor of up to {:.2f} ({:.2f} in the mean square)",
@@ -150,9 +163,12 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
   for (const AxisNoise& one : from.axes) {
     heading.push_back(
         fmt::format("  {}: {}{}", one.channel, print_with_values(one.noise), fit_words(one)));
-    for (const std::string& word : one.left_out) left_out.insert(word);
+    left_out.insert(one.effects.begin(), one.effects.end());
+    if (to.holding == Holding::kDensities)
+      left_out.insert(one.left_out.begin(), one.left_out.end());
     remarks.insert(remarks.end(), one.remarks.begin(), one.remarks.end());
-    most = std::max(most, underestimate(one.noise, held_by(to, one), one.rate, options.horizon));
+    if (to.holding == Holding::kDensities)
+      most = std::max(most, underestimate(one.noise, held_by(to, one), one.rate, options.horizon));
   }
   for (const std::string& one : left_out)
     heading.push_back(fmt::format("  {} takes no {}", to.title, one));
@@ -163,6 +179,13 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
         horizon_words(options.horizon), most));
   }
   for (const std::string& one : remarks) heading.push_back("  " + one);
+}
+
+std::vector<std::string> origin_words(std::string_view of, const Consumer& to,
+                                      const ExportSource& source) {
+  return {fmt::format("Noise of {} for {}, written by imunoise {}", of, to.title, IMUNOISE_VERSION),
+          fmt::format("source: {}{}", source.name,
+                      source.sha256.empty() ? "" : ", sha256 " + source.sha256)};
 }
 
 }  // namespace
@@ -193,13 +216,15 @@ Result<ImuNoise> imu_noise(const std::vector<v1::FitReport>& fits) {
 
 Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const ExportSource& source,
                            const ExportOptions& options) {
-  if (to.fields == nullptr) return fail(fmt::format("{}: {}", to.title, to.remark));
+  if (to.write == nullptr) return fail(fmt::format("{}: {}", to.title, to.remark));
   if (options.step && to.step == 0.0)
     return fail(fmt::format("{}: its values do not depend on a step; omit --step", to.title));
   const AxisRule rule = options.axes.value_or(to.axes);
   if (rule == AxisRule::kEach && to.axes != AxisRule::kEach)
     return fail(
         fmt::format("{}: it has one value for all axes; pass --axis worst or mean", to.title));
+  if (rule != AxisRule::kEach && to.holding != Holding::kDensities)
+    return fail(fmt::format("{}: it has a model for each axis; omit --axis", to.title));
   Sheet out;
   out.heading = {
       fmt::format("Noise of an IMU for {}, written by imunoise {}", to.title, IMUNOISE_VERSION),
@@ -211,21 +236,54 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
     SensorNoise all = *from;
     for (AxisNoise& axis : all.axes) {
       if (options.conservative) {
-        make_conservative(axis, options.horizon);
-      } else {
+        make_conservative(axis, all.quantity, options.horizon);
+      } else if (to.holding == Holding::kDensities) {
         choose_bias(axis, to, options.horizon);
         fill(axis, to, options.horizon);
       }
     }
-    *into = reduced(all, rule);
-    // A file for axes has three values also where one stands for all.
-    if (to.axes == AxisRule::kEach && into->axes.size() == 1) into->axes.resize(3, into->axes[0]);
+    if (to.holding == Holding::kDensities) {
+      *into = reduced(all, rule);
+      // A file for axes has three values also where one stands for all.
+      if (to.axes == AxisRule::kEach && into->axes.size() == 1) into->axes.resize(3, into->axes[0]);
+    } else {
+      *into = all;
+      into->reduction = "each axis";
+    }
     add_sensor(all, *into, to, options, out.heading);
   }
   out.heading.push_back(fmt::format("{} holds {}.", to.title, to.holds));
   if (!to.remark.empty()) out.heading.emplace_back(to.remark);
-  out.fields = to.fields(out.imu, options.step.value_or(to.step));
+  if (to.holding == Holding::kStates)
+    for (std::string& line : usage_words()) out.heading.push_back(std::move(line));
+  if (to.fields != nullptr) out.fields = to.fields(out.imu, options.step.value_or(to.step));
+  if (to.holding != Holding::kStates) return out;
+  for (const SensorNoise* const sensor : {&out.imu.gyro, &out.imu.accelerometer}) {
+    for (const AxisNoise& axis : sensor->axes) {
+      auto system = state_space(axis.bound.value_or(axis.noise), axis.channel, axis.rate);
+      if (!system) return tl::unexpected(Error{axis.channel + ": " + system.error().message});
+      out.systems.push_back(std::move(*system));
+    }
+  }
   return out;
+}
+
+Result<std::string> export_array(const v1::ArrayReport& report, const Consumer& to,
+                                 const ExportSource& source) {
+  if (to.holding != Holding::kStates)
+    return fail(
+        fmt::format("{}: it takes no arrays; write matrices with --to kf-json, kf-numpy, "
+                    "kf-matlab or kf-cpp",
+                    to.title));
+  auto systems = array_systems(report);
+  if (!systems) return tl::unexpected(systems.error());
+  Sheet sheet;
+  sheet.heading = origin_words("an array", to, source);
+  sheet.heading.push_back(
+      fmt::format("model: {}, sampled at {:g} Hz", report.model(), report.rate_hz()));
+  for (std::string& line : usage_words()) sheet.heading.push_back(std::move(line));
+  sheet.systems = std::move(*systems);
+  return to.write(sheet);
 }
 
 Result<std::string> export_noise(const ImuNoise& imu, const Consumer& to,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/support/result.h"
+#include "imunoise/v1/array.pb.h"
 #include "imunoise/v1/noise.pb.h"
 #include "study/export/conservative.h"
 #include "study/export/consumer.h"
@@ -38,5 +39,10 @@ Result<std::string> export_noise(const ImuNoise& imu, const Consumer& to,
 /// What the file holds, without its syntax; the same errors.
 Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const ExportSource& source,
                            const ExportOptions& options);
+
+/// The file of an array, for a consumer of matrices. Error: another consumer, a model that cannot
+/// be read.
+Result<std::string> export_array(const v1::ArrayReport& report, const Consumer& to,
+                                 const ExportSource& source);
 
 }  // namespace imunoise::study

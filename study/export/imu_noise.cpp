@@ -100,6 +100,16 @@ AxisNoise axis_noise(std::string channel, Quantity quantity, Hertz rate, Model n
   out.channel = std::move(channel);
   out.rate = rate;
   for (const Term& term : noise.terms) {
+    for (const DerivedQuantity& one : derived(term.process, rate)) {
+      const CoefficientUnits units = coefficient_units(one.coefficient, quantity);
+      out.coefficients.push_back({std::string(info(term.process).name),
+                                  std::string(units.symbol),
+                                  std::string(units.title),
+                                  {one.value},
+                                  units.si,
+                                  units.datasheet,
+                                  units.to_datasheet});
+    }
     const std::string words = term_words(term.process, quantity, rate);
     if (const auto* white = std::get_if<WhiteNoise>(&term.process)) {
       out.n.value = square_sum(out.n.value, std::sqrt(white->sigma2 / rate.value));

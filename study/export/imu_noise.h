@@ -27,22 +27,36 @@ struct Markov {
   double tc = 0.0;     ///< correlation time, s
 };
 
+/// A coefficient of a term, in SI and as data sheets print it.
+struct CoefficientRow {
+  std::string term;    ///< "AR1"
+  std::string symbol;  ///< "N", "K", "T", ...
+  std::string title;   ///< "angle random walk"
+  Bounded value;       ///< SI
+  std::string unit;
+  std::string datasheet_unit;  ///< empty: none is customary
+  double to_datasheet = 1.0;
+};
+
 /// The noise of one axis. All in SI, densities in continuous time, one-sided in the sense of IEEE
 /// Std 952: σ² of the integral grows by N² a second.
 struct AxisNoise {
   std::string channel;
   char axis = ' ';  ///< 'x', 'y', 'z'; ' ' where the name of the channel says none
   Hertz rate;
-  Model noise;                        ///< the whole model, without effects
-  std::optional<double> p_value;      ///< that it fits; unset: not tested
-  double confidence = 0.95;           ///< of the intervals
-  Bounded n;                          ///< unit/√Hz; 0: the model has no white noise
-  Bounded k;                          ///< unit/s/√Hz; 0: the model has no random walk
-  std::optional<Markov> markov;       ///< the slowest Markov process of at least kSlowest
-  std::string markov_words;           ///< term_words() of that process; empty: there is none
-  std::string walk_words;             ///< and of the random walk
-  std::vector<std::string> left_out;  ///< terms and effects that N and K do not hold, in words
-  std::vector<std::string> remarks;   ///< how N and K differ from the model's, in words
+  Model noise;                               ///< the whole model, without effects
+  std::optional<double> p_value;             ///< that it fits; unset: not tested
+  double confidence = 0.95;                  ///< of the intervals
+  Bounded n;                                 ///< unit/√Hz; 0: the model has no white noise
+  Bounded k;                                 ///< unit/s/√Hz; 0: the model has no random walk
+  std::vector<CoefficientRow> coefficients;  ///< of all terms
+  std::optional<Markov> markov;              ///< the slowest Markov process of at least kSlowest
+  std::string markov_words;                  ///< term_words() of that process; empty: there is none
+  std::string walk_words;                    ///< and of the random walk
+  std::vector<std::string> left_out;         ///< terms that N and K do not hold, in words
+  std::vector<std::string> effects;          ///< of the model beside its noise, in the grammar
+  std::optional<Model> bound;        ///< that stands for the model where it is a conservative one
+  std::vector<std::string> remarks;  ///< how N and K differ from the model's, in words
 };
 
 /// A Markov process with a shorter correlation time (s) is bandwidth, not a bias that wanders.

@@ -22,7 +22,13 @@
   CONSUMER(navego)                   \
   CONSUMER(ros)                      \
   CONSUMER(autoware)                 \
-  CONSUMER(isaac_sim)
+  CONSUMER(isaac_sim)                \
+  CONSUMER(kf_json)                  \
+  CONSUMER(kf_numpy)                 \
+  CONSUMER(kf_matlab)                \
+  CONSUMER(kf_cpp)                   \
+  CONSUMER(csv)                      \
+  CONSUMER(latex)
 
 namespace imunoise::study {
 

@@ -43,10 +43,16 @@ Result<std::vector<SourceFit>> parse_fits(const std::string& text) {
     for (const v1::FitReport& fit : several.channels()) out.push_back({"", fit});
   } else {
     return fail(
-        "not the JSON of imunoise calibrate or imunoise fit; write it with imunoise calibrate "
+        "not the JSON of imunoise calibrate, fit or array; write it with imunoise calibrate "
         "FILES... --json");
   }
   if (out.empty()) return fail("no channel has a fit; see the troubles in the calibration");
+  return out;
+}
+
+std::optional<v1::ArrayReport> parse_array(const std::string& text) {
+  v1::ArrayReport out;
+  if (!reads(text, out) || out.sensors().empty()) return std::nullopt;
   return out;
 }
 

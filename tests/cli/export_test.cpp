@@ -64,8 +64,46 @@ TEST_F(ExportCommand, RefusesWhatItCannotWrite) {
   ASSERT_EQ(run("wv g.h5 --json > wv.json").status, 0);
   const Outcome json = run("export wv.json --to kalibr");
   EXPECT_EQ(json.status, 1);
-  EXPECT_NE(json.errors.find("not the JSON of imunoise calibrate"), std::string::npos)
+  EXPECT_NE(json.errors.find("not the JSON of imunoise calibrate, fit or array"), std::string::npos)
       << json.errors;
+}
+
+TEST_F(ExportCommand, ArraysAsMatricesWithTheirVirtualSensor) {
+  for (const char* const one : {"1", "2"})
+    ASSERT_EQ(run(std::string("simulate --model 'WN(sigma2=1e-6) + RW(gamma2=1e-10)' --rate 100 "
+                              "--samples 20000 --unit rad/s --seed ") +
+                  one + " --channel gyro_" + one + " --out g" + one + ".csv")
+                  .status,
+              0);
+  // One file with both channels.
+  const Outcome joined =
+      run("--version > /dev/null; grep -v '^#' g1.csv | cut -d, -f2 > a; "
+          "grep -v '^#' g2.csv | cut -d, -f2 > b; paste -d, a b > both.csv; "
+          "head -3 both.csv");
+  const Outcome fitted =
+      run("array both.csv --rate 100 --unit rad/s --model 'WN + RW[corr]' --json > array.json");
+  ASSERT_EQ(fitted.status, 0) << fitted.errors << joined.out;
+  const Outcome text = run("export array.json --to kf-json");
+  ASSERT_EQ(text.status, 0) << text.errors;
+  for (const char* const part : {"\"name\": \"array\"", "\"name\": \"virtual\"", "\"Phi\""})
+    EXPECT_NE(text.out.find(part), std::string::npos) << text.out;
+  const Outcome refused = run("export array.json --to kalibr");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("kf-json"), std::string::npos) << refused.errors;
+}
+
+// NumPy itself reads the archive.
+TEST_F(ExportCommand, NumPyReadsItsMatrices) {
+  if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0)
+    GTEST_SKIP() << "no NumPy: install python3-numpy";
+  simulate();
+  ASSERT_EQ(run("export g.h5 --model 'WN + RW' --to kf-numpy --out kf.npz").status, 0);
+  const Outcome read =
+      run("--version > /dev/null; /usr/bin/python3 -c \"import numpy as np; a = np.load('kf.npz'); "
+          "print(a['gyro_x.Phi'].shape, a['gyro_x.states'][0].decode(), a['gyro_x.R'][0, 0] > 0, "
+          "a['gyro_x.H'])\"");
+  EXPECT_NE(read.out.find("(1, 1) gyro_x.bias True [[1.]]"), std::string::npos)
+      << read.out << read.errors;
 }
 
 TEST_F(ExportCommand, HelpListsEveryProgram) {

@@ -1,11 +1,11 @@
 // The matrices of a filter imply the wavelet variances of the model: computed exactly, by carrying
 // the covariance of states and Haar sums through 2m steps.
 
-#include "study/export/whole/state_space.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "study/export/whole/array_states.h"
 
 namespace imunoise::testing {
 namespace {
@@ -94,6 +94,55 @@ TEST(StateSpace, ArrayHasCorrelatedSharedAndOwnProcesses) {
     const double quiet = weights.dot(expected[i] * weights);
     EXPECT_NEAR(implied(one, static_cast<int>(scales[i]))(0, 0), quiet, 1e-10 * quiet);
   }
+}
+
+// As imunoise array reports it, with a process of a group and a virtual sensor.
+TEST(StateSpace, OfTheReportOfAnArray) {
+  v1::ArrayReport report;
+  report.set_model("WN + AR1[group] + RW[corr]");
+  report.set_rate_hz(50.0);
+  for (const char* const name : {"a", "b", "c"}) report.add_sensors(name);
+  const auto add = [&](const char* term, const char* parameter, double value,
+                       std::initializer_list<const char*> sensors) {
+    v1::ArrayParameter& to = *report.add_parameters();
+    to.set_term(term);
+    to.set_parameter(parameter);
+    to.set_value(value);
+    for (const char* const one : sensors) to.add_sensors(one);
+  };
+  add("WN", "sigma2", 1.0, {"a"});
+  add("WN", "sigma2", 2.0, {"b"});
+  add("WN", "sigma2", 3.0, {"c"});
+  add("AR1[group]", "sigma2", 0.5, {"a", "c"});
+  add("AR1[group]", "phi", 0.9, {"a", "c"});
+  add("AR1[group]", "sigma2", 0.25, {"b"});
+  add("AR1[group]", "phi", 0.8, {"b"});
+  add("RW[corr]", "gamma2", 0.1, {"a"});
+  add("RW[corr]", "gamma2", 0.2, {"b"});
+  add("RW[corr]", "gamma2", 0.3, {"c"});
+  add("RW[corr]", "gamma2", 0.05, {"a", "b"});
+  for (const char* const name : {"a", "b", "c"}) {
+    v1::SensorWeight& weight = *report.mutable_virtual_sensor()->add_weights();
+    weight.set_sensor(name);
+    weight.set_weight(1.0 / 3.0);
+  }
+  const auto systems = study::array_systems(report);
+  ASSERT_TRUE(systems) << systems.error().message;
+  ASSERT_EQ(systems->size(), 2U);
+  const study::StateSpace& array = systems->front();
+  EXPECT_EQ(array.states.size(), 5U);
+  EXPECT_EQ(array.r.diagonal(), Eigen::Vector3d(1.0, 2.0, 3.0));
+  const int m = 32;
+  const Eigen::MatrixXd found = implied(array, m);
+  const Model a =
+      parse_model("WN(sigma2=1) + AR1(sigma2=0.5, phi=0.9) + RW(gamma2=0.1)", kHz).value();
+  const Eigen::ArrayXd at = Eigen::ArrayXd::Constant(1, m);
+  EXPECT_NEAR(found(0, 0), variance(a, at)(0), 1e-10);
+  EXPECT_NEAR(found(0, 1), variance(Process(RandomWalk{0.05}), at)(0), 1e-10);
+  EXPECT_NEAR(found(0, 2), variance(Process(Ar1{0.5, 0.9}), at)(0), 1e-10);
+  EXPECT_NEAR(implied(systems->back(), m)(0, 0), found.mean(), 1e-10);
+  report.mutable_parameters(0)->set_parameter("unknown");
+  EXPECT_FALSE(study::array_systems(report));
 }
 
 TEST(StateSpace, LongFiltersAreRefused) {
