@@ -46,6 +46,7 @@ package_packages=(dpkg-dev file lintian)
 hil_packages=(
   qemu-system-x86 busybox-static cpio kmod  # the machine
   iproute2 dmsetup e2fsprogs xfsprogs  # its interfaces and disks
+  udev                                 # tells libusb of devices
   mmdebstrap genext2fs uidmap          # a Debian with systemd
 )
 slow_packages=(

@@ -17,8 +17,8 @@
 namespace imunoise::drivers::adis16405 {
 
 /// Keeps bursts queued in the bridge, about 0.15 s ahead, and adds what comes as BurstRows does.
-/// What follows a queue that ran dry is marked IMUNOISE_SAMPLE_AFTER_GAP. One thread at a time;
-/// throws plugin::DeviceError.
+/// What follows a queue that ran dry, or may have, is marked IMUNOISE_SAMPLE_AFTER_GAP. One thread
+/// at a time; throws plugin::DeviceError.
 class BurstReader {
  public:
   /// Borrows the bus, which a Sensor has started. `poll`: bursts back to back, most of them stale;
@@ -32,13 +32,17 @@ class BurstReader {
   usb::Duration silence() const { return bus_.now() - last_sample_; }
 
  private:
-  enum class Question : std::uint8_t { kBurst, kDiagnosisCommand, kDiagnosis };
+  enum class Question : std::uint8_t { kBurst, kFirstBurst, kDiagnosisCommand, kDiagnosis };
+  static bool is_burst(Question question) {
+    return question == Question::kBurst || question == Question::kFirstBurst;
+  }
+  bool take_answers(plugin::Samples& samples, usb::Duration timeout);
   void top_up();
-  void start_anew();
-  void correct_times(std::vector<SpiAnswer>& answers) const;
+  Question next_burst();
+  void correct_times(std::vector<SpiAnswer>& answers);
   void send_diagnosis();
   void take(const SpiAnswer& answer, plugin::Samples& samples);
-  void take_burst(const SpiAnswer& answer, plugin::Samples& samples);
+  void take_burst(Question question, const SpiAnswer& answer, plugin::Samples& samples);
   void take_diagnosis(const SpiAnswer& answer);
   SpiFrame burst_frame() const;
 
@@ -52,8 +56,9 @@ class BurstReader {
   std::deque<Question> questions_;
   BurstRows rows_;
   usb::Duration last_sample_;
+  std::int64_t last_time_ns_ = 0;  // of an answer
+  bool resumes_ = false;  // the next burst to be sent follows a queue that may have run dry
   bool started_ = false;
-  bool skips_burst_ = false;
   bool wants_diagnosis_ = false;
   std::uint16_t diagnosis_ = 0;  // as last noted
   usb::Duration next_diagnosis_;

@@ -54,6 +54,8 @@ LibusbDevice::~LibusbDevice() {
   closing_ = true;
   cancel(out_);
   cancel(in_);
+  // An endpoint stays halted until the host clears it, whoever opens the device next.
+  if (halted_) libusb_clear_halt(handle_.get(), *halted_);
   libusb_release_interface(handle_.get(), kInterface);
 }
 
@@ -113,6 +115,7 @@ void LibusbDevice::take(Slot& slot) {
   if (closing_ || transfer.status == LIBUSB_TRANSFER_CANCELLED) return;
   if (transfer.status != LIBUSB_TRANSFER_COMPLETED) {
     if (!failure_) failure_ = meaning(transfer.status);
+    if (transfer.status == LIBUSB_TRANSFER_STALL) halted_ = transfer.endpoint;
   } else if (transfer.endpoint == in_endpoint_) {
     arrived_.push_back(
         {{slot.bytes.begin(), slot.bytes.begin() + transfer.actual_length}, clock_()});

@@ -64,6 +64,7 @@ class LibusbDevice final : public Handle {
   std::list<Slot> out_;  // used again when done
   std::vector<Transfer> arrived_;
   std::optional<std::string> failure_;  // why nothing will come any more
+  std::optional<std::uint8_t> halted_;  // endpoint that refused a transfer
   bool closing_ = false;
 };
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The programs of a build on a real kernel, in virtual machines.
 #
-#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, serial, disk, systemd
+#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, usb, serial, disk, systemd
 #
 # Exit status 77: this system has no package manager to take QEMU and a kernel from.
 set -euo pipefail
@@ -23,6 +23,8 @@ first_files "$kernels" "$scratch/first.cpio"
 can() {
   boot can 400 -object can-bus,id=bus -device kvaser_pci,canbus=bus -device kvaser_pci,canbus=bus
 }
+
+usb() { boot usb 600; }
 
 # order COMMAND: to QEMU's monitor.
 order() {
@@ -76,7 +78,7 @@ systemd() {
     -device piix3-usb-uhci -chardev null,id=nothing -device usb-serial,chardev=nothing,always-plugged=on
 }
 
-(($# > 0)) || set -- can serial disk systemd
+(($# > 0)) || set -- can usb serial disk systemd
 failed=()
 for scenario in "$@"; do
   begin=$SECONDS

@@ -4,6 +4,7 @@
 #include <deque>
 #include <utility>
 
+#include "drivers/emulator/usb/usb_answers.h"
 #include "drivers/plugin/device.h"
 
 namespace imunoise::emulator {
@@ -17,7 +18,6 @@ using plugin::DeviceError;
 
 namespace {
 constexpr Duration kControlTime = 125us;  // a microframe of high-speed USB
-constexpr std::size_t kAnswerBytes = 4;   // shorter packets may hold none
 }  // namespace
 
 class EmulatedDevice final : public drivers::usb::Handle {
@@ -64,8 +64,7 @@ class EmulatedDevice final : public drivers::usb::Handle {
       peripheral_.run(end);
       if (arrived_.size() >= transfers) continue;
       if (auto packet = peripheral_.in()) {
-        const bool answers = packet->size() >= kAnswerBytes;
-        if (answers && std::exchange(bus_.loses_byte_, false)) packet->erase(packet->end() - 2);
+        if (bus_.loses_byte_) bus_.loses_byte_ = !lose_byte_of(*packet);
         arrived_.push_back({std::move(*packet), bus_.host_time_ns(peripheral_.now())});
       }
     }

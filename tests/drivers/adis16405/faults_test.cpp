@@ -194,6 +194,36 @@ TEST(Adis16405Faults, ALongHoldUpIsMarkedAsAGap) {
   }
 }
 
+// Two packets of many bursts, read one after the other: the second shows that the first came late.
+TEST(Adis16405Faults, LateDataInPortionsStaysInOrder) {
+  Running rig;
+  rig.bus.hold_up(40ms, 0);
+  ASSERT_EQ(rig.read(400), ReadOutcome::kSamples);
+  const Received& got = rig.received[kImu];
+  const std::size_t first = expect_stretch(got.rows, rig.taken(kImu));
+  for (std::size_t i = 0; i < got.rows.size(); ++i) {
+    ASSERT_GE(got.times[i], rig.bus.host_time_ns(rig.sensor.taken()[first + i].time)) << i;
+    ASSERT_TRUE(i == 0 || got.times[i] > got.times[i - 1]) << i;
+  }
+}
+
+// Where nothing waits for data-ready and the bridge had nothing to do for a while, a sample that
+// waited unread may be renewed in the middle of the next burst, and all its words still be new.
+TEST(Adis16405Faults, APolledSensorThatWaitedGivesNoTornSample) {
+  Rig rig(drivers::adis16405::kCp2130Id);
+  rig.open();
+  ASSERT_EQ(rig.read(100), ReadOutcome::kSamples);
+  std::size_t target = 100;
+  for (int i = 0; i < 100; ++i) {
+    rig.bus.hold_up(200ms, 127);  // all that was asked for, or all but one
+    target += 100;
+    ASSERT_EQ(rig.read(target), ReadOutcome::kSamples);
+  }
+  const std::size_t holes = expect_in_order(rig.received[kImu].rows, rig.taken(kImu));
+  EXPECT_GE(holes, 100U);
+  EXPECT_GE(rig.received[kImu].flagged(IMUNOISE_SAMPLE_AFTER_GAP), holes);
+}
+
 // Late transfers, and packets of many bursts: their times stay those of the samples. Their order
 // is known, and their distance but for the 3 % of the sensor's clock.
 TEST(Adis16405Faults, LateDataKeepsItsTimes) {

@@ -6,12 +6,13 @@
 
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "drivers/emulator/usb/usb_peripheral.h"
+#include "drivers/emulator/usb/usb_answers.h"
 
 struct usbdevfs_urb;
 
@@ -36,6 +37,8 @@ class UsbFs {
   void plug();
   /// Another program has claimed the interface.
   void set_busy(bool busy);
+  /// The IN endpoint stalls until it is cleared.
+  void halt_in();
 
  private:
   struct Unref {
@@ -43,7 +46,6 @@ class UsbFs {
   };
   struct Urb {
     UMockdevIoctlData* data;  // ours until it is reaped
-    std::size_t done = 0;     // bytes that the device took
     usbdevfs_urb& urb() const;
     unsigned char* bytes() const;
   };
@@ -55,10 +57,9 @@ class UsbFs {
   long submit(UMockdevIoctlData* argument, emulator::Time pause);
   long discard(UMockdevIoctlData* argument);
   long reap(UMockdevIoctlData* argument);
-  int control(unsigned char* setup, int length);
-  void pass(emulator::Time end);
-  void exchange_data();
-  void complete(std::deque<Urb>& queue, int status);
+  emulator::UsbAnswers::Completed control(emulator::UsbAnswers::Id id, const Urb& urb);
+  void complete(const std::vector<emulator::UsbAnswers::Completed>& completed);
+  void complete(emulator::UsbAnswers::Id id, int status);
   std::string node() const;
   std::string path() const;
 
@@ -68,8 +69,9 @@ class UsbFs {
   bool busy_ = false;
   int number_ = 1;  // of the device on its bus; grows with every plug
   Clock::time_point last_call_ = Clock::now();
-  std::deque<Urb> in_;
-  std::deque<Urb> out_;
+  emulator::UsbAnswers answers_;
+  emulator::UsbAnswers::Id next_id_ = 0;
+  std::map<emulator::UsbAnswers::Id, Urb> in_flight_;
   std::deque<Urb> complete_;
   std::unique_ptr<UMockdevTestbed, Unref> testbed_;
   std::unique_ptr<UMockdevIoctlBase, Unref> ioctls_;

@@ -2,13 +2,18 @@
 //   ip link add dev vcan0 type vcan && ip link set vcan0 mtu 72 up
 
 #include <gtest/gtest.h>
+#include <linux/can/error.h>
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 #include <system_error>
+#include <thread>
 
 #include "drivers/can/codec/presets.h"
 #include "tests/drivers/can/as_sent.h"
@@ -18,7 +23,16 @@
 namespace imunoise::testing {
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr const char* kInterface = "vcan0";
+
+drivers::CanFrame rate_frame() {
+  drivers::CanFrame out;
+  out.id = 0x32;  // of the preset mti600: angular rates
+  out.length = 6;
+  return out;
+}
 
 class VirtualCan : public ::testing::Test {
  protected:
@@ -29,10 +43,24 @@ class VirtualCan : public ::testing::Test {
       GTEST_SKIP() << "SKIPPED: " << error.what() << "; this test's head says how to make one";
     }
   }
-  static Result<std::unique_ptr<RecordingSession>> open() {
+  static Result<std::unique_ptr<RecordingSession>> open(const char* interface = kInterface) {
     return RecordingSession::open(
         IMUNOISE_DRIVER_FOLDER, "can",
-        {{"interface", kInterface}, {"preset", "mti600"}, {"rate", "200"}, {"listen", "0.3"}});
+        {{"interface", interface}, {"preset", "mti600"}, {"rate", "200"}, {"listen", "0.3"}});
+  }
+  // With a sender of angular rates while it opens.
+  Result<std::unique_ptr<RecordingSession>> open_on_rates() const {
+    std::jthread sender([this](const std::stop_token& stop) {
+      while (!stop.stop_requested()) {
+        line_->send(rate_frame());
+        std::this_thread::sleep_for(5ms);
+      }
+    });
+    auto session = open();
+    sender.request_stop();
+    sender.join();
+    if (session) (*session)->read_until([] { return false; }, 50ms);
+    return session;
   }
   // False where only root may.
   static bool set_link(bool up) {
@@ -63,20 +91,9 @@ TEST_F(VirtualCan, EveryFrameIsDelivered) {
 }
 
 TEST_F(VirtualCan, WhatTheQueueHasNoRoomForIsCounted) {
-  drivers::CanFrame rate;
-  rate.id = 0x32;
-  rate.length = 6;
-  std::jthread sender([&](const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      line_->send(rate);
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-  });
-  const auto session = open();
-  sender.request_stop();
-  sender.join();
+  const drivers::CanFrame rate = rate_frame();
+  const auto session = open_on_rates();
   ASSERT_TRUE(session) << session.error().message;
-  (*session)->read_until([] { return false; }, std::chrono::milliseconds(50));
   const std::size_t before = (*session)->rows().size();
   constexpr std::uint64_t kFlood = 20'000;
   std::uint64_t sent = 0;
@@ -90,6 +107,84 @@ TEST_F(VirtualCan, WhatTheQueueHasNoRoomForIsCounted) {
       << " rows and " << lost() << " lost of " << sent;
   EXPECT_GT(lost(), 0U);
   EXPECT_NE((*session)->rows().back().flags & IMUNOISE_SAMPLE_AFTER_GAP, 0U);
+}
+
+// Messages of others fill no queue: the kernel filters them. Those of the same number in the other
+// format are others.
+TEST_F(VirtualCan, MessagesOfOthersTakeNoRoom) {
+  const auto session = open_on_rates();
+  ASSERT_TRUE(session) << session.error().message;
+  const std::size_t before = (*session)->rows().size();
+  drivers::CanFrame other = rate_frame();
+  for (int i = 0; i < 20'000; ++i) {
+    other.extended = i % 2 == 0;
+    other.id = other.extended ? 0x32U : 0x100U;
+    line_->send(other);
+  }
+  ASSERT_TRUE(line_->send(rate_frame()));
+  ASSERT_TRUE((*session)->read_rows(before + 1));
+  (*session)->read_until([] { return false; }, 100ms);
+  EXPECT_EQ((*session)->rows().size(), before + 1);
+  EXPECT_EQ((*session)->all_refused(), 0U);
+}
+
+// A reader that comes late: the kernel stamped each frame when it came.
+TEST_F(VirtualCan, TimesAreTheKernels) {
+  const auto session = open_on_rates();
+  ASSERT_TRUE(session) << session.error().message;
+  const std::size_t before = (*session)->rows().size();
+  std::vector<std::int64_t> sent;
+  for (int i = 0; i < 5; ++i) {
+    sent.push_back(std::chrono::system_clock::now().time_since_epoch() / 1ns);
+    ASSERT_TRUE(line_->send(rate_frame()));
+    std::this_thread::sleep_for(100ms);
+  }
+  ASSERT_TRUE((*session)->read_rows(before + sent.size()));
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    const std::int64_t late = (*session)->rows()[before + i].host_time_ns - sent[i];
+    EXPECT_GE(late, -1'000'000) << i;  // two clocks are compared
+    EXPECT_LT(late, 80'000'000) << i;
+  }
+}
+
+TEST_F(VirtualCan, ErrorFramesAreCounted) {
+  const auto session = open_on_rates();
+  ASSERT_TRUE(session) << session.error().message;
+  drivers::CanFrame error;
+  error.error = true;
+  error.id = CAN_ERR_PROT | CAN_ERR_BUSERROR;
+  error.length = CAN_ERR_DLC;
+  ASSERT_TRUE(line_->send(error));
+  EXPECT_TRUE((*session)->read_until([&] {
+    return (*session)->notes().find("so far 1 error frames (1 bus error, 1 protocol violation)") !=
+           std::string::npos;
+  })) << (*session)->notes();
+  EXPECT_EQ((*session)->all_refused(), 0U);
+}
+
+TEST_F(VirtualCan, TheInterfaceIsRemovedAndComesBack) {
+  constexpr const char* kOwn = "vcan-own";
+  const std::string add =
+      std::string("ip link add dev ") + kOwn + " type vcan && ip link set " + kOwn + " mtu 72 up";
+  const std::string remove = std::string("ip link delete ") + kOwn;
+  if (std::system(add.c_str()) != 0) GTEST_SKIP() << "SKIPPED: only root may add an interface";
+  std::optional<emulator::SocketCanLine> line(kOwn);
+  std::optional<emulator::CanImu> imu;
+  imu.emplace(*drivers::make_preset("mti600"), 200.0, source_, *line);
+  const auto session = open(kOwn);
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_TRUE((*session)->read_rows(50));
+  imu.reset();
+  ASSERT_EQ(std::system(remove.c_str()), 0);
+  EXPECT_TRUE((*session)->read_until([&] { return !(*session)->disconnections().empty(); }));
+  const std::size_t before = (*session)->rows().size();
+  ASSERT_EQ(std::system(add.c_str()), 0);
+  line.emplace(kOwn);
+  imu.emplace(*drivers::make_preset("mti600"), 200.0, source_, *line);
+  EXPECT_TRUE((*session)->read_rows(before + 50)) << (*session)->failure();
+  EXPECT_NE((*session)->rows()[before].flags & IMUNOISE_SAMPLE_AFTER_RESTART, 0U);
+  imu.reset();
+  EXPECT_EQ(std::system(remove.c_str()), 0);
 }
 
 TEST_F(VirtualCan, TheLinkGoesDownAndUp) {
