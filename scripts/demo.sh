@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to a noise model with its intervals, on simulated gyro recordings whose true
 # noise is known; then an effect hidden in emulated sensors is found; then the daemon records emulated
-# sensors and calibrates them. Needs no sensor. The reports are left in build/demo-output/.
+# sensors and calibrates them; at last the page shows the hidden effect. Needs no sensor. The reports are left in build/demo-output/.
 #
 #   bash scripts/demo.sh [--hide fan|mains|step|outliers|warm_up|temperature]     else one is drawn, and sealed
 set -euo pipefail
@@ -58,5 +58,9 @@ echo
 bash scripts/record_campaign.sh build/demo "$out"
 
 echo
+if [[ -t 1 && -z ${CI:-} ]]; then
+  echo "Find the hidden effect yourself, in the browser (Ctrl-C ends the demo):"
+  exec "$imunoise" open "$out/hidden" --channel emulated/imu/gyro_x
+fi
 echo "Find the hidden effect yourself, in the browser:"
 echo "  $imunoise open $out/hidden --channel emulated/imu/gyro_x"

@@ -14,6 +14,7 @@
 #include "daemon/service/campaigns/free_space.h"
 #include "daemon/service/campaigns/metrics.h"
 #include "daemon/service/event_hub.h"
+#include "daemon/service/exports/export_methods.h"
 #include "daemon/service/live/live_methods.h"
 #include "daemon/service/recordings/record_methods.h"
 #include "daemon/service/studies/study_methods.h"
@@ -65,6 +66,7 @@ class Service::Implementation {
     add_record_methods(methods_, *records_);
     add_study_methods(methods_, {jobs_, studies_, *records_, options_.inputs},
                       options.largest_study, options.compute);
+    add_export_methods(methods_, *records_, studies_);
     add_own_methods();
     handler_.emplace(routes_, methods_, std::move(how));
   }

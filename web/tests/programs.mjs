@@ -1,6 +1,6 @@
 // The programs and the browser that the tests use. What a test starts ends with it.
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -70,12 +70,15 @@ export async function browse(test, viewport = { width: 1366, height: 768 }) {
   return { page, problems };
 }
 
-/** In light and in dark. */
+/** In light and in dark. The light ones are those of the guides, where IMUNOISE_PICTURES names their folder. */
 export async function picture(page, name) {
   for (const colorScheme of ["dark", "light"]) {
     await page.emulateMedia({ colorScheme });
+    await page.waitForTimeout(100); // what is on a canvas is drawn again
     await page.screenshot({ path: `${screenshots}${name}_${colorScheme}.png` });
   }
+  const guide = process.env.IMUNOISE_PICTURES;
+  if (guide && existsSync(join(guide, `${name}.png`))) copyFileSync(`${screenshots}${name}_light.png`, join(guide, `${name}.png`));
 }
 
 /** What axe finds wrong, a line each. The script runs beside the page's policy, not by it. */

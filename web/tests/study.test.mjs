@@ -1,5 +1,6 @@
 // A hidden wave is found, previewed, added, taken back and added again.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { browse, folder, open, picture, simulate, violations } from "./programs.mjs";
 
@@ -85,6 +86,30 @@ test("every view is drawn, and the keyboard alone suffices", { timeout: 180_000 
   await page.waitForTimeout(400);
   await picture(page, "tablet");
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 820, "nothing stands out at the side");
+  assert.deepEqual(problems, []);
+});
+
+test("a study leaves as figure, report, JSON and noise values", { timeout: 120_000 }, async (t) => {
+  const { page, problems } = await opened(t);
+  await study(page);
+  const saved = async (choice) => {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Export").selectOption(choice)]);
+    return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+  };
+  const svg = await saved("svg");
+  assert.match(svg.bytes.toString(), /^<svg[^]*<\/svg>\s*$/);
+  const png = await saved("png");
+  assert.deepEqual([...png.bytes.subarray(1, 4)], [...Buffer.from("PNG")]);
+  assert.match((await saved("report")).bytes.toString(), /^<!doctype html>/i);
+  assert.equal(JSON.parse((await saved("json")).bytes.toString()).channel, "gyro_z");
+  await page.getByLabel("Export").selectOption("program");
+  await page.getByRole("combobox", { name: /^program/ }).selectOption({ label: "Kalibr" });
+  await page.getByRole("button", { name: "Show" }).click();
+  await page.getByText(/gyroscope_noise_density: /).waitFor();
+  assert.deepEqual(await violations(page), []);
+  await picture(page, "export");
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save" }).click()]);
+  assert.match(file.suggestedFilename(), /^kalibr/);
   assert.deepEqual(problems, []);
 });
 

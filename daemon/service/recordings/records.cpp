@@ -263,6 +263,15 @@ Answer<v1::SampleRanges> Records::samples(const v1::GetSamplesRequest& request) 
   return samples_.ranges(view()->files, *path, *known, request);
 }
 
+Answer<std::string> Records::calibration_text(const std::string& campaign,
+                                              const std::string& folder) const {
+  const auto path = path_of(campaign, folder);
+  if (!path) return tl::unexpected(path.error());
+  auto out = view()->files.read(*path / study::kCalibrationName);
+  if (!out) return refuse(500, out.error().message);
+  return std::move(*out);
+}
+
 Answer<fs::path> Records::path_of(const std::string& campaign, const std::string& folder) const {
   const auto current = view();
   const auto root = current->roots.find(campaign);

@@ -50,6 +50,9 @@ class Records {
   // Error: 404 where there is none, 400 for a name that leads elsewhere, 500 for a damaged file.
   Answer<v1::Manifest> manifest(const std::string& campaign, const std::string& folder) const;
   Answer<v1::Calibration> calibration(const std::string& campaign, const std::string& folder) const;
+  /// The bytes of its file.
+  Answer<std::string> calibration_text(const std::string& campaign,
+                                       const std::string& folder) const;
   /// A figure of an array in it. Error: also 400 for a view that is none.
   Answer<v1::Text> array_figure(const v1::GetArrayFigureRequest& request) const;
   /// Samples of a recording (RecordedSamples).

@@ -104,6 +104,38 @@ TEST_F(ApiRecordings, FiguresOfAnArrayFollowItsEmphasis) {
   refusal("/v1/array/figure?campaign=array&folder=sunday&view=gain", 404);
 }
 
+TEST_F(ApiRecordings, NoiseValuesAreExportedForEveryProgram) {
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  const json consumers = get_json("/v1/consumers")["consumers"];
+  ASSERT_GE(consumers.size(), 10U);
+  for (const json& one : consumers) {
+    const std::string name = one["name"];
+    const RawResponse got = testing::get(local_, "/v1/studies/gyro/export?consumer=" + name);
+    EXPECT_EQ(got.status, 200) << name << ": " << got.body;
+    EXPECT_NE(got.body.find("gyro.study"), std::string::npos) << name;
+  }
+  EXPECT_NE(refusal("/v1/studies/gyro/export?consumer=none", 404).find("kalibr"),
+            std::string::npos);
+  refusal("/v1/studies/other/export?consumer=kalibr", 404);
+  const std::string calibration = "/v1/export?campaign=array&folder=monday&consumer=kalibr";
+  EXPECT_NE(refusal(calibration, 404).find("imunoise calibrate"), std::string::npos);
+  add_array();
+  refusal(calibration, 404);  // a calibration without a fit
+}
+
+TEST_F(ApiRecordings, AStudyHasAReport) {
+  serve();
+  record("monday");
+  ASSERT_EQ(open_study("gyro")["state"], "done");
+  const RawResponse report = testing::get(local_, "/v1/studies/gyro/report");
+  EXPECT_EQ(report.status, 200);
+  EXPECT_NE(report.body.find("<svg"), std::string::npos);
+  EXPECT_NE(report.body.find("gyro_x"), std::string::npos);
+  refusal("/v1/studies/other/report", 404);
+}
+
 TEST_F(ApiRecordings, AFleetNeedsCalibrations) {
   serve();
   record("monday");

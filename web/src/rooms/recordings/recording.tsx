@@ -2,6 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { get } from "../../api/client";
 import type { Manifest, SampleRanges } from "../../api/schema";
+import { Consumers } from "../../parts/consumers";
 import { useLoaded } from "../../parts/loaded";
 import { duration, number } from "../../parts/numbers";
 import { Empty, Skeleton } from "../../parts/states";
@@ -104,8 +105,24 @@ function Choices({ manifest, campaign, folder }: { manifest: Manifest; campaign:
   );
 }
 
+function NoiseValues({ manifest, campaign, folder }: { manifest: Manifest; campaign: string; folder: string }) {
+  const names = manifest.devices.map((one) => one.name);
+  const [device, choose] = useState(names[0] ?? "");
+  return (
+    <details>
+      <summary>Noise values for a program</summary>
+      {names.length > 1 && (
+        <label>device <select value={device} onChange={(event) => choose(event.currentTarget.value)}>{names.map((one) => <option key={one} value={one}>{one}</option>)}</select></label>
+      )}
+      <Consumers path="/v1/export" fields={{}} asked={{ campaign, folder, device }} />
+    </details>
+  );
+}
+
 export function Recording({ campaign, folder }: { campaign: string; folder: string }) {
   const { answer, problem } = useLoaded(() => get("/v1/recordings/{campaign}/{folder}", { campaign, folder }), `${campaign}/${folder}`);
+  const known = useLoaded(() => get("/v1/calibrations", {}, { campaign }), campaign).answer;
+  const calibrated = known?.calibrations.some((one) => one.folder === folder && one.fitted > 0);
   const back = <p><a href="#/devices">All devices</a></p>;
   if (problem) return <Empty title={`No recording ${folder}`} sentence={problem}>{back}</Empty>;
   if (!answer) return <Skeleton lines={8} />;
@@ -114,6 +131,7 @@ export function Recording({ campaign, folder }: { campaign: string; folder: stri
       {back}
       <h1>{folder}</h1>
       <p class="soft">{campaign} · {answer.closed ? "complete" : "not closed: while it records, its latest samples are on the bench"}</p>
+      {calibrated && <NoiseValues manifest={answer} campaign={campaign} folder={folder} />}
       <Choices manifest={answer} campaign={campaign} folder={folder} />
     </div>
   );

@@ -1,43 +1,50 @@
-// Figures as SVG and PNG, and the study as JSON.
+// Figures as SVG and PNG, the report, the study as JSON, and noise values for other programs.
+import { useState } from "preact/hooks";
 import { getText } from "../../api/client";
 import type { Study } from "../../api/schema";
+import { Consumers } from "../../parts/consumers";
+import { png, save, saveText } from "../../parts/save";
 import type { View } from "./views";
 
-function save(blob: Blob, name: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+interface Props {
+  readonly study: Study;
+  readonly name: string;
+  readonly view: View;
+  readonly variance: boolean;
+  readonly onProblem: (problem: string) => void;
 }
 
-async function png(svg: Blob): Promise<Blob> {
-  const picture = new Image();
-  const address = URL.createObjectURL(svg);
-  picture.src = address;
-  await picture.decode();
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [2 * picture.naturalWidth, 2 * picture.naturalHeight];
-  canvas.getContext("2d")?.drawImage(picture, 0, 0, canvas.width, canvas.height);
-  URL.revokeObjectURL(address);
-  return new Promise((go, fail) => canvas.toBlob((blob) => (blob ? go(blob) : fail(new Error("no picture"))), "image/png"));
-}
-
-export function Export({ study, name, view, variance }: { study: Study; name: string; view: View; variance: boolean }) {
-  const choose = async (event: { currentTarget: HTMLSelectElement }): Promise<void> => {
+export function Export({ study, name, view, variance, onProblem }: Props) {
+  const [open, show] = useState(false);
+  const figure = (): Promise<string> => getText("/v1/studies/{study}/figure", { study: name }, { view, variance, standalone: true });
+  const makers: Record<string, () => Promise<void>> = {
+    svg: async () => saveText(await figure(), "image/svg+xml", `${name}_${view}.svg`),
+    png: async () => save(await png(new Blob([await figure()], { type: "image/svg+xml" })), `${name}_${view}.png`),
+    report: async () => saveText(await getText("/v1/studies/{study}/report", { study: name }, {}), "text/html", `${name}.html`),
+    json: async () => saveText(JSON.stringify(study, null, 1), "application/json", `${name}.json`),
+  };
+  const choose = (event: { currentTarget: HTMLSelectElement }): void => {
     const kind = event.currentTarget.value;
     event.currentTarget.value = "";
-    if (kind === "json") return save(new Blob([JSON.stringify(study, null, 1)], { type: "application/json" }), `${name}.json`);
-    const text = await getText("/v1/studies/{study}/figure", { study: name }, { view, variance, standalone: true });
-    const svg = new Blob([text], { type: "image/svg+xml" });
-    save(kind === "svg" ? svg : await png(svg), `${name}_${view}.${kind}`);
+    if (kind === "program") show(true);
+    else makers[kind]?.().catch((error: Error) => onProblem(error.message));
   };
   return (
-    <select aria-label="Export" value="" onChange={(event) => void choose(event)}>
-      <option value="" disabled>Export</option>
-      <option value="svg">this figure, SVG</option>
-      <option value="png">this figure, PNG</option>
-      <option value="json">the study, JSON</option>
-    </select>
+    <>
+      <select aria-label="Export" value="" onChange={choose}>
+        <option value="" disabled>Export</option>
+        <option value="svg">this figure, SVG</option>
+        <option value="png">this figure, PNG</option>
+        <option value="report">the report, HTML</option>
+        <option value="json">the study, JSON</option>
+        <option value="program">noise values for a program …</option>
+      </select>
+      {open && (
+        <div class="export-panel" role="group" aria-label="Noise values for a program">
+          <Consumers path="/v1/studies/{study}/export" fields={{ study: name }} asked={{}} />
+          <button type="button" onClick={() => show(false)}>Close</button>
+        </div>
+      )}
+    </>
   );
 }

@@ -74,7 +74,7 @@ export function StudyRoom({ name }: { name: string }) {
         <button type="button" disabled={still || study.current === 0} onClick={() => void store.undo()} title="Ctrl-Z">Undo</button>
         <button type="button" disabled={still || !mayRedo(study)} onClick={() => void store.redo()} title="Ctrl-Shift-Z">Redo</button>
         <Branch store={store} />
-        <Export study={study} name={name} view={view} variance={variance} />
+        <Export study={study} name={name} view={view} variance={variance} onProblem={(problem) => { store.problem.value = problem; }} />
       </header>
       <ModelBar store={store} rung={rung} datasheet={datasheet} still={still} />
       {store.problem.value && <Trouble sentence={store.problem.value} onClose={() => { store.problem.value = ""; }} />}
