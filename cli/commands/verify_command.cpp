@@ -27,7 +27,7 @@ void describe_gaps(const v1::StreamIntegrity& stream, std::string& out) {
                      count(stream.lost()), count(stream.duplicates()));
   for (int i = 0; i < stream.gaps_size() && i < kShownGaps; ++i) {
     const v1::Gap& gap = stream.gaps(i);
-    out += fmt::format("             after sample {}: {} lost (seen by {})\n",
+    out += fmt::format("             after sample {}: {} missing (seen by {})\n",
                        count(gap.after_sample()), gap.lost() > 0 ? count(gap.lost()) : "unknown",
                        gap.evidence());
   }

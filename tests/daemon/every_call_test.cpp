@@ -9,11 +9,11 @@
 
 #include "daemon/acquire/campaign/campaign.h"
 #include "daemon/acquire/campaign/campaign_recorder.h"
-#include "daemon/acquire/clock.h"
 #include "recording/store/manifest/device_folder.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/recovery/recover.h"
 #include "recording/store/verify/verify.h"
+#include "tests/daemon/hasty_clock.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/fake_disk.h"
 
@@ -26,22 +26,6 @@ using Call = FakeDisk::Call;
 
 const std::filesystem::path kRoot = "/bench/here";
 constexpr std::uint32_t kReplicates = 2;
-
-// Whoever waits, for the schedule or after trouble, has waited already.
-class HastyClock : public SystemClock {
- public:
-  Time now() const override { return SystemClock::now() + skipped_; }
-  std::chrono::nanoseconds since_boot() const override {
-    return SystemClock::since_boot() + skipped_;
-  }
-  bool wait_until(Time time, const std::stop_token& stop) override {
-    skipped_ += std::max<std::chrono::nanoseconds>(time - now(), 0ns);
-    return !stop.stop_requested();
-  }
-
- private:
-  std::chrono::nanoseconds skipped_{0};
-};
 
 class EveryCallOfACampaign : public testing::Whims {
  protected:
@@ -64,7 +48,7 @@ class EveryCallOfACampaign : public testing::Whims {
 
   // Whether it came to its end by itself.
   bool run(FakeDisk& disk) const {
-    HastyClock clock;
+    testing::HastyClock clock;
     CampaignRecorder recorder(disk, drivers(), {});
     CampaignSurroundings with{clock, disk, recorder};
     std::stop_source enough;

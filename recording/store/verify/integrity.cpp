@@ -104,8 +104,9 @@ v1::StreamIntegrity check_stream(const v1::RecordedStream& stream, const Rows& r
   for (const Refusal& one : rows.refused) *out.add_refused() = to_message(one);
   const std::vector<RowGap> gaps = find_gaps(stream, rows);
   out.set_gap_count(gaps.size());
+  std::uint64_t gone = 0;
   for (const RowGap& gap : gaps) {
-    out.set_lost(out.lost() + gap.lost);
+    gone += gap.lost;
     if (gap.evidence == Evidence::kDuplicate) out.set_duplicates(out.duplicates() + 1);
     if (out.gaps_size() >= kShownGaps) continue;
     v1::Gap* const shown = out.add_gaps();
@@ -113,6 +114,9 @@ v1::StreamIntegrity check_stream(const v1::RecordedStream& stream, const Rows& r
     shown->set_lost(gap.lost);
     shown->set_evidence(std::string(word(gap.evidence)));
   }
+  // Rows that were refused leave gaps, too, but they came.
+  const std::uint64_t refused = rows.received - std::min<std::uint64_t>(rows.received, rows.size());
+  out.set_lost(gone - std::min(gone, refused));
   out.set_nominal_rate_hz(stream.rate_hz());
   check_clock(rows, parts_between(gaps, rows.size()), out);
   for (int i = 0; i < stream.channels_size(); ++i) {

@@ -181,13 +181,14 @@ TEST(Integrity, CountsAddUp) {
   rows.refused = {{Refused::kChecksum, "", 3}};
   rows.received = 103;
   rows.counter[50] = 49;
+  for (std::size_t i = 60; i < 100; ++i) rows.counter[i] += 5;  // three refused, and two lost
   const v1::StreamIntegrity checked = check_stream(imu(), rows);
   EXPECT_EQ(checked.received(), 103U);
   EXPECT_EQ(checked.stored(), 100U);
   EXPECT_EQ(checked.refused(0).samples(), 3U);
   EXPECT_EQ(checked.duplicates(), 1U);
-  EXPECT_EQ(checked.gap_count(), 2U);  // the repeat, and the step of two after it
-  EXPECT_EQ(checked.lost(), 1U);
+  EXPECT_EQ(checked.gap_count(), 3U);  // the repeat, the step of two after it, and the five
+  EXPECT_EQ(checked.lost(), 3U);
 }
 
 }  // namespace
