@@ -13,7 +13,7 @@
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/recovery/recover.h"
 #include "recording/store/verify/verify.h"
-#include "tests/daemon/hasty_clock.h"
+#include "tests/daemon/faults/hasty_clock.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/fake_disk.h"
 
