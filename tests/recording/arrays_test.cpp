@@ -110,6 +110,18 @@ TEST_F(Arrays, AFirstColumnThatRisesIsTheTime) {
   EXPECT_EQ(stored_doubles(got->front().channels[0])[7], 7.0);
 }
 
+TEST_F(Arrays, AnArrayOfNumpyMayBeTransposed) {
+  const std::string file = written("npy", ".npy");
+  SKIP_UNWRITTEN(file);
+  const auto got = import_one(file);
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_DOUBLE_EQ(got->front().rate.value, 200.0);
+  ASSERT_EQ(got->front().channels.size(), 6U);
+  EXPECT_EQ(got->front().channels[0].name, "col2");
+  EXPECT_EQ(stored_doubles(got->front().channels[0])[7], 7.0);
+  EXPECT_EQ(stored_doubles(got->front().channels[2])[7], 7.5);
+}
+
 // Wherever a file ends: an error that names it, or whole columns of what it holds.
 void expect_sound_beginnings(const std::string& file, const std::filesystem::path& cut,
                              std::size_t step) {

@@ -188,6 +188,21 @@ TEST_F(Bags, Ros2InSqliteAndItsTruncations) {
   }
 }
 
+TEST_F(Bags, RatesAndAccelerationsInTwoTopicsAreJoined) {
+  const std::string file = path("split.db3").string();
+  if (!made_by("/usr/bin/python3 write_db3.py", file + " 100 0 split"))
+    GTEST_SKIP() << "no independent writer here: Python";
+  const auto got = import_one(file);
+  ASSERT_TRUE(got) << got.error().message;
+  expect_counted(got->front(), 100);
+  ImportOptions one;
+  one.topic = "/accel";
+  const auto alone = import_one(file, one);
+  ASSERT_TRUE(alone) << alone.error().message;
+  ASSERT_EQ(alone->front().channels.size(), 3U) << "its rates are all 0";
+  EXPECT_EQ(alone->front().channels[0].name, "acc_x");
+}
+
 TEST_F(Bags, PiecesInAFolderAreOneRecording) {
   std::filesystem::create_directory(path("bag"));
   write("bag/metadata.yaml", "rosbag2_bagfile_information:\n");

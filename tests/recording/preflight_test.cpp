@@ -308,6 +308,12 @@ TEST_F(Rest, AFilteredStreamIsTold) {
   EXPECT_EQ(findings(walked->front()).find("filtered"), std::string::npos);
 }
 
+TEST_F(Odd, AllUnknownUnitsAreToldAtOnce) {
+  EXPECT_FALSE(
+      odd("t [s],x [cubit],y [ell]", [](int i) { return fmt::format("{:.2f},1,2", 0.01 * i); }));
+  expect_parts(error_of(path("odd.csv")), {"channel x", "'cubit'", "channel y", "'ell'"});
+}
+
 TEST_F(Odd, IncrementsBecomeRates) {
   const auto got = odd("t [s],dtheta_x [rad],dvx,dvy,dvz", [](int i) {
     return fmt::format("{:.2f},{},0,0,{}", 0.01 * i, 0.001 * (i % 7), 0.0981 + 1e-5 * (i % 5));

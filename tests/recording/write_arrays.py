@@ -24,6 +24,8 @@ if words[0] == "matlab5":
     if "counts" in words:
         arrays = {"fs": 200.0, "gyro": gyro[:, 0].astype("int16"), "acc": acc[:, 2]}
     savemat(path, arrays, do_compression="packed" in words, oned_as="column")
+elif words[0] == "npy":  # time, rates and accelerations, channels by samples
+    numpy.save(path, numpy.column_stack([t, gyro, acc]).T)
 elif words[0] == "npz":
     save = numpy.savez_compressed if "packed" in words else numpy.savez
     if "matrix" in words:  # time, rates and accelerations in one array

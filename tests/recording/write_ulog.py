@@ -35,7 +35,7 @@ def vector_message(number, i, numbers, late=0):
 
 out = b"ULog\x01\x12\x35\x01" + struct.pack("<Q", 1_000_000)
 out += record("B", bytes(40))
-out += record("F", b"inner:uint8_t a;float b;")
+out += record("F", b"inner:uint64_t timestamp;uint8_t a;float b;")
 for name, text in (("sensor_gyro_fifo", fifo), ("sensor_accel_fifo", fifo), ("sensor_gyro", vector),
                    ("sensor_accel", vector), ("sensor_combined", combined), ("vehicle_imu", imu), ("other", "uint64_t timestamp;")):
     out += record("F", f"{name}:{text}".encode())
@@ -72,7 +72,7 @@ for i in range(COUNT):
         out += message(1, struct.pack("<Q3fIi3f", 1_000_000 + i * PERIOD, i / 2, i / 2 + 0.5, i / 2 + 1, PERIOD, 0, 0, 0, 10))
     if kind == "increments":
         angle = [(i / 2 + c / 2) * PERIOD * 1e-6 for c in range(3)]
-        out += message(4, struct.pack("<QQ3f3fII10x", 0, 1_000_000 + i * PERIOD, *angle, 0, 0, 10 * PERIOD * 1e-6, PERIOD, PERIOD))
+        out += message(4, struct.pack("<QQ3f3fII26x", 0, 1_000_000 + i * PERIOD, *angle, 0, 0, 10 * PERIOD * 1e-6, PERIOD, PERIOD))
     if i == 500:
         out += record("O", struct.pack("<H", 12)) + message(9, bytes(8)) + record("L", b"6" + bytes(8) + b"a message")
 open(path, "wb").write(out)

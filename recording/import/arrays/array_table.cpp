@@ -102,22 +102,6 @@ void ArrayTable::take(std::size_t array, double number) {
   }
 }
 
-// Strictly, by steps near the median step.
-bool ArrayTable::rises(const Column& column) const {
-  const auto& values = std::get<std::vector<double>>(column.samples);
-  if (values.size() < kMinimumSamples) return false;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
-  if (!std::all_of(steps.begin(), steps.end(), [](double step) { return step > 0.0; }))
-    return false;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double usual = *middle;
-  const auto even = std::count_if(steps.begin(), steps.end(),
-                                  [&](double step) { return std::abs(step / usual - 1.0) < 0.5; });
-  return static_cast<double>(even) > 0.9 * static_cast<double>(steps.size());
-}
-
 Result<Table> ArrayTable::finish() {
   for (std::size_t a = 0; a < arrays_.size(); ++a) {
     const Shape& shape = arrays_[a].shape;
@@ -132,7 +116,8 @@ Result<Table> ArrayTable::finish() {
   if (table_.time) table_.time->stamps = std::move(times_);
   table_.row = [](std::size_t i) { return fmt::format("sample {}", i); };
   if (table_.time || table_.rate || options_.rate || table_.columns.size() < 2 ||
-      !options_.channels.empty() || !rises(table_.columns.front()))
+      !options_.channels.empty() ||
+      !rises_steadily(std::get<std::vector<double>>(table_.columns.front().samples)))
     return std::move(table_);
   Column& first = table_.columns.front();
   table_.time = TimeColumn{first.name, "", std::get<std::vector<double>>(std::move(first.samples))};

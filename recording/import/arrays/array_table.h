@@ -52,7 +52,6 @@ class ArrayTable {
   std::size_t columns_of(std::size_t array) const;
   Result<void> choose_columns();
   void find_time_and_rate();
-  bool rises(const Column& column) const;
 
   std::string file_;
   std::vector<NamedArray> arrays_;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "recording/import/table/array_columns.h"
 #include "recording/import/table/select.h"
 
 namespace imunoise::recording {
@@ -108,6 +109,18 @@ Result<std::vector<Samples>> read_as(const Source& source) {
                               std::make_move_iterator(columns.end()));
 }
 
+// Makes the first of several columns the time if it rises steadily.
+bool take_time(Table& table, const ImportOptions& options) {
+  if (table.columns.size() < 2 || !options.channels.empty()) return false;
+  Column& first = table.columns.front();
+  auto* const numbers = std::get_if<std::vector<double>>(&first.samples);
+  if (numbers == nullptr || !rises_steadily(*numbers)) return false;
+  table.notes.push_back(fmt::format("time: {}, because it rises steadily", first.name));
+  table.time = TimeColumn{first.name, first.unit, std::move(*numbers)};
+  table.columns.erase(table.columns.begin());
+  return true;
+}
+
 Result<std::vector<Samples>> read_numbers(const Source& source) {
   switch (source.layout.type) {
     case NumberType::kInt16:
@@ -149,12 +162,8 @@ Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
                                 const std::optional<v1::Sidecar>& sidecar,
                                 const ImportOptions& options, FileProgress& progress) {
   Table table;
-  if (!options.rate && sidecar && sidecar->rate_hz() > 0.0) {
-    table.rate = {sidecar->rate_hz(), "rate_hz of the sidecar"};
-  } else if (!options.rate) {
-    return fail(fmt::format("{}: no sampling rate; give it with --rate HZ or as rate_hz in {}.json",
-                            file.name(), file.name()));
-  }
+  const bool stated = sidecar && sidecar->rate_hz() > 0.0;
+  if (!options.rate && stated) table.rate = {sidecar->rate_hz(), "rate_hz of the sidecar"};
   table.row = [](std::size_t i) { return fmt::format("sample {}", i); };
   const Result<std::vector<Meaning>> meaning = meanings(file, layout.columns, sidecar);
   if (!meaning) return tl::make_unexpected(meaning.error());
@@ -171,7 +180,9 @@ Result<Table> read_binary_table(const File& file, const BinaryLayout& layout,
   for (std::size_t k = 0; k < samples->size(); ++k) {
     table.columns[k].samples = std::move((*samples)[k]);
   }
-  return table;
+  if (options.rate || stated || take_time(table, options)) return table;
+  return fail(fmt::format("{}: no sampling rate; give it with --rate HZ or as rate_hz in {}.json",
+                          file.name(), file.name()));
 }
 
 }  // namespace imunoise::recording

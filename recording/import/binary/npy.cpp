@@ -95,6 +95,12 @@ Result<Table> read_npy(const std::filesystem::path& path, const ImportOptions& o
   layout.rows = header->shape[0];
   layout.columns = header->shape.size() == 2 ? header->shape[1] : 1;
   layout.column_major = header->fortran_order;
+  // Channels by samples: no sensor has more channels than samples.
+  const bool across = layout.columns > kMinimumSamples && layout.columns > 16 * layout.rows;
+  if (across) {
+    std::swap(layout.rows, layout.columns);
+    layout.column_major = !layout.column_major;
+  }
   const std::uint64_t payload = file->size() - preamble->end;
   std::uint64_t claimed = 0;
   if (__builtin_mul_overflow(layout.rows, layout.columns, &claimed) ||

@@ -57,12 +57,8 @@ class Judge {
     if (!paced) return tl::make_unexpected(paced.error());
     for (std::string& said : rates_of_increments(table_.columns, out_.rate))
       report_.recognised.push_back(std::move(said));
-    out_.units.reserve(table_.columns.size());
-    for (const Column& column : table_.columns) {
-      Result<Unit> unit = resolve_unit(file_, column.name, column.unit, options_);
-      if (!unit) return tl::make_unexpected(unit.error());
-      out_.units.push_back(std::move(*unit));
-    }
+    const auto resolved = resolve_units();
+    if (!resolved) return tl::make_unexpected(resolved.error());
     for (std::string& said : judge_acceleration(table_.columns, out_.units, report_.findings))
       report_.recognised.push_back(std::move(said));
     find_missing();
@@ -124,6 +120,18 @@ class Judge {
     if (2 * table_.unreadable <= rows_) return {};
     return fail(fmt::format("{}: {}; delete the row, or leave the column out with --channel", file_,
                             table_.first_unreadable));
+  }
+
+  // All that are wrong are told at once.
+  Result<void> resolve_units() {
+    std::string wrong;
+    for (const Column& column : table_.columns) {
+      Result<Unit> unit = resolve_unit(file_, column.name, column.unit, options_);
+      if (!unit) wrong += (wrong.empty() ? "" : "\n") + unit.error().message;
+      if (unit) out_.units.push_back(std::move(*unit));
+    }
+    if (!wrong.empty()) return fail(std::move(wrong));
+    return {};
   }
 
   Result<void> take_rate() {

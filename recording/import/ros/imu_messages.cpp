@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "recording/import/table/bytes.h"
-#include "recording/import/table/select.h"
+#include "recording/import/table/names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -90,6 +90,16 @@ std::optional<ImuMessage> decode_imu(Encoding encoding, std::string_view bytes) 
   return out;
 }
 
+ImuCollector::ImuCollector(std::string file, const ImportOptions& options)
+    : file_(std::move(file)), options_(options) {
+  const auto wanted = [&](std::string_view name) {
+    return std::any_of(options.channels.begin(), options.channels.end(),
+                       [&](const std::string& pattern) { return matches(pattern, name); });
+  };
+  const bool all = options.beside || std::none_of(kNames.begin(), kNames.end(), wanted);
+  for (std::size_t c = 0; c < kNames.size(); ++c) kept_[c] = all || wanted(kNames[c]);
+}
+
 void ImuCollector::topic(std::uint64_t number, std::string_view name, std::string_view type) {
   if (topics_.size() >= kMostTopics) return;
   topics_.try_emplace(number, Topic{std::string(name), std::string(type)});
@@ -103,9 +113,10 @@ bool ImuCollector::wants(std::uint64_t number) const {
 
 void ImuCollector::add(std::uint64_t number, Encoding encoding, std::string_view bytes,
                        std::int64_t received) {
-  Topic& topic = topics_.at(number);
-  const std::size_t index = topic.messages++;
+  const Topic& topic = topics_.at(number);
   if (ambiguous_) return;
+  Source& source = sources_[topic.name];
+  const std::size_t index = source.messages++;
   const std::optional<ImuMessage> message = decode_imu(encoding, bytes);
   if (!message) {
     if (unreadable_++ == 0) {
@@ -114,23 +125,38 @@ void ImuCollector::add(std::uint64_t number, Encoding encoding, std::string_view
     }
     return;
   }
-  const bool first = chosen_.empty();
-  if (first) chosen_ = topic.name;
-  if (topic.name != chosen_) {
-    ambiguous_ = true;
-    times_ = {};
-    values_ = {};
-    return;
+  if (source.times.size() == 0) {
+    source.first = *message;
+    source.header_time = message->stamp != 0;
   }
-  if (first) {
-    first_ = *message;
-    header_time_ = message->stamp != 0;
-  }
-  times_.push(header_time_ ? message->stamp : received);
+  const auto& values = message->values;
+  const auto moves = [](double value) { return value != 0.0; };
+  source.has_gyro = source.has_gyro || std::any_of(values.begin(), values.begin() + 3, moves);
+  source.has_acc = source.has_acc || std::any_of(values.begin() + 3, values.end(), moves);
+  source.times.push(source.header_time ? message->stamp : received);
   for (std::size_t c = 0; c < kNames.size(); ++c) {
-    const double value = message->values[c];
-    values_[c].push(std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN());
+    if (!kept_[c]) continue;
+    source.values[c].push(std::isfinite(values[c]) ? values[c]
+                                                   : std::numeric_limits<double>::quiet_NaN());
   }
+  if (index == 0 && sources_.size() > 1) return;  // what it holds shows later
+  if (sources_.size() > 1 && !is_one_imu()) {
+    ambiguous_ = true;
+    for (auto& [name, one] : sources_) one = Source{};
+  }
+}
+
+// Every kind of sensor in one topic only.
+bool ImuCollector::is_one_imu() const {
+  std::size_t gyros = 0;
+  std::size_t accelerometers = 0;
+  std::size_t silent = 0;
+  for (const auto& [name, source] : sources_) {
+    gyros += source.has_gyro ? 1U : 0U;
+    accelerometers += source.has_acc ? 1U : 0U;
+    silent += !source.has_gyro && !source.has_acc && source.times.size() > 0 ? 1U : 0U;
+  }
+  return gyros <= 1 && accelerometers <= 1 && silent == 0;
 }
 
 Result<void> ImuCollector::check_topics() const {
@@ -148,7 +174,7 @@ Result<void> ImuCollector::check_topics() const {
     return fail(
         fmt::format("{}: several topics of an IMU: {}; choose one with --topic", file_, of_imu));
   }
-  if (!chosen_.empty()) return {};
+  if (!sources_.empty()) return {};
   if (!options_.topic.empty()) {
     return fail(
         fmt::format("{}: no message of type sensor_msgs/Imu in topic '{}' (it has: {}); "
@@ -161,28 +187,38 @@ Result<void> ImuCollector::check_topics() const {
                   file_, all.empty() ? "none" : all));
 }
 
-Result<Table> ImuCollector::finish(bool truncated) {
-  if (const Result<void> sound = check_topics(); !sound) return tl::make_unexpected(sound.error());
-  std::vector<Offer> offers;
+// The sensors that it holds; all, where none was ever seen to move.
+TimedStream ImuCollector::stream_of(const std::string& name, Source& source) const {
+  TimedStream out{name, {}, {}};
+  const bool none = !source.has_gyro && !source.has_acc;
   for (std::size_t c = 0; c < kNames.size(); ++c) {
-    const bool there = c < 3 ? first_.has_gyro : first_.has_acc;
-    offers.push_back({std::string(kNames[c]), there, c < 3 ? "rad/s" : "m/s^2"});
+    const bool gyro = c < 3;
+    const bool named = std::any_of(options_.channels.begin(), options_.channels.end(),
+                                   [&](const std::string& one) { return one == kNames[c]; });
+    const bool there = gyro ? source.first.has_gyro && (none || source.has_gyro)
+                            : source.first.has_acc && (none || source.has_acc);
+    if (!kept_[c] || (!there && !named)) continue;
+    out.columns.push_back(
+        {std::string(kNames[c]), source.values[c].take(), 1.0, 0.0, gyro ? "rad/s" : "m/s^2"});
   }
-  const auto wanted = select_columns(file_, offers, options_);
-  if (!wanted) return tl::make_unexpected(wanted.error());
-  Table table;
-  if (!options_.rate) {
-    table.time =
-        TimeColumn{header_time_ ? "header.stamp" : "time of recording", "ns", times_.take()};
-  }
-  table.row = [](std::size_t i) { return fmt::format("message {}", i); };
-  table.truncated = truncated;
-  table.unreadable = unreadable_;
-  table.first_unreadable = first_unreadable_;
-  table.notes.push_back(fmt::format("topic {}", chosen_));
-  for (const std::size_t c : *wanted) {
-    table.columns.push_back({offers[c].name, values_[c].take(), 1.0, 0.0, offers[c].unit});
-  }
+  out.times = source.times.take();
+  return out;
+}
+
+Result<Table> ImuCollector::finish(bool truncated) {
+  std::erase_if(sources_, [](const auto& one) { return one.second.times.size() == 0; });
+  if (sources_.size() > 1 && !is_one_imu()) ambiguous_ = true;
+  if (const Result<void> sound = check_topics(); !sound) return tl::make_unexpected(sound.error());
+  const bool header_time = sources_.begin()->second.header_time;
+  std::vector<TimedStream> streams;
+  for (auto& [name, source] : sources_) streams.push_back(stream_of(name, source));
+  auto table = join_streams(file_, std::move(streams),
+                            header_time ? "header.stamp" : "time of recording", options_);
+  if (!table) return table;
+  table->row = [](std::size_t i) { return fmt::format("message {}", i); };
+  table->truncated = truncated;
+  table->unreadable = unreadable_;
+  table->first_unreadable = first_unreadable_;
   return table;
 }
 

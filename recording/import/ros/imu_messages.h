@@ -13,6 +13,7 @@
 #include "core/support/result.h"
 #include "recording/import/table/blocks.h"
 #include "recording/import/table/options.h"
+#include "recording/import/table/streams.h"
 #include "recording/import/table/table.h"
 
 namespace imunoise::recording {
@@ -34,12 +35,12 @@ bool is_imu_type(std::string_view type);
 /// Decodes one message; nothing where the bytes are not one. CDR: plain, of either byte order.
 std::optional<ImuMessage> decode_imu(Encoding encoding, std::string_view bytes);
 
-/// Collects the messages of the one wanted topic: that which `options` name, else the only one that
-/// holds messages of an IMU.
+/// Collects the messages of the wanted topic: that which `options` name, else the only one of an
+/// IMU. Two topics of which one holds rates and the other accelerations are one IMU
+/// (join_streams()).
 class ImuCollector {
  public:
-  ImuCollector(std::string file, const ImportOptions& options)
-      : file_(std::move(file)), options_(options) {}
+  ImuCollector(std::string file, const ImportOptions& options);
 
   /// A topic that the bag announces; `number` is what its messages call it. Both may come again.
   void topic(std::uint64_t number, std::string_view name, std::string_view type);
@@ -56,21 +57,29 @@ class ImuCollector {
   struct Topic {
     std::string name;
     std::string type;
+  };
+  // Messages of the topics of one name.
+  struct Source {
     std::size_t messages = 0;
+    bool header_time = true;
+    ImuMessage first{};
+    bool has_gyro = false;  // a rate that is not 0
+    bool has_acc = false;
+    Blocks<std::int64_t> times;  // ns
+    std::array<Blocks<double>, 6> values;
   };
   Result<void> check_topics() const;
+  bool is_one_imu() const;
+  TimedStream stream_of(const std::string& name, Source& source) const;
 
   std::string file_;
   const ImportOptions& options_;
+  std::array<bool, 6> kept_;  // channels whose numbers are kept
   std::map<std::uint64_t, Topic> topics_;
-  std::string chosen_;
+  std::map<std::string, Source, std::less<>> sources_;  // by the topic's name
   bool ambiguous_ = false;
-  bool header_time_ = true;
-  ImuMessage first_;
   std::size_t unreadable_ = 0;
   std::string first_unreadable_;
-  Blocks<std::int64_t> times_;  // ns
-  std::array<Blocks<double>, 6> values_;
 };
 
 }  // namespace imunoise::recording

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 #include "recording/import/table/names.h"
+#include "recording/import/table/options.h"
 
 namespace imunoise::recording {
 
@@ -46,6 +48,23 @@ double rate_called(std::string_view name, double value) {
   if (std::find(rates.begin(), rates.end(), lower) != rates.end()) return value;
   if (std::find(periods.begin(), periods.end(), lower) != periods.end()) return 1.0 / value;
   return 0.0;
+}
+
+bool rises_steadily(const std::vector<double>& numbers) {
+  if (numbers.size() < kMinimumSamples) return false;
+  std::vector<double> steps;
+  steps.reserve(numbers.size() - 1);
+  for (std::size_t i = 1; i < numbers.size(); ++i) steps.push_back(numbers[i] - numbers[i - 1]);
+  if (!std::all_of(steps.begin(), steps.end(), [](double step) { return step > 0.0; }))
+    return false;
+  if (std::all_of(steps.begin(), steps.end(), [](double step) { return step == 1.0; }))
+    return false;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double usual = *middle;
+  const auto even = std::count_if(steps.begin(), steps.end(),
+                                  [&](double step) { return std::abs(step / usual - 1.0) < 0.5; });
+  return static_cast<double>(even) > 0.9 * static_cast<double>(steps.size());
 }
 
 std::string_view last_part(std::string_view name) {

@@ -32,6 +32,10 @@ std::uint64_t common_length(const std::vector<Shape>& shapes);
 /// (dt, Ts) by its name; else 0.
 double rate_called(std::string_view name, double value);
 
+/// Whether numbers can be times: every step is above 0, and 90 % of them lie within half of the
+/// median step. Numbers of 1, 2, 3, ... do not count: they are an index.
+bool rises_steadily(const std::vector<double>& numbers);
+
 /// What stands behind the last dot or slash: "t" of "imu.t".
 std::string_view last_part(std::string_view name);
 
