@@ -40,7 +40,8 @@ export function Export({ study, name, view, variance, onProblem }: Props) {
         <option value="program">noise values for a program …</option>
       </select>
       {open && (
-        <div class="export-panel" role="group" aria-label="Noise values for a program">
+        <div class="export-panel" role="group" aria-label="Noise values for a program"
+          onKeyDown={(event) => { if (event.key === "Escape") show(false); }}>
           <Consumers path="/v1/studies/{study}/export" fields={{ study: name }} asked={{}} />
           <button type="button" onClick={() => show(false)}>Close</button>
         </div>
