@@ -82,7 +82,10 @@ FittedModel fit_with(const Current& current, const Suggestion& suggestion) {
   if (const auto* term = std::get_if<EffectTerm>(&suggestion.added))
     return fit_with(current, *term);
   const auto& change = std::get<NoiseChange>(suggestion.added);
-  return {current.regression, joint_fit(current.regression, change.start)};
+  Regression regression = current.regression;
+  if (change.shared) regression = regression.with(*change.shared);
+  JointFit fit = joint_fit(regression, change.start);
+  return {std::move(regression), std::move(fit)};
 }
 
 std::vector<TriedTerm> try_all(const Current& current, const Suggestions& suggestions,

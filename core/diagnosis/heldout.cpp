@@ -57,10 +57,10 @@ double modulation_gain(const Regression& one, const JointFit& fit,
     if (term.effect->own_noise != nullptr) term.effect->own_noise(term, one, here);
   }
   Innovations white = innovations(one, here);
-  const std::vector<const VarianceCourse*> courses = variance_courses(one);
+  const std::vector<VarianceCourse> courses = variance_courses(one);
   for (std::size_t m = 0; m < courses.size(); ++m) {
-    out += predicted_gain(fit.modulation[m], *courses[m], white);
-    take_out(fit.modulation[m], *courses[m], white);
+    out += predicted_gain(fit.modulation[m], courses[m], white);
+    take_out(fit.modulation[m], courses[m], white);
   }
   return out;
 }

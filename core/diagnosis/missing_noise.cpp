@@ -6,107 +6,14 @@
 
 #include "core/diagnosis/markov_levels.h"
 #include "core/diagnosis/missing_filter.h"
+#include "core/diagnosis/missing_resonance.h"
+#include "core/diagnosis/score_space.h"
 #include "core/diagnosis/steadiness.h"
-#include "core/inference/parameter_covariance.h"
-#include "core/support/linear_algebra.h"
 
 namespace imunoise {
 namespace {
 
 using Index = Eigen::Index;
-
-// Whitened band powers of all lengths of replicates, one below the other, and the directions in
-// which the free parameters move them.
-class ScoreSpace {
- public:
-  explicit ScoreSpace(const Current& current) : pooled_(current.pooled) {
-    const Model& noise = current.fit.model.noise;
-    const std::vector<Index> interior = parameter_sets(noise).interior;
-    Index rows = 0;
-    for (const BandedPower& bands : pooled_) rows += bands.frequency.size();
-    root_.resize(rows);
-    excess_.resize(rows);
-    slopes_.resize(rows, static_cast<Index>(interior.size()));
-    Index begin = 0;
-    for (const BandedPower& bands : pooled_) {
-      const Index size = bands.frequency.size();
-      const Eigen::ArrayXd s = spectrum(noise, bands.frequency);
-      root_.segment(begin, size) = (0.5 * bands.count).sqrt() / s;
-      excess_.segment(begin, size) = (root_.segment(begin, size) * (bands.power - s)).matrix();
-      slopes_.middleRows(begin, size) = whittle_slopes(noise, bands, interior);
-      begin += size;
-    }
-    inverse_ = pseudo_inverse(slopes_.transpose() * slopes_).matrix;
-  }
-
-  // The direction of a new spectrum, scaled to length 1, less what the parameters can do.
-  Eigen::VectorXd direction(const Process& process) const {
-    const Eigen::VectorXd unit = whitened(process).normalized();
-    return unit - slopes_ * (inverse_ * (slopes_.transpose() * unit));
-  }
-
-  double score(const Eigen::VectorXd& direction) const {
-    const double norm = direction.norm();
-    return norm > kNothingNew ? direction.dot(excess_) / norm : 0.0;
-  }
-
-  // Square root of the information on the power of a process: 1/standard error.
-  double precision(const Process& process) const {
-    return whitened(process).norm() * std::max(direction(process).norm(), kNothingNew);
-  }
-
- private:
-  // Of a unit vector: what is left of a spectrum that the parameters can make.
-  static constexpr double kNothingNew = 1e-4;
-
-  // A spectrum over that of the model, as its power moves the whitened band powers.
-  Eigen::VectorXd whitened(const Process& process) const {
-    Eigen::VectorXd out(root_.size());
-    Index begin = 0;
-    for (const BandedPower& bands : pooled_) {
-      const Index size = bands.frequency.size();
-      out.segment(begin, size) =
-          (root_.segment(begin, size) * spectrum(process, bands.frequency)).matrix();
-      begin += size;
-    }
-    return out;
-  }
-
-  const std::vector<BandedPower>& pooled_;
-  Eigen::ArrayXd root_;
-  Eigen::VectorXd excess_;
-  Eigen::MatrixXd slopes_;
-  Eigen::MatrixXd inverse_;
-};
-
-// The best of a scanned family of processes.
-void add_best(const Current& current, const ScoreSpace& space, std::string_view cause,
-              const std::vector<Process>& family, Suggestions& out) {
-  if (family.empty()) return;  // replicates are too short for any of it
-  Eigen::MatrixXd directions(space.direction(family[0]).size(), static_cast<Index>(family.size()));
-  std::size_t best = 0;
-  double most = -INFINITY;
-  for (std::size_t i = 0; i < family.size(); ++i) {
-    directions.col(static_cast<Index>(i)) = space.direction(family[i]);
-    const double score = space.score(directions.col(static_cast<Index>(i)));
-    if (score <= most) continue;
-    most = score;
-    best = i;
-  }
-  Process process = family[best];
-  std::vector<double> v = values(process);
-  const double precision = space.precision(process);
-  v[0] = std::max(most, 1.0) / precision;
-  set_values(process, v);
-  Model grown = current.fit.model.noise;
-  grown.terms.emplace_back(process);
-  out.push_back({.cause = cause,
-                 .added = NoiseChange{std::move(grown), process},
-                 .score_nats = most > 0.0 ? 0.5 * most * most : 0.0,
-                 .power = true,
-                 .search = {.path = path_length(directions)},
-                 .information = precision * precision});
-}
 
 template <class P>
 bool has(const Model& model) {
@@ -126,16 +33,6 @@ std::vector<Process> markov_family(double longest) {
   const int last = static_cast<int>(kEachOctave * std::log2(longest));
   for (int i = 0; i <= last; ++i)
     out.emplace_back(Ar1{1.0, std::exp(-1.0 / std::exp2(static_cast<double>(i) / kEachOctave))});
-  return out;
-}
-
-// Resonances of one damping, over their frequencies.
-std::vector<Process> resonance_family(double damping, double lowest) {
-  std::vector<Process> out;
-  for (double f = lowest; f < 0.48; f *= 1.0 + 0.7 * damping) {
-    const double omega = 2.0 * std::numbers::pi * f;
-    out.emplace_back(Resonance{1.0, std::exp(-damping * omega), omega});
-  }
   return out;
 }
 
@@ -179,6 +76,30 @@ void add_second_order(const Current& current, const ScoreSpace& space, double lo
   });
   if (special) best.score_nats = 0.0;
   out.push_back(std::move(best));
+}
+
+// A power law of any slope. It contains flicker noise, nearly a walk, and over a narrow band a
+// Markov process, so that it is offered only where it explains clearly more than any of them.
+void add_power_law(const Current& current, const ScoreSpace& space, Suggestions& out) {
+  constexpr double kClearly = 6.0;
+  if (has<PowerLaw>(current.fit.model.noise)) return;
+  std::vector<Process> family;
+  for (double slope = 0.3; slope < 1.9; slope += 0.1) family.emplace_back(PowerLaw{1.0, slope});
+  Suggestions found;
+  add_best(current, space, "power_law", family, found);
+  const auto objective = [&](const Suggestion& of) {
+    return whittle(std::get<NoiseChange>(of.added).start, current.pooled).objective;
+  };
+  const double reached = objective(found.front());
+  static constexpr std::string_view kSpecial[] = {"random_walk", "flicker", "gauss_markov",
+                                                  "second_order"};
+  const bool special = std::any_of(out.begin(), out.end(), [&](const Suggestion& other) {
+    const bool slow =
+        std::find(std::begin(kSpecial), std::end(kSpecial), other.cause) != std::end(kSpecial);
+    return slow && other.score_nats > 0.0 && objective(other) < reached + kClearly;
+  });
+  if (special) found.front().score_nats = 0.0;
+  out.push_back(std::move(found.front()));
 }
 
 // Correlation time, samples; 0 of a process that has none.
@@ -293,6 +214,15 @@ std::vector<Cause> noise_causes() {
        "flicker",
        true,
        true},
+      {"power_law",
+       "power-law noise",
+       "Noise whose power falls as a power of frequency, neither white noise, flicker noise nor a "
+       "walk: relaxation and diffusion with many time constants.",
+       "longer, together with the temperature",
+       {"flicker", "random_walk", "gauss_markov"},
+       "power_law",
+       true,
+       true},
       {"low_pass",
        "sensor bandwidth",
        "A filter on the chip removes the fastest noise; the spectrum rolls off.",
@@ -342,19 +272,9 @@ Suggestions search_noise(const Current& current) {
   add_simple<Flicker>(current, space, "flicker", out);
   const auto longest = static_cast<double>(current.subject().length(current.longest()));
   add_best(current, space, "gauss_markov", markov_family(longest / 4.0), out);
-  Suggestions resonances;
-  for (const double damping : {0.005, 0.02, 0.08, 0.25})
-    add_best(current, space, "resonance", resonance_family(damping, 20.0 / longest), resonances);
-  if (!resonances.empty()) {
-    auto best = std::max_element(
-        resonances.begin(), resonances.end(),
-        [](const Suggestion& a, const Suggestion& b) { return a.score_nats < b.score_nats; });
-    double path = 0.0;
-    for (const Suggestion& one : resonances) path += one.search.path;
-    best->search.path = path;
-    out.push_back(*best);
-  }
+  for (Suggestion& one : search_resonances(current, space)) out.push_back(std::move(one));
   add_second_order(current, space, longest / 4.0, out);
+  add_power_law(current, space, out);
   for (Suggestion& one : search_filters(current)) out.push_back(std::move(one));
   return out;
 }

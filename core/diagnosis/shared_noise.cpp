@@ -45,7 +45,7 @@ bool is_leak(const Coupling& one, const std::vector<Coupling>& all) {
 }
 
 struct SharedMotion {
-  const Witness* with = nullptr;  // null: none
+  const TriedTerm* with = nullptr;  // the coupling; null: none
   double gain = 0.0;
   double log_p = 0.0;
 };
@@ -57,7 +57,7 @@ SharedMotion shared_motion(const TriedTerm& noise, const std::vector<Coupling>& 
     const Suggestion& how = one.tried->suggestion;
     const double gain = fit_with(with, how).fit.log_likelihood - with.fit.log_likelihood;
     const double log_p = log_p_value(gain, how.dof, one.tried->noise_dof, how.power, how.search);
-    if (log_p < out.log_p) out = {one.witness, gain, log_p};
+    if (log_p < out.log_p) out = {one.tried, gain, log_p};
   }
   return out;
 }
@@ -83,8 +83,15 @@ void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double le
       found.emplace_back(&one, shared);
   }
   for (const auto& [one, shared] : found) {
+    const EffectTerm& coupling = *shared.with->term();
+    const Current with = current_of(one->fitted.regression, one->fitted.fit);
+    auto& noise = std::get<NoiseChange>(one->suggestion.added);
+    FittedModel both = fit_with(with, shared.with->suggestion);
+    noise.start = both.fit.model.noise;
+    noise.shared = coupling;
+    one->fitted = std::move(both);
     one->cause = "common_vibration";
-    one->shared_with = shared.with->name;
+    one->shared_with = coupling.witness;
     one->likelihood_gain += shared.gain;
     one->log_p += shared.log_p;
     one->gain = -one->log_p;

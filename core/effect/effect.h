@@ -28,6 +28,7 @@ struct JointFit;
 struct Regressors;
 struct ReportedNumber;
 struct Subject;
+struct VarianceCourse;
 struct Suggestion;
 struct TriedTerm;
 
@@ -125,8 +126,7 @@ struct Effect {
 
   // What it does to the variance.
   /// A course in each replicate that the logarithm of the noise's variance is proportional to.
-  const std::vector<SharedVector>& (*variance_course)(const EffectTerm& term,
-                                                      const Subject& subject) = nullptr;
+  VarianceCourse (*variance_course)(const EffectTerm& term, const Subject& subject) = nullptr;
   /// Gives each replicate noise of its own, and the likelihood of that.
   void (*own_noise)(const EffectTerm& term, const Regression& regression, JointFit& fit) = nullptr;
 

@@ -10,9 +10,12 @@
 namespace imunoise {
 namespace {
 
-Eigen::VectorXd centred_samples(const Signal& signal) {
-  Eigen::VectorXd out = samples_of(std::span(&signal, 1)).col(0);
-  out.array() -= out.mean();
+// `mean`: what was taken off.
+Eigen::VectorXd centred_samples(const Signal& signal, double& mean) {
+  Eigen::VectorXd out = samples_of(std::span(&signal, 1)).col(0);  // from the first sample on
+  const double rest = out.mean();
+  mean = signal.value(0) + rest;
+  out.array() -= rest;
   return out;
 }
 
@@ -61,7 +64,7 @@ Subject make_subject(const std::vector<Signal>& replicates,
     assert(channel.replicates.size() == count);
     out.witnesses.push_back({channel.name, channel.replicates[0].quantity(),
                              std::vector<SharedVector>(count), std::vector<SharedVector>(count),
-                             channel.unit});
+                             channel.unit, std::vector<double>(count)});
   }
   // One task a channel and replicate; the channel under study comes first.
   for_each_index((1 + witnesses.size()) * count, [&](std::size_t task) {
@@ -70,7 +73,10 @@ Subject make_subject(const std::vector<Signal>& replicates,
     const std::size_t channel = task / count;
     auto& samples = channel == 0 ? out.samples[k] : out.witnesses[channel - 1].samples[k];
     auto& cosines = channel == 0 ? out.cosines[k] : out.witnesses[channel - 1].cosines[k];
-    samples = centred_samples(channel == 0 ? replicates[k] : witnesses[channel - 1].replicates[k]);
+    double own = 0.0;  // the bias of a replicate tells nothing
+    double& mean = channel == 0 ? own : out.witnesses[channel - 1].levels[k];
+    samples =
+        centred_samples(channel == 0 ? replicates[k] : witnesses[channel - 1].replicates[k], mean);
     cosines = cosine_transform(samples);
   });
   std::erase_if(out.witnesses, [&](const Witness& one) {

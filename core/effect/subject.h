@@ -23,6 +23,16 @@ struct Witness {
   std::vector<SharedVector> samples;  ///< a replicate each, SI, mean zero
   std::vector<SharedVector> cosines;  ///< their cosine_transform()
   std::string unit{};                 ///< of the samples, where their quantity is unknown
+  std::vector<double> levels{};       ///< means that were taken off, SI; empty: none were
+};
+
+/// A course that the power of noise may follow.
+struct VarianceCourse {
+  std::vector<SharedVector> samples{};  ///< one series a replicate of the subject
+  std::vector<double> levels{};         ///< to be added to each; empty: nothing
+
+  const SharedVector& operator[](std::size_t replicate) const { return samples[replicate]; }
+  double level(std::size_t replicate) const { return levels.empty() ? 0.0 : levels[replicate]; }
 };
 
 /// Unit of a witness's samples; "1" where they have none.

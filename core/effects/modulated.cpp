@@ -15,8 +15,9 @@ namespace {
 
 enum ModulatedParameter : std::size_t { kModulatedSlope };
 
-const std::vector<SharedVector>& modulated_course(const EffectTerm& term, const Subject& subject) {
-  return subject.find(term.witness)->samples;
+VarianceCourse modulated_course(const EffectTerm& term, const Subject& subject) {
+  const Witness& channel = *subject.find(term.witness);
+  return {channel.samples, channel.levels};
 }
 
 std::string modulated_unit(const EffectTerm& term, const Subject& subject) {
@@ -26,8 +27,10 @@ std::string modulated_unit(const EffectTerm& term, const Subject& subject) {
 
 void simulate_modulated(const EffectTerm& term, const SimulatedReplicate& at,
                         Eigen::VectorXd& samples) {
-  const SharedVector& course = at.beside.find(term.witness)->samples[at.replicate];
-  samples.array() *= (0.5 * term[kModulatedSlope] * course.array()).exp();
+  // The noise has its own power at the mean of the first replicate.
+  const VarianceCourse course = modulated_course(term, at.beside);
+  const double level = course.level(at.replicate) - course.level(0);
+  samples.array() *= (0.5 * term[kModulatedSlope] * (course[at.replicate].array() + level)).exp();
 }
 
 // Squares of neighbours are not independent where the power wanders by itself: what the course
@@ -45,7 +48,7 @@ Suggestions search_modulated(const SearchView& view) {
   const std::vector<PowerView::Explained>& explained = view.power_explained();
   std::vector<std::optional<Suggestion>> each(witnesses.size());
   for_each_index(each.size(), [&](std::size_t w) {
-    const double gain = modulation_by(witnesses[w].samples, white).log_likelihood;
+    const double gain = modulation_by({witnesses[w].samples}, white).log_likelihood;
     const double chance = explained.empty() ? 1.0 : inflation_of(gain, explained[w]);
     each[w] = Suggestion{.cause = "modulated_variance",
                          .added = EffectTerm(modulated(), witnesses[w].name),
@@ -55,6 +58,13 @@ Suggestions search_modulated(const SearchView& view) {
   Suggestions out;
   for (auto& one : each) out.push_back(std::move(*one));
   return out;
+}
+
+// Differences between replicates are few, and another cause may make them: they are part of the
+// fit, and no evidence.
+void review_modulated(const Current&, TriedTerm& tried) {
+  const Suggestion& found = tried.suggestion;
+  tried.likelihood_gain = std::min(tried.likelihood_gain, found.score_nats * found.inflation);
 }
 
 std::vector<ReportedNumber> modulated_numbers(const FittedEffect& effect) {
@@ -93,6 +103,7 @@ const Effect& modulated() {
       .variance_course = modulated_course,
       .simulate = simulate_modulated,
       .search = search_modulated,
+      .review = review_modulated,
       .numbers = modulated_numbers,
   };
   return kModulated;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/effects/simulate_effects.h"
 #include "core/spectrum/cosine_transform.h"
@@ -14,6 +15,10 @@ using Index = Eigen::Index;
 
 // Effects are numbered within a simulation: those of other streams have another seed.
 constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15U;
+
+double mean_of(const std::vector<double>& samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
+}
 
 // The samples of a witness, mean zero; what a quick transform needs more of runs back from the end.
 Eigen::VectorXd prolonged(const std::vector<double>& samples, Index length) {
@@ -54,6 +59,8 @@ Result<Simulation> Simulation::make(FullModel model, SimulationSize size, std::u
   out.size_ = size;
   out.seed_ = seed;
   out.witnesses_ = std::move(witnesses);
+  for (std::size_t w = 0; w < out.witnesses_.size(); ++w)
+    out.empty_.witnesses[w].levels.assign(size.replicates, mean_of(out.witnesses_[w].samples(0)));
   return out;
 }
 
@@ -64,6 +71,7 @@ SimulatedSamples Simulation::replicate(std::uint32_t number) const {
   for (std::size_t w = 0; w < witnesses_.size(); ++w) {
     out.witnesses.push_back(witnesses_[w].samples(number));
     Eigen::VectorXd samples = prolonged(out.witnesses[w], beside.length(number));
+    beside.witnesses[w].levels[number] = mean_of(out.witnesses[w]);
     beside.witnesses[w].cosines[number] = cosine_transform(samples);
     beside.witnesses[w].samples[number] = std::move(samples);
   }

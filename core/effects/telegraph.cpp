@@ -44,7 +44,7 @@ FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regress
     auto subject = std::make_shared<Subject>(regression.subject());
     subject->own_nats.resize(subject->replicates(), 0.0);
     for (std::size_t k = 0; k < subject->replicates(); ++k)
-      subject->own_nats[k] += found.courses[k].log_places;
+      subject->own_nats[k] += found.courses[k].log_places - found.courses[k].log_width;
     const double price = log_places(found.courses);
     subject->keep(term, std::make_shared<FoundCourses>(std::move(found.courses)));
     Regression grown = regression.on(subject).with(term);

@@ -196,6 +196,41 @@ void refine(TwoLevels& found, const std::vector<StepProducts>& replicates) {
   weigh(found, replicates);
 }
 
+// How many places each jump could as well have, the others where they are: the sum of likelihoods
+// over its times, relative to its best (the marginal likelihood that Laplace's method gives). In
+// cells of the grid, as places are counted.
+void widen(TwoLevels& found, const std::vector<StepProducts>& replicates) {
+  constexpr Index kTimes = 256;  // at which each jump is tried
+  for_each_index(replicates.size(), [&](std::size_t k) {
+    const StepProducts& steps = replicates[k];
+    Course& course = found.courses[k];
+    const double cell = static_cast<double>(steps.size()) / kGrid;
+    const auto worth = [&](const Course& one) {
+      const Fit fit = fit_of(one, steps);
+      return found.height * (fit.product - 0.5 * found.height * fit.information);
+    };
+    const double best = worth(course);
+    for (std::size_t i = 0; i < course.jumps.size(); ++i) {
+      const Index first = i > 0 ? course.jumps[i - 1] + 1 : 1;
+      const Index last = i + 1 < course.jumps.size() ? course.jumps[i + 1] - 1 : steps.size() - 1;
+      Course moved = course;
+      // Near its best time in steps of one sample, then in wider and wider ones.
+      double sum = 1.0;
+      for (const Index direction : {-1, 1}) {
+        const Index room = direction < 0 ? course.jumps[i] - first : last - course.jumps[i];
+        Index done = 0;
+        for (Index n = 0; n < kTimes && done < room; ++n) {
+          const Index stride = std::min(room - done, 1 + done / 16);
+          done += stride;
+          moved.jumps[i] = course.jumps[i] + direction * done;
+          sum += static_cast<double>(stride) * std::exp(std::min(0.0, worth(moved) - best));
+        }
+      }
+      course.log_width += std::log(sum / cell);
+    }
+  });
+}
+
 // The height of the pulse that gains most in any replicate.
 double best_pulse(const std::vector<Grid>& grids) {
   double most = 0.0;
@@ -244,6 +279,7 @@ TwoLevels find_two_levels(const std::vector<StepProducts>& replicates) {
     }
   }
   refine(best, replicates);
+  widen(best, replicates);
   for (std::size_t k = 0; k < best.courses.size(); ++k)
     best.courses[k].cosines = cosine_transform(samples_of(best.courses[k], replicates[k].size()));
   return best;

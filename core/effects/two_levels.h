@@ -12,6 +12,7 @@ struct TwoLevelCourse {
   double start = -0.5;                ///< the first level
   std::vector<Eigen::Index> jumps{};  ///< samples before which it jumps, rising
   double log_places = 0.0;            ///< logarithm of how many courses have as many jumps
+  double log_width = 0.0;             ///< logarithm of how many of these are as good as this one
   SharedVector cosines{};             ///< its cosine_transform()
 };
 

@@ -42,7 +42,11 @@ double spectrum(const Process& process, double f) {
 Eigen::ArrayXd spectrum(const Process& process, const Eigen::ArrayXd& f) {
   return std::visit(
       [&](const auto& p) -> Eigen::ArrayXd {
-        return f.unaryExpr([&](double at) { return p.spectrum(at); });
+        if constexpr (requires { p.spectra(f); }) {
+          return p.spectra(f);
+        } else {
+          return f.unaryExpr([&](double at) { return p.spectrum(at); });
+        }
       },
       process);
 }

@@ -12,10 +12,12 @@
 #include "core/process/flicker.h"
 #include "core/process/gauss_markov.h"
 #include "core/process/moving_average.h"
+#include "core/process/power_law.h"
 #include "core/process/quantisation_noise.h"
 #include "core/process/random_walk.h"
 #include "core/process/rate_ramp.h"
 #include "core/process/resonance.h"
+#include "core/process/voigt.h"
 #include "core/process/white_noise.h"
 
 namespace imunoise {
@@ -23,9 +25,9 @@ namespace imunoise {
 template <NoiseProcess... P>
 using ProcessVariant = std::variant<P...>;
 
-using Process =
-    ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, RateRamp, Ar1, Ar2, GaussMarkov,
-                   Resonance, MovingAverage, MovingAverageFilter, BartlettFilter, Flicker>;
+using Process = ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, RateRamp, Ar1, Ar2,
+                               GaussMarkov, Resonance, Voigt, MovingAverage, MovingAverageFilter,
+                               BartlettFilter, Flicker, PowerLaw>;
 
 // The contract, on the variant.
 const ProcessInfo& info(const Process& process);

@@ -37,14 +37,14 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
   if (const auto& nats = regression.subject().reshaped_nats; !nats.empty()) {
     for (const std::size_t k : regression.replicates()) out.log_likelihood += nats[k];
   }
-  const std::vector<const VarianceCourse*> courses = variance_courses(regression);
+  const std::vector<VarianceCourse> courses = variance_courses(regression);
   if (courses.empty()) return out;
   // Each explains what those before it leave.
   Innovations white = innovations(regression, out);
-  for (const VarianceCourse* course : courses) {
-    out.modulation.push_back(modulation_by(*course, white));
+  for (const VarianceCourse& course : courses) {
+    out.modulation.push_back(modulation_by(course, white));
     out.log_likelihood += out.modulation.back().log_likelihood;
-    take_out(out.modulation.back(), *course, white);
+    take_out(out.modulation.back(), course, white);
   }
   return out;
 }
@@ -69,17 +69,17 @@ Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit, s
         std::sqrt(level(b));
   }
   Eigen::VectorXd out = rough_inverse_cosine_transform(left);  // white: no digits to lose
-  const std::vector<const VarianceCourse*> courses = variance_courses(regression);
+  const std::vector<VarianceCourse> courses = variance_courses(regression);
   for (std::size_t m = 0; m < fit.modulation.size(); ++m)
-    take_out(fit.modulation[m], (*courses[m])[k], out);
+    take_out(fit.modulation[m], courses[m], k, out);
   return out;
 }
 
-std::vector<const VarianceCourse*> variance_courses(const Regression& regression) {
-  std::vector<const VarianceCourse*> out;
+std::vector<VarianceCourse> variance_courses(const Regression& regression) {
+  std::vector<VarianceCourse> out;
   for (const EffectTerm& term : regression.effects()) {
     if (term.effect->variance_course != nullptr)
-      out.push_back(&term.effect->variance_course(term, regression.subject()));
+      out.push_back(term.effect->variance_course(term, regression.subject()));
   }
   return out;
 }

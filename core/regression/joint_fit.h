@@ -35,7 +35,7 @@ Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit,
                             std::size_t replicate);
 
 /// The courses that the effects say the variance follows, in their order.
-std::vector<const VarianceCourse*> variance_courses(const Regression& regression);
+std::vector<VarianceCourse> variance_courses(const Regression& regression);
 
 /// Spectrum of a noise model at the coefficients 1 … n-1 of a cosine transform of length n, taken
 /// as straight within each band. Unit² per cycle/sample.

@@ -23,10 +23,11 @@ Stretches stretches_of(const VarianceCourse& course, const Innovations& innovati
   Index place = 0;
   for (std::size_t i = 0; i < innovations.white.size(); ++i) {
     const Eigen::VectorXd& y = innovations.white[i];
-    const SharedVector& c = course[innovations.replicates[i]];
+    const std::size_t k = innovations.replicates[i];
+    const SharedVector& c = course[k];
     for (Index t = 0; t + kStretch <= y.size(); t += kStretch, ++place) {
       out.power(place) = y.segment(t, kStretch).squaredNorm();
-      out.course(place) = c.segment(t, kStretch).mean();
+      out.course(place) = course.level(k) + c.segment(t, kStretch).mean();
     }
   }
   return out;
@@ -72,13 +73,15 @@ Modulation modulation_by(const VarianceCourse& course, const Innovations& innova
 void take_out(const Modulation& modulation, const VarianceCourse& course,
               Innovations& innovations) {
   for (std::size_t i = 0; i < innovations.white.size(); ++i)
-    take_out(modulation, course[innovations.replicates[i]], innovations.white[i]);
+    take_out(modulation, course, innovations.replicates[i], innovations.white[i]);
 }
 
-void take_out(const Modulation& modulation, const VectorRef& course, Eigen::VectorXd& white) {
+void take_out(const Modulation& modulation, const VarianceCourse& course, std::size_t replicate,
+              Eigen::VectorXd& white) {
+  const double from = modulation.mean - course.level(replicate);
   for (Index t = 0; t < white.size(); t += kStretch) {
     const Index size = std::min(kStretch, white.size() - t);
-    const double at = (course.segment(t, size).mean() - modulation.mean) / modulation.deviation;
+    const double at = (course[replicate].segment(t, size).mean() - from) / modulation.deviation;
     white.segment(t, size) /= std::sqrt(modulation.level * std::exp(modulation.slope * at));
   }
 }

@@ -14,9 +14,6 @@ struct Innovations {
   std::vector<Eigen::VectorXd> white;   ///< one each
 };
 
-/// A course that the power of noise may follow: one series a replicate of the subject.
-using VarianceCourse = std::vector<SharedVector>;
-
 /// How the power of the noise follows a course c: variance · level · exp(b · (c - mean)/deviation).
 struct Modulation {
   double slope = 0.0;           ///< b, per standard deviation of the course
@@ -32,8 +29,9 @@ Modulation modulation_by(const VarianceCourse& course, const Innovations& innova
 
 /// Divides innovations by what a modulation makes of their deviation.
 void take_out(const Modulation& modulation, const VarianceCourse& course, Innovations& innovations);
-/// The same of one replicate; `course`: its samples there.
-void take_out(const Modulation& modulation, const VectorRef& course, Eigen::VectorXd& white);
+/// The same of one replicate.
+void take_out(const Modulation& modulation, const VarianceCourse& course, std::size_t replicate,
+              Eigen::VectorXd& white);
 
 /// What a modulation gains on innovations that it was not estimated from, nats.
 double predicted_gain(const Modulation& modulation, const VarianceCourse& course,

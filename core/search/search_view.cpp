@@ -44,7 +44,7 @@ const std::vector<PowerView::Explained>& SearchView::power_explained() const {
   if (view == nullptr) return *explained_;
   explained_->resize(subject().witnesses.size());
   for_each_index(explained_->size(), [&](std::size_t w) {
-    (*explained_)[w] = view->explained(subject().witnesses[w].samples);
+    (*explained_)[w] = view->explained({subject().witnesses[w].samples});
   });
   return *explained_;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -13,6 +14,8 @@ namespace imunoise {
 struct NoiseChange {
   Model start;    ///< the whole noise with it, every value set
   Process added;  ///< it alone
+  /// What another sensor feels of it, where it is shared.
+  std::optional<EffectTerm> shared{};
 };
 
 /// A term of a model: of its noise, or beside it.

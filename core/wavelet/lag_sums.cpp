@@ -117,14 +117,16 @@ LagSums::LagSums(std::span<const SumCovariance> processes, const Scales& scales,
   assert(scales.empty() || static_cast<std::size_t>(2 * scales.largest()) <= samples);
   const auto total = static_cast<std::int64_t>(samples);
   const auto count = [&](std::int64_t m) { return static_cast<double>(total - 2 * m + 1); };
+  std::vector<LagTable> tables;
+  for (const SumCovariance& process : processes) tables.emplace_back(process, samples);
   // Rows are unequal in cost: hand out the longest first.
   for_each_index(scales.size(), [&](std::size_t row) {
     const std::size_t j = scales.size() - 1 - row;
     for (std::size_t k = 0; k <= j; ++k) {
       std::vector<ScaleCovariance> gammas;
       double tail = 0.0;
-      for (const SumCovariance& process : processes) {
-        gammas.emplace_back(process, scales[j], scales[k]);
+      for (std::size_t p = 0; p < processes.size(); ++p) {
+        gammas.emplace_back(processes[p], scales[j], scales[k], &tables[p]);
         tail = std::max(tail, gammas.back().tail_reach());
       }
       const auto reach = static_cast<std::int64_t>(std::min(tail, static_cast<double>(samples)));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/wavelet/discrete_quadrature.h"
+#include "core/wavelet/lag_table.h"
 #include "core/wavelet/sum_covariance.h"
 #include "core/wavelet/sum_covariance_terms.h"
 
@@ -18,8 +19,11 @@ namespace imunoise {
 /// real lag s, and how finely it must be sampled to be summed over every integer.
 class ScaleCovariance {
  public:
-  ScaleCovariance(const SumCovariance& process, std::int64_t mj, std::int64_t mk)
+  /// Borrows the process, and its table where there is one.
+  ScaleCovariance(const SumCovariance& process, std::int64_t mj, std::int64_t mk,
+                  const LagTable* table = nullptr)
       : process_(process),
+        table_(table),
         mj_(static_cast<double>(mj)),
         mk_(static_cast<double>(mk)),
         linear_(process.linear),
@@ -29,7 +33,8 @@ class ScaleCovariance {
       e.rate = -part.log_root;
       e.kernel = -part.amplitude * part.root / (part.one_minus_root * part.one_minus_root);
       e.real = e.rate.imag() == 0.0 && e.kernel.imag() == 0.0;
-      e.split = std::abs(e.rate) * 2.0 * (mj_ + mk_) < kSmooth;
+      e.held = table != nullptr && table->holds(exponentials_.size());
+      e.split = !e.held && std::abs(e.rate) * 2.0 * (mj_ + mk_) < kSmooth;
       if (e.split) {
         linear_ += (e.kernel * sinh_minus_argument(e.rate)).real();
         cubic_ -= (e.kernel * e.rate * e.rate * e.rate / 6.0).real();
@@ -57,7 +62,12 @@ class ScaleCovariance {
         if (at < process_.near.size()) sum += weight * process_.near[at];
       });
     }
-    for (const Exponential& e : exponentials_) sum += exponential(e, s, beyond);
+    const bool tabulated = table_ != nullptr && s == std::floor(s);
+    if (tabulated)
+      for_each_lag(s, [&](double weight, double lag) { sum += weight * (*table_)(lag); });
+    for (const Exponential& e : exponentials_) {
+      if (!tabulated || !e.held) sum += exponential(e, s, beyond);
+    }
     if (process_.flicker > 0.0) sum += process_.flicker * flicker(s, beyond);
     return sum / (4.0 * mj_ * mk_);
   }
@@ -104,6 +114,7 @@ class ScaleCovariance {
     Complex tail;    // the same after both wavelets, beyond the support
     bool real;
     bool split;  // polynomials split off, see sum_covariance_terms.h
+    bool held;   // in the table
   };
 
   template <class Visit>
@@ -162,6 +173,7 @@ class ScaleCovariance {
   }
 
   const SumCovariance& process_;
+  const LagTable* table_;
   double mj_;
   double mk_;
   double linear_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/useless.h"
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/comparison.h"
@@ -128,7 +129,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
         "One replicate: its four quarters stand in for replicates, each predicted from the others. "
         "That is weaker proof: record again after a restart to be sure.");
 
-  FittedModel model = fit_full_model(subject, *start, progress.part(0.2, 0.25));
+  FittedModel model = fit_with_resonances(subject, *start, progress.part(0.2, 0.25));
   out.set_model(print(model.fit.model));
   out.set_fitted_model(print_with_values(FullModel{model.fit.model.noise, sized_effects(model)}));
   out.set_estimator(likelihood_estimator(moments_estimator(subject->replicates())));

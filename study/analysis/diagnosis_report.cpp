@@ -142,9 +142,10 @@ std::string integral_unit(Quantity quantity) {
 
 std::string printed(const AddedTerm& added) {
   if (const auto* term = std::get_if<EffectTerm>(&added)) return print(*term);
+  const auto& change = std::get<NoiseChange>(added);
   Model alone;
-  alone.terms.emplace_back(std::get<NoiseChange>(added).added);
-  return print(alone);
+  alone.terms.emplace_back(change.added);
+  return change.shared ? fmt::format("{} + {}", print(alone), print(*change.shared)) : print(alone);
 }
 
 void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to) {

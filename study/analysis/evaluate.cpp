@@ -1,6 +1,7 @@
 #include "study/analysis/evaluate.h"
 
 #include "core/diagnosis/heldout.h"
+#include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/less_effects.h"
@@ -24,7 +25,7 @@ Result<v1::Rung> evaluate(const std::string& model, const PreparedChannel& prepa
                           const Step& step, const Progress& progress) {
   const Result<FullModel> start = started(model, prepared, progress.part(0.0, 0.1));
   if (!start) return tl::unexpected(start.error());
-  const FittedModel trial = fit_full_model(prepared.subject, *start, progress.part(0.1, 0.3));
+  const FittedModel trial = fit_with_resonances(prepared.subject, *start, progress.part(0.1, 0.3));
   const std::optional<HeldOut> heldout = held_out_of(trial);
   progress.report(0.7);
   const MisfitReport misfit = misfit_of(trial);

@@ -76,6 +76,7 @@ CacheFile record_of(const PreparedChannel& prepared) {
 CacheFile record_of(const Witness& witness, Hertz rate) {
   CacheFile out = file_of(witness.name, witness.quantity, rate, witness.samples, witness.cosines);
   out.header.set_unit(witness.unit);
+  for (const double level : witness.levels) out.header.add_levels(level);
   return out;
 }
 
@@ -108,8 +109,12 @@ std::optional<PreparedChannel> channel_of(const CacheFile& file) {
 std::optional<Witness> witness_of(const CacheFile& file) {
   const auto unit = parse_unit(file.header.quantity());
   if (!unit || !hangs_together(file)) return std::nullopt;
-  return Witness{file.header.channel(), unit->quantity, every_second(file.arrays, 0),
-                 every_second(file.arrays, 1), file.header.unit()};
+  Witness out{file.header.channel(),        unit->quantity,     every_second(file.arrays, 0),
+              every_second(file.arrays, 1), file.header.unit(), {}};
+  const auto& levels = file.header.levels();
+  if (static_cast<std::size_t>(levels.size()) != out.samples.size()) return std::nullopt;
+  out.levels.assign(levels.begin(), levels.end());
+  return out;
 }
 
 }  // namespace imunoise::study

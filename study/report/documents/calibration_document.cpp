@@ -65,8 +65,9 @@ Table in_words(const v1::ChannelCalibration& channel) {
   if (channel.has_diagnosis()) {
     out.rows.push_back({"missing effect", channel.diagnosis().summary()});
     if (channel.diagnosis().verdict() != v1::none) {
-      for (const v1::EffectCandidate& one : channel.diagnosis().candidates())
-        out.rows.push_back({one.effect(), one.sentence()});
+      for (const v1::EffectCandidate& one : channel.diagnosis().candidates()) {
+        if (beyond_chance(one)) out.rows.push_back({one.effect(), one.sentence()});
+      }
     }
   }
   return out;

@@ -17,7 +17,6 @@ namespace imunoise::report {
 namespace {
 
 constexpr int kMostShown = 8;
-constexpr int kAlwaysShown = 2;  // the others only if they are not mere chance
 
 // "WN + RW" for the first rung, "+ RES − AR1" for what came after.
 std::string name_of(const v1::Rung& rung) {
@@ -105,13 +104,12 @@ std::string confusions(const v1::EffectCandidate& one) {
 }
 
 Table candidate_table(const v1::DiagnosisReport& report, Digits digits) {
-  Table out{report.verdict() == v1::none ? "Candidates tried, best first"
-                                         : "Effects that may be missing, best first",
+  Table out{"Effects that may be missing, best first",
             {"effect", "term", "gain", "p", "unexplained", "looks like"},
             {}};
   for (int i = 0; i < std::min(kMostShown, report.candidates_size()); ++i) {
     const v1::EffectCandidate& one = report.candidates(i);
-    if (i >= kAlwaysShown && one.familywise_p() >= 0.5) break;
+    if (!beyond_chance(one)) continue;
     const std::string gain = nats(one.gain_nats(), 3, digits);
     if (gain.empty() && !one.term().empty()) continue;  // a defect of the samples has no gain
     out.rows.push_back({one.effect(), one.term(), gain, p_value(one.familywise_p(), digits),
@@ -252,7 +250,8 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
   if (report.integrity_size() > 0) out.tables.push_back(integrity_table(report));
   if (report.misfits_size() > 0) out.tables.push_back(misfit_table(report));
   if (report.candidates_size() > 0) {
-    out.tables.push_back(candidate_table(report, digits));
+    if (Table listed = candidate_table(report, digits); !listed.rows.empty())
+      out.tables.push_back(std::move(listed));
     if (report.verdict() == v1::found || report.verdict() == v1::one_of)
       out.tables.push_back(effect_table(report.candidates(0), digits));
   }

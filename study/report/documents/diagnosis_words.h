@@ -12,4 +12,8 @@ struct VerdictWords {
 
 VerdictWords diagnosis_words(const v1::DiagnosisReport& report);
 
+/// Whether noise alone makes a search look as good less often than once in twenty. Other candidates
+/// are not listed.
+inline bool beyond_chance(const v1::EffectCandidate& one) { return one.familywise_p() < 0.05; }
+
 }  // namespace imunoise::report

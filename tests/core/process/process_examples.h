@@ -31,7 +31,12 @@ inline std::vector<Process> process_examples() {
           MovingAverage{2.0, {0.7, -0.2, 0.1}},
           MovingAverageFilter{1.0, 5},
           BartlettFilter{1.0, 4},
-          Flicker{0.8}};
+          Flicker{0.8},
+          PowerLaw{0.7, 0.5},
+          PowerLaw{0.2, 1.4},
+          Voigt{1.0, 0.97, 1.2, 0.05},
+          Voigt{0.5, 0.9, 3.0, 0.1},
+          Voigt{2.0, 0.95, 0.2, 0.08}};
 }
 
 }  // namespace imunoise

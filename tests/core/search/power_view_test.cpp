@@ -29,7 +29,7 @@ VarianceCourse courses(std::uint64_t seed) {
   VarianceCourse out;
   for (std::uint32_t k = 0; k < kPowerReplicates; ++k) {
     const std::vector<double> x = slow_course(seed, k);
-    out.emplace_back(Eigen::VectorXd(
+    out.samples.emplace_back(Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()))));
   }
   return out;

@@ -80,7 +80,8 @@ bool Outcome::abstained() const {
 
 bool Outcome::described() const {
   static const std::vector<std::string> kNoises = {"white_noise",  "random_walk", "gauss_markov",
-                                                   "second_order", "flicker",     "resonance"};
+                                                   "second_order", "flicker",     "resonance",
+                                                   "power_law"};
   return report.verdict() == v1::found && report.candidates_size() > 0 &&
          contains(kNoises, report.candidates(0).effect());
 }

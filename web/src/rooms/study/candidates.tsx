@@ -2,7 +2,7 @@
 import { useState } from "preact/hooks";
 import type { EffectCandidate, Study } from "../../api/schema";
 import { number, withUnit } from "../../parts/numbers";
-import { currentRung, errorOf, surety, withNumber } from "./model";
+import { beyondChance, currentRung, errorOf, surety, withNumber } from "./model";
 import type { StudyStore } from "./study_store";
 
 const percent = (p: number): string => (p < 1e-4 ? "less than 0.01 %" : `${number(100 * p, 2)} %`);
@@ -39,7 +39,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
   const nothing = study.diagnosis?.verdict === "none";
   const [shownHere, show] = useState<number | null>(null);
   const open = shownHere ?? (nothing ? -1 : 0);
-  const all = study.diagnosis?.candidates ?? [];
+  const all = (study.diagnosis?.candidates ?? []).filter(beyondChance);
   const preview = store.preview.value;
   if (!study.diagnosis) {
     return store.busy.value ? null : (
@@ -69,7 +69,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
                 <span class="fill" />
                 {one.term && <>
                   <button type="button" aria-pressed={shown} disabled={still && !one.next} onClick={() => void store.foresee(shown ? "" : one.term)}>Preview</button>
-                  <button type="button" class={sure.mood === "plain" ? "" : "main"} disabled={still} onClick={() => void store.add(one.term)}>Add</button>
+                  <button type="button" class="main" disabled={still} onClick={() => void store.add(one.term)}>Add</button>
                 </>}
               </div>
               {open === i && <Details candidate={one} />}

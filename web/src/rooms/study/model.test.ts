@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import type { Study } from "../../api/schema";
-import { brief, errorOf, mayRedo, path, split, surety, verdict, without } from "./model";
+import { beyondChance, brief, errorOf, mayRedo, path, split, surety, verdict, without } from "./model";
 
 const rung = (model: string, added = "") => ({ model, added, views: [], drift: [] });
 const study = (attempts: unknown[], current: number) => ({ attempts, current }) as unknown as Study;
@@ -48,5 +48,9 @@ test("a candidate with rivals is not sure", () => {
   expect(one(1e-6, [])).toBe("sure");
   expect(one(1e-6, ["ramp"])).toBe("or a rival");
   expect(one(0.01, [])).toBe("likely");
-  expect(one(0.2, [])).toBe("may be chance");
+});
+
+test("what noise alone makes once in twenty is not listed", () => {
+  expect(beyondChance({ familywise_p: 0.049 } as never)).toBe(true);
+  expect(beyondChance({ familywise_p: 0.2 } as never)).toBe(false);
 });

@@ -65,7 +65,7 @@ export interface VerdictWords {
 
 export function verdict(study: Study): VerdictWords {
   const found = study.diagnosis;
-  const best = found?.candidates[0];
+  const best = found?.candidates.find(beyondChance);
   const name = best ? withNumber(best) : "";
   switch (found?.verdict) {
     case "found": return { mood: "alarm", sign: "✗", words: `something is missing: ${name}` };
@@ -82,9 +82,11 @@ export function withNumber(candidate: EffectCandidate): string {
   return frequency ? `${candidate.title} at ${Number(frequency.value.toPrecision(4))} Hz` : candidate.title;
 }
 
+/** Whether noise alone makes a search look this good less often than once in twenty. Others are not listed. */
+export const beyondChance = (candidate: EffectCandidate): boolean => candidate.familywise_p < 0.05;
+
 /** How sure a candidate is, by the chance that noise alone looks this good. */
-export function surety(candidate: EffectCandidate): { words: string; mood: "good" | "doubt" | "plain" } {
-  if (candidate.familywise_p >= 0.05) return { words: "may be chance", mood: "plain" };
+export function surety(candidate: EffectCandidate): { words: string; mood: "good" | "doubt" } {
   if (candidate.confused_with.length > 0) return { words: "or a rival", mood: "doubt" };
   return { words: candidate.familywise_p < 1e-3 ? "sure" : "likely", mood: "good" };
 }

@@ -1,0 +1,145 @@
+#include "core/process/voigt.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace imunoise {
+namespace {
+
+// A damped oscillation of the comb.
+struct Tooth {
+  double place = 0.0;   // x, in standard deviations of the spread
+  double weight = 0.0;  // of the driving variance
+};
+
+constexpr std::size_t kTeeth = 15;
+
+const std::array<Tooth, kTeeth>& comb() {
+  static const std::array<Tooth, kTeeth> kComb = [] {
+    constexpr double kStep = 0.4;
+    std::array<Tooth, kTeeth> out{};
+    double total = 0.0;
+    for (std::size_t j = 0; j < kTeeth; ++j) {
+      out[j].place = kStep * (static_cast<double>(j) - 0.5 * (kTeeth - 1));
+      out[j].weight = std::exp(-0.5 * out[j].place * out[j].place);
+      total += out[j].weight;
+    }
+    for (Tooth& tooth : out) tooth.weight /= total;
+    return out;
+  }();
+  return kComb;
+}
+
+// The oscillation of a tooth. A frequency beyond 0 or π is its mirror image; at these two the
+// amplitude has no closed form.
+struct Oscillation {
+  Resonance process;
+  double by_omega = 1.0;  // d(its frequency)/dω
+
+  Oscillation(const Voigt& of, const Tooth& tooth) {
+    constexpr double kPi = std::numbers::pi;
+    constexpr double kEnd = 1e-6;
+    double at = of.omega + of.spread * tooth.place;
+    if (at < 0.0 || at > kPi) {
+      at = at < 0.0 ? -at : 2.0 * kPi - at;
+      by_omega = -1.0;
+    }
+    process = {of.sigma2 * tooth.weight, of.r, std::clamp(at, kEnd, kPi - kEnd)};
+  }
+};
+
+}  // namespace
+
+std::vector<ParameterInfo> Voigt::parameters() const {
+  std::vector<ParameterInfo> out = Resonance{}.parameters();
+  out[0].meaning = "variance of all driving noise";
+  out[1].meaning = "decay of each oscillation per sample";
+  out[2].meaning = "middle frequency in radians per sample";
+  out.push_back({"spread", "standard deviation of the frequency in radians per sample",
+                 Dimension::kPurePerSample, 1e-4, 1.0, true});
+  return out;
+}
+
+Eigen::ArrayXd Voigt::shape(HalfWidths m) const {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(m.size());
+  for (const Tooth& tooth : comb())
+    out += tooth.weight * Oscillation(*this, tooth).process.shape(m);
+  return out;
+}
+
+Eigen::ArrayXXd Voigt::shape_jacobian(HalfWidths m) const {
+  Eigen::ArrayXXd out = Eigen::ArrayXXd::Zero(m.size(), 3);
+  for (const Tooth& tooth : comb()) {
+    const Oscillation one(*this, tooth);
+    const Eigen::ArrayXXd slope = tooth.weight * one.process.shape_jacobian(m);
+    out.col(0) += slope.col(0);
+    out.col(1) += one.by_omega * slope.col(1);
+    out.col(2) += one.by_omega * tooth.place * slope.col(1);
+  }
+  return out;
+}
+
+double Voigt::spectrum(double f) const { return spectra(Eigen::ArrayXd::Constant(1, f))(0); }
+
+// |1 - 2r cos ω z + r²z²|², z = e^-iθ, is 4r²(cos θ - (1 + r²)/2r · cos ω)² + (1 - r²)² sin² ω;
+// cosines as 1 - 2 sin² of half the angle, whose digits do not cancel.
+Eigen::ArrayXd Voigt::spectra(const Eigen::ArrayXd& f) const {
+  const Eigen::ArrayXd low = 2.0 * (std::numbers::pi * f).sin().square();  // 1 - cos θ
+  const double loss = (1.0 - r) * (1.0 + r);
+  const double shift = (1.0 - r) * (1.0 - r) / (2.0 * r);  // (1 + r²)/2r - 1
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(f.size());
+  for (const Tooth& tooth : comb()) {
+    const Resonance one = Oscillation(*this, tooth).process;
+    const double half = std::sin(0.5 * one.omega);
+    const double centre = 2.0 * half * half - shift * std::cos(one.omega);
+    const double floor = loss * std::sin(one.omega);
+    out += one.sigma2 / (4.0 * r * r * (low - centre).square() + floor * floor);
+  }
+  return out;
+}
+
+SumCovariance Voigt::sum_covariance() const {
+  SumCovariance out;
+  for (const Tooth& tooth : comb()) out += Oscillation(*this, tooth).process.sum_covariance();
+  return out;
+}
+
+std::vector<DerivedQuantity> Voigt::derived(Hertz rate) const {
+  double variance = 0.0;
+  for (const ExponentialCovariance& one : sum_covariance().exponentials)
+    variance += one.amplitude.real();
+  // The half-width of a Lorentzian smeared by a Gaussian, to 0.02 % (Olivero & Longbothum 1977).
+  const double lorentz = -std::log(r);
+  const double gauss = std::sqrt(2.0 * std::numbers::ln2) * spread;
+  const double half = 0.5346 * lorentz + std::hypot(std::sqrt(0.2166) * lorentz, gauss);
+  return {{Coefficient::kFrequency, omega * rate.value / (2.0 * std::numbers::pi)},
+          {Coefficient::kDampingRatio, half / std::hypot(half, omega)},
+          {Coefficient::kAmplitude, std::sqrt(variance)}};
+}
+
+std::vector<std::vector<double>> Voigt::scan(const Scales& scales) const {
+  std::vector<std::vector<double>> out;
+  for (const std::vector<double>& one : Resonance{}.scan(scales)) {
+    const double lorentz = -std::log(one[0]);
+    if (lorentz > 0.2) continue;  // hardly rings
+    out.push_back({one[0], one[1], 2.0 * lorentz});
+  }
+  return out;
+}
+
+double Voigt::Recursion::next(RandomStream& rng) {
+  double out = 0.0;
+  for (SecondOrderRecursion& one : parts_) out += one.next(rng);
+  return out;
+}
+
+Voigt::Recursion Voigt::recursion(RandomStream& rng) const {
+  Recursion out;
+  for (const Tooth& tooth : comb())
+    out.parts_.push_back(Oscillation(*this, tooth).process.recursion(rng));
+  return out;
+}
+
+}  // namespace imunoise
