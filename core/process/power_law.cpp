@@ -50,13 +50,15 @@ std::vector<ParameterInfo> PowerLaw::parameters() const {
            1.95}};
 }
 
+std::vector<Ar1> PowerLaw::parts() const {
+  std::vector<Ar1> out;
+  for (const double rate : rates()) out.push_back(part_of(*this, rate));
+  return out;
+}
+
 Eigen::ArrayXd PowerLaw::shape(HalfWidths m) const {
-  const PowerLaw unit{1.0, slope};
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(m.size());
-  for (const double rate : rates()) {
-    const Ar1 part = part_of(unit, rate);
-    out += part.sigma2 * part.shape(m);
-  }
+  for (const Ar1& part : PowerLaw{1.0, slope}.parts()) out += part.sigma2 * part.shape(m);
   return out;
 }
 
@@ -76,8 +78,7 @@ double PowerLaw::spectrum(double f) const { return spectra(Eigen::ArrayXd::Const
 Eigen::ArrayXd PowerLaw::spectra(const Eigen::ArrayXd& f) const {
   const Eigen::ArrayXd square = 4.0 * (std::numbers::pi * f).sin().square();
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(f.size());
-  for (const double rate : rates()) {
-    const Ar1 part = part_of(*this, rate);
+  for (const Ar1& part : parts()) {
     const double loss = 1.0 - part.phi;
     out += part.sigma2 / (loss * loss + part.phi * square);
   }
@@ -86,7 +87,7 @@ Eigen::ArrayXd PowerLaw::spectra(const Eigen::ArrayXd& f) const {
 
 SumCovariance PowerLaw::sum_covariance() const {
   SumCovariance out;
-  for (const double rate : rates()) out += part_of(*this, rate).sum_covariance();
+  for (const Ar1& part : parts()) out += part.sum_covariance();
   return out;
 }
 
@@ -102,7 +103,7 @@ double PowerLaw::Recursion::next(RandomStream& rng) {
 
 PowerLaw::Recursion PowerLaw::recursion(RandomStream& rng) const {
   Recursion out;
-  for (const double rate : rates()) out.parts_.push_back(part_of(*this, rate).recursion(rng));
+  for (const Ar1& part : parts()) out.parts_.push_back(part.recursion(rng));
   return out;
 }
 

@@ -26,6 +26,8 @@ struct PowerLaw {
     a2 = v[0];
     slope = v[1];
   }
+  /// The Markov processes that it is the sum of.
+  std::vector<Ar1> parts() const;
   Eigen::ArrayXd shape(HalfWidths m) const;
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const;
   double spectrum(double f) const;

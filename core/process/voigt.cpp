@@ -62,6 +62,12 @@ std::vector<ParameterInfo> Voigt::parameters() const {
   return out;
 }
 
+std::vector<Resonance> Voigt::parts() const {
+  std::vector<Resonance> out;
+  for (const Tooth& tooth : comb()) out.push_back(Oscillation(*this, tooth).process);
+  return out;
+}
+
 Eigen::ArrayXd Voigt::shape(HalfWidths m) const {
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(m.size());
   for (const Tooth& tooth : comb())
@@ -90,8 +96,7 @@ Eigen::ArrayXd Voigt::spectra(const Eigen::ArrayXd& f) const {
   const double loss = (1.0 - r) * (1.0 + r);
   const double shift = (1.0 - r) * (1.0 - r) / (2.0 * r);  // (1 + r²)/2r - 1
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(f.size());
-  for (const Tooth& tooth : comb()) {
-    const Resonance one = Oscillation(*this, tooth).process;
+  for (const Resonance& one : parts()) {
     const double half = std::sin(0.5 * one.omega);
     const double centre = 2.0 * half * half - shift * std::cos(one.omega);
     const double floor = loss * std::sin(one.omega);
@@ -102,7 +107,7 @@ Eigen::ArrayXd Voigt::spectra(const Eigen::ArrayXd& f) const {
 
 SumCovariance Voigt::sum_covariance() const {
   SumCovariance out;
-  for (const Tooth& tooth : comb()) out += Oscillation(*this, tooth).process.sum_covariance();
+  for (const Resonance& one : parts()) out += one.sum_covariance();
   return out;
 }
 
@@ -137,8 +142,7 @@ double Voigt::Recursion::next(RandomStream& rng) {
 
 Voigt::Recursion Voigt::recursion(RandomStream& rng) const {
   Recursion out;
-  for (const Tooth& tooth : comb())
-    out.parts_.push_back(Oscillation(*this, tooth).process.recursion(rng));
+  for (const Resonance& one : parts()) out.parts_.push_back(one.recursion(rng));
   return out;
 }
 

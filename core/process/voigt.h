@@ -29,6 +29,8 @@ struct Voigt {
     omega = v[2];
     spread = v[3];
   }
+  /// The oscillations that it is the sum of; one beyond 0 or π as its mirror image.
+  std::vector<Resonance> parts() const;
   Eigen::ArrayXd shape(HalfWidths m) const;
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const;
   double spectrum(double f) const;

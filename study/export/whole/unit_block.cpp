@@ -73,6 +73,24 @@ UnitBlock flicker_bank() {
   return out;
 }
 
+// Independent processes of given powers, one below the other.
+struct Together {
+  UnitBlock block;
+
+  void add(const UnitBlock& one, double power) {
+    const Eigen::Index before = block.phi.rows();
+    const Eigen::Index n = one.phi.rows();
+    for (Eigen::MatrixXd* const m : {&block.phi, &block.q, &block.p0}) {
+      m->conservativeResizeLike(Eigen::MatrixXd::Zero(before + n, before + n));
+    }
+    block.h.conservativeResizeLike(Eigen::RowVectorXd::Zero(before + n));
+    block.phi.bottomRightCorner(n, n) = one.phi;
+    block.q.bottomRightCorner(n, n) = power * one.q;
+    block.p0.bottomRightCorner(n, n) = power * one.p0;
+    block.h.tail(n) = one.h;
+  }
+};
+
 struct MakeBlock {
   Result<UnitBlock> operator()(const WhiteNoise&) const {
     UnitBlock out;
@@ -111,6 +129,17 @@ struct MakeBlock {
     return delay_line(bartlett_taps(of.length));
   }
   Result<UnitBlock> operator()(const Flicker&) const { return flicker_bank(); }
+  Result<UnitBlock> operator()(const Voigt& of) const {
+    Together out;
+    for (const Resonance& one : Voigt{1.0, of.r, of.omega, of.spread}.parts())
+      out.add(*(*this)(one), one.sigma2);
+    return out.block;
+  }
+  Result<UnitBlock> operator()(const PowerLaw& of) const {
+    Together out;
+    for (const Ar1& one : PowerLaw{1.0, of.slope}.parts()) out.add(*(*this)(one), one.sigma2);
+    return out.block;
+  }
 };
 
 }  // namespace
