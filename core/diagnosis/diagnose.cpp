@@ -16,7 +16,7 @@ namespace imunoise {
 namespace {
 
 constexpr double kClearGap = 3.0;      // nats: less cannot tell two effects apart
-constexpr std::size_t kProven = 3;     // effects are proven on held-out replicates,
+constexpr std::size_t kProven = 3;     // effects are proven on held-out replicates (climbing: 1),
 constexpr std::size_t kMostTried = 8;  // of at most so many that are tried
 constexpr double kSpent = 0.8;         // of the level: chances are approximations
 constexpr double kMisfitShare = 0.2;   // of that is spent on misfits of unknown cause
@@ -74,12 +74,12 @@ bool proven(const RankedTerm& effect, const std::optional<HeldOut>& before) {
 
 // Holds replicates out for the best effects, until enough of them are proven. The best of those
 // comes first: evidence that other replicates do not bear out is no evidence.
-void prove(Diagnosis& out, double level, const Progress& progress) {
+void prove(Diagnosis& out, double level, std::size_t wanted, const Progress& progress) {
   std::size_t tried = 0;
   std::size_t passed = 0;
-  for (; tried < out.effects.size() && passed < kProven && tried < kMostTried; ++tried) {
+  for (; tried < out.effects.size() && passed < wanted && tried < kMostTried; ++tried) {
     RankedTerm& one = out.effects[tried];
-    if (progress.stopped() || (tried >= kProven && !(one.familywise_p < level))) break;
+    if (progress.stopped() || (tried >= wanted && !(one.familywise_p < level))) break;
     if (can_hold_out(one.tried.fitted)) one.heldout = held_out(one.tried.fitted);
     if (proven(one, out.heldout)) ++passed;
   }
@@ -100,6 +100,20 @@ std::optional<DetectionLimit> limit_of(const Suggestion& one, double level, Hert
   if (auto* term = std::get_if<EffectTerm>(&out.added)) {
     *term = rounded(*term, one.shape_error, rate);
     out.parameter = term->effect->coefficient;
+  }
+  return out;
+}
+
+// Those that may well be added next: others explain a tenth of the best at most, to first order.
+// Where the best is faint, all.
+Suggestions strongest(const Suggestions& all) {
+  constexpr double kFaint = 100.0;  // nats
+  constexpr double kFarLess = 0.1;
+  double most = 0.0;
+  for (const Suggestion& one : all) most = std::max(most, one.score_nats);
+  Suggestions out;
+  for (const Suggestion& one : all) {
+    if (most < kFaint || one.score_nats > kFarLess * most) out.push_back(one);
   }
   return out;
 }
@@ -130,7 +144,8 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
   const double level = kSpent * options.level - misfit_level;
   // Everything that was searched is a chance of a false alarm.
   const auto searched = static_cast<double>(all.size());
-  std::vector<TriedTerm> tried = try_all(current, all, progress.part(0.4, 0.75));
+  const Suggestions wanted = options.climbing ? strongest(all) : all;
+  std::vector<TriedTerm> tried = try_all(current, wanted, progress.part(0.4, 0.75));
   test_placebos(tried, current, std::log(level / searched), progress);
   name_shared_noise(tried, searched, level, progress);
   if (progress.stopped()) return {};
@@ -144,7 +159,7 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
   progress.report(0.85);
   if (can_hold_out(model)) {
     out.heldout = held_out(model);
-    prove(out, level, progress);
+    prove(out, level, options.climbing ? 1 : kProven, progress);
     if (progress.stopped()) return {};
   }
   fill_confusions(out.effects, subject, level);
@@ -155,6 +170,7 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
   }
   out.worth_adding = !out.effects.empty() && out.effects[0].familywise_p < level &&
                      proven(out.effects[0], out.heldout);
+  if (!out.worth_adding && wanted.size() < all.size()) return diagnose(model, {options.level});
   if (out.worth_adding) {
     const FittedModel& best = out.effects[0].tried.fitted;
     // What remains after the best effect must be small against what it took away, or it is not it.

@@ -42,6 +42,9 @@ struct Diagnosis {
 
 struct DiagnosisOptions {
   double level = 0.05;  ///< false-alarm probability over everything that is tried
+  /// Only the next term of a ladder is wanted: what explains far less than the best is not tried,
+  /// and the first that proves itself will do. Where nothing does, everything is tried.
+  bool climbing = false;
 };
 
 /// Tries every effect of the catalogue on a model and says which is missing. Deterministic.

@@ -24,7 +24,8 @@
 namespace imunoise::study {
 namespace {
 
-constexpr int kMostRungs = 8;
+constexpr int kMostRungs = 12;
+constexpr Eigen::Index kMany = 2'000'000;  // samples of all replicates: a ladder takes short cuts
 
 Step step_of(const TriedTerm& tried) {
   return {.added = printed(tried.suggestion.added),
@@ -143,10 +144,13 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   models.is_new(model.fit.model);
   std::optional<DiagnosisVerdict> remaining;
   const int most = options.automatic ? kMostRungs : 1;
+  Eigen::Index samples = 0;
+  for (std::size_t k = 0; k < subject->replicates(); ++k) samples += subject->length(k);
+  const bool many = samples > kMany;
   for (int rung = 0; rung < most; ++rung) {
     const double begin = 0.25 + 0.7 * rung / most;
-    Diagnosis diagnosis =
-        diagnose(model, {options.level}, progress.part(begin, begin + 0.7 / most));
+    Diagnosis diagnosis = diagnose(model, {options.level, many && rung > 0},
+                                   progress.part(begin, begin + 0.7 / most));
     if (progress.stopped()) return fail("stopped");
     *out.add_ladder() = rung_of({model, left, diagnosis.misfit, diagnosis.heldout}, step, first,
                                 prepared.replicates);

@@ -162,6 +162,20 @@ TEST(Diagnose, QuantisationNoise) {
                "quantisation");
 }
 
+// The next term of a ladder is the same where less is tried; and where nothing is missing, all is.
+TEST(Diagnose, ClimbingAddsTheSameTerm) {
+  const FittedModel strong = fitted(subject_of(
+      {.model = "WN(sigma2=1) + RW(gamma2=1e-5) + RES(sigma2=0.2, r=0.95, omega=1)", .seed = 19}));
+  const Diagnosis all = diagnose(strong);
+  const Diagnosis next = diagnose(strong, {.climbing = true});
+  ASSERT_FALSE(next.effects.empty());
+  EXPECT_EQ(next.effects[0].tried.cause, all.effects[0].tried.cause);
+  EXPECT_EQ(next.effects[0].tried.fitted.fit.model, all.effects[0].tried.fitted.fit.model);
+  EXPECT_LT(next.effects.size(), all.effects.size());
+  const FittedModel nothing = fitted(subject_of({.seed = 20}));
+  EXPECT_EQ(diagnose(nothing, {.climbing = true}).effects.size(), diagnose(nothing).effects.size());
+}
+
 // Both roots real: no resonance, and no sum of Markov processes falls off as fast.
 TEST(Diagnose, NoiseBehindTwoLags) {
   const Diagnosis diagnosis =
