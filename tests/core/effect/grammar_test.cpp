@@ -89,7 +89,7 @@ TEST(EffectTerm, WhatIsWrongIsSaidWhereItStands) {
            {"ramp", 4, "at least one noise process"},
            {"", 0, "expected the name of a process"},
            {"WN + lien(f=3)", 5, "unknown process or effect 'lien'"},
-           {"WN + QQ", 5, "effects: ramp, warm_up, line, "},
+           {"WN + zzzzzz", 5, "effects: ramp, warm_up, line, "},
            {"WN + line(f=1, harmonics=(2)", 28, "expected ',' or ')'"}}) {
     const Result<FullModel> read = parse_full_model(c.text, kEffectRate);
     ASSERT_FALSE(read) << c.text;
