@@ -26,6 +26,7 @@ build_packages=(
   libsoci-dev        # the catalogue of recordings
   liblz4-dev libzstd-dev libbz2-dev zlib1g-dev  # packed bags and files
   libsqlite3-dev     # bags of ROS 2
+  python3-dev pybind11-dev python3-numpy  # the Python module
 )
 # The page is built with npm, and tested in a browser; those of other sources do as well.
 command -v npm > /dev/null || build_packages+=(nodejs npm)
@@ -35,7 +36,7 @@ test_packages=(
   clang libclang-rt-14-dev       # fuzzing
   clang-format clang-tidy
   umockdev libumockdev-dev       # USB devices that are not there
-  python3-h5py python3-xarray python3-h5netcdf python3-scipy  # other programs open our files, and write theirs
+  python3-h5py python3-xarray python3-h5netcdf python3-scipy python3-matplotlib  # other programs open our files, and write theirs
   lz4 zstd bzip2 python3-rosbag python3-sensor-msgs  # other programs write bags
   postgresql                     # the catalogue of several benches
   zsh                            # its completion
