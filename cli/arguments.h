@@ -49,6 +49,7 @@ struct FitArguments {
   bool json = false;
   std::optional<std::filesystem::path> report;  ///< HTML page
   std::optional<std::filesystem::path> svg;     ///< picture for papers
+  bool fail_if_misfit = false;                  ///< exit status 3 if a model does not fit
 };
 
 /// A channel that a simulation has beside its own, for effects to follow.
@@ -216,6 +217,7 @@ struct DevicesArguments {
   bool json = false;
 };
 struct CampaignsArguments : DevicesArguments {};
+struct LiveArguments : DevicesArguments {};
 struct StatusArguments : DevicesArguments {
   bool follow = false;
 };
@@ -253,15 +255,14 @@ struct BatchStatusArguments : BatchLookArguments {};
 struct BatchMergeArguments : BatchLookArguments {};
 
 struct Arguments {
-  using Command =
-      std::variant<WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments,
-                   MixedArguments, FaultsArguments, DynamicArguments, DiagnoseArguments,
-                   StudyArguments, OpenArguments, SimulateArguments, RecordArguments,
-                   VerifyArguments, EmulateArguments, DriversArguments, DecodeArguments,
-                   CalibrateArguments, ExportArguments, RecordingsArguments, CalibrationsArguments,
-                   HistoryArguments, DevicesArguments, CampaignsArguments, StatusArguments,
-                   StartArguments, StopArguments, BatchNewArguments, BatchRunArguments,
-                   BatchShardArguments, BatchStatusArguments, BatchMergeArguments>;
+  using Command = std::variant<
+      WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments, MixedArguments,
+      FaultsArguments, DynamicArguments, DiagnoseArguments, StudyArguments, OpenArguments,
+      SimulateArguments, RecordArguments, VerifyArguments, EmulateArguments, DriversArguments,
+      DecodeArguments, CalibrateArguments, ExportArguments, RecordingsArguments,
+      CalibrationsArguments, HistoryArguments, DevicesArguments, CampaignsArguments, LiveArguments,
+      StatusArguments, StartArguments, StopArguments, BatchNewArguments, BatchRunArguments,
+      BatchShardArguments, BatchStatusArguments, BatchMergeArguments>;
   Command command;
   std::optional<std::size_t> threads;
 };

@@ -5,10 +5,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
+
+#include "study/report/html/page_frame.h"
+#include "study/words/number.h"
+#include "study/words/text.h"
 
 namespace imunoise::cli {
 namespace {
@@ -22,6 +28,27 @@ bool utf8_locale() {
            text.find("utf8") != std::string_view::npos;
   }
   return false;
+}
+
+// The command as it was typed, with quotes where the shell needs them.
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string out;
+  for (std::string word; std::getline(file, word, '\0');) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:@%+";
+    const bool plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
+    if (out.empty()) word = std::filesystem::path(word).filename().string();
+    out += (out.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+  }
+  return out;
+}
+
+std::int64_t now_ns() {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  if (const char* const fixed = std::getenv("SOURCE_DATE_EPOCH"))
+    return std::strtoll(fixed, nullptr, 10) * kSecond;
+  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -59,6 +86,15 @@ std::filesystem::path with_word(const std::filesystem::path& path, const std::st
   std::filesystem::path out = path;
   out.replace_filename(path.stem().string() + "_" + word + path.extension().string());
   return out;
+}
+
+Result<void> write_report(const std::filesystem::path& path, std::string page) {
+  const std::string made =
+      fmt::format("imunoise {}, {} UTC: {}", IMUNOISE_VERSION, report::minute(now_ns()),
+                  report::clean_text(command_line()));
+  auto done = write_file(path, report::with_footer(std::move(page), made));
+  if (done) tell(fmt::format("wrote {}\n", path.string()));
+  return done;
 }
 
 Result<void> write_file(const std::filesystem::path& path, std::string_view content) {

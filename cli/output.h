@@ -23,6 +23,10 @@ int print_error(const Error& error);
 /// OUT_word.svg of OUT.svg.
 std::filesystem::path with_word(const std::filesystem::path& path, const std::string& word);
 
+/// Writes an HTML report, and tells so. Its last line says which version of imunoise made it, when
+/// (UTC; the time in SOURCE_DATE_EPOCH if it is set), and by which command.
+Result<void> write_report(const std::filesystem::path& path, std::string page);
+
 /// Writes a whole file, under a temporary name first.
 Result<void> write_file(const std::filesystem::path& path, std::string_view content);
 

@@ -30,8 +30,7 @@ int show(const Reports& reports, const ShowArguments& arguments) {
   };
   if (arguments.report) {
     const auto page = report::html_page(report::document(reports, report::Digits::kTypeset));
-    if (auto done = write_file(*arguments.report, page); !done) return print_error(done.error());
-    fmt::print(stderr, "wrote {}\n", arguments.report->string());
+    if (auto done = write_report(*arguments.report, page); !done) return print_error(done.error());
   }
   if (arguments.json) {
     print(json());

@@ -29,6 +29,7 @@ int run(const CalibrationsArguments& arguments);
 int run(const HistoryArguments& arguments);
 int run(const DevicesArguments& arguments);
 int run(const CampaignsArguments& arguments);
+int run(const LiveArguments& arguments);
 int run(const StatusArguments& arguments);
 int run(const StartArguments& arguments);
 int run(const StopArguments& arguments);

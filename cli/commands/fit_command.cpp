@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
@@ -24,6 +26,14 @@ Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem
   return {};
 }
 
+int status_of(const v1::FitReports& reports, const FitArguments& arguments) {
+  constexpr int kMisfit = 3;
+  const bool misfit =
+      std::any_of(reports.channels().begin(), reports.channels().end(),
+                  [](const v1::FitReport& one) { return one.verdict() == v1::does_not_fit; });
+  return misfit && arguments.fail_if_misfit ? kMisfit : 0;
+}
+
 }  // namespace
 
 int run(const FitArguments& arguments) {
@@ -39,9 +49,8 @@ int run(const FitArguments& arguments) {
     *report.mutable_preflight() = study::preflights(subjects->replicates);
   }
   if (arguments.report) {
-    if (auto done = write_file(*arguments.report, report::html_page(reports)); !done)
+    if (auto done = write_report(*arguments.report, report::html_page(reports)); !done)
       return print_error(done.error());
-    fmt::print(stderr, "wrote {}\n", arguments.report->string());
   }
   if (arguments.svg) {
     if (auto done = write_pictures(reports, *arguments.svg); !done)
@@ -50,11 +59,11 @@ int run(const FitArguments& arguments) {
   if (arguments.json) {
     const bool single = reports.channels_size() == 1;
     print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));
-    return 0;
+    return status_of(reports, arguments);
   }
   for (const v1::FitReport& one : reports.channels())
     print(report::fit_text(one, terminal_style()));
-  return 0;
+  return status_of(reports, arguments);
 }
 
 }  // namespace imunoise::cli

@@ -13,6 +13,7 @@ Examples:
   imunoise fit replicate?_gyro.h5 --channel gyro_x --model "2*AR1 + WN + RW"
   imunoise fit long.npy --split-into 6 --rate 200 --unit "m/s^2" --report acc.html
   imunoise fit run?.csv --model "WN + RES + RW" --weights diag --json > fit.json
+  imunoise fit run?.csv --model "WN + RW" --fail-if-misfit     for scripts: exit status 3 if it does not fit
 
 A model is a sum of processes: WN white noise, QN quantisation noise, RW random walk, DR rate ramp,
 AR1 and GM Markov noise, AR2 second-order noise, RES resonance, FN flicker noise, and the filters
@@ -93,8 +94,12 @@ ParsedCommand fit_command(CLI::App& program) {
       ->capture_default_str();
   fit->add_option("--svg", *svg, "SVG picture of the noise budget to write, for papers")
       ->type_name("OUT.svg");
-  return {fit, [raw, estimator, svg] {
+  const auto strict = std::make_shared<bool>(false);
+  fit->add_flag("--fail-if-misfit", *strict,
+                "Exit status 3 if the model does not fit a channel (p < 1 %)");
+  return {fit, [raw, estimator, svg, strict] {
             FitArguments out;
+            out.fail_if_misfit = *strict;
             out.input = input_from(raw->input);
             out.fit.model = model_from(*raw);
             out.fit.estimator = estimator_from(*estimator);

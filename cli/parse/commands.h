@@ -29,6 +29,6 @@ std::vector<ParsedCommand> batch_commands(CLI::App& program);      ///< batch
 std::vector<ParsedCommand> catalogue_commands(
     CLI::App& program);  ///< calibrate, recordings, calibrations, history
 std::vector<ParsedCommand> daemon_commands(
-    CLI::App& program);  ///< devices, campaigns, status, start, stop
+    CLI::App& program);  ///< devices, campaigns, status, live, start, stop
 
 }  // namespace imunoise::cli

@@ -19,6 +19,13 @@ Examples:
   imunoise status --follow                     print every change until no campaign runs
   imunoise status --url http://127.0.0.1:8080 --token-file ~/.config/imunoise.token)help";
 
+constexpr const char* kLiveExamples = R"help(
+Examples:
+  imunoise live                                what the recorded samples show so far
+  imunoise live --json > live.json
+
+A deviation with ± needs more samples until its 95 % interval is within a factor of two.)help";
+
 constexpr const char* kStopExamples = R"help(
 Examples:
   imunoise stop array                                    refused while a replicate is recorded
@@ -84,6 +91,9 @@ std::vector<ParsedCommand> daemon_commands(CLI::App& program) {
             command.footer(kStatusExamples);
             command.add_flag("--follow", to.follow, "Print every change until no campaign runs");
           }),
+      daemon_command<LiveArguments>(
+          program, "live", "Show the wavelet deviations and warnings of current replicates",
+          [](CLI::App& command, LiveArguments&) { command.footer(kLiveExamples); }),
       daemon_command<StartArguments>(
           program, "start", "Start a campaign that is stopped or finished",
           [](CLI::App& command, StartArguments& to) {

@@ -26,7 +26,8 @@ imunoise COMMAND --help lists the options of a command. A value in brackets is t
 Exit status:
   0   there is a result, also if the model does not fit
   1   an error, a damaged recording, or a device that changed
-  2   wrong usage)help";
+  2   wrong usage
+  3   the model does not fit, and --fail-if-misfit was given)help";
 
 // Commands stand in --help, the manual and completion in this order.
 struct Group {

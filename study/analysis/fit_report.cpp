@@ -7,6 +7,7 @@
 #include "study/analysis/fit_series.h"
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/verdict.h"
 
 namespace imunoise::study {
 namespace {
@@ -23,6 +24,21 @@ v1::Observability observability(Observability from) {
       break;
   }
   return v1::given;
+}
+
+v1::FitVerdict verdict_message(const TestOutcome& from) {
+  if (from.degrees_of_freedom <= 0) return v1::not_tested;
+  switch (report::verdict_at(from.p_value)) {
+    case report::Verdict::kFits:
+      return v1::fits;
+    case report::Verdict::kDoubtful:
+      return v1::doubtful;
+    case report::Verdict::kFails:
+      return v1::does_not_fit;
+    case report::Verdict::kUntested:
+      break;
+  }
+  return v1::not_tested;
 }
 
 v1::Coefficient coefficient_of(const DerivedEstimate& from, Quantity measures,
@@ -104,13 +120,12 @@ std::string summary_of(const v1::FitReport& report) {
       first = false;
     }
   }
-  const double p = report.p_value();
   std::string fits = "there are too few scales to test the fit";
-  if (report.degrees_of_freedom() > 0) {
-    fits = (p >= 0.05   ? "the model fits the measurements ("
-            : p >= 0.01 ? "it is doubtful that the model fits ("
-                        : "the model does not fit the measurements (") +
-           chance_words(p) + ")";
+  if (report.verdict() != v1::not_tested) {
+    fits = (report.verdict() == v1::fits       ? "the model fits the measurements ("
+            : report.verdict() == v1::doubtful ? "it is doubtful that the model fits ("
+                                               : "the model does not fit the measurements (") +
+           chance_words(report.p_value()) + ")";
   }
   return fmt::format("{}: {}{}.", report.channel(), known.empty() ? "" : known + "; ", fits);
 }
@@ -130,6 +145,7 @@ v1::FitReport fit_report(const Fit& fit, const Series& series,
   out.set_j_statistic(fit.goodness.statistic);
   out.set_degrees_of_freedom(fit.goodness.degrees_of_freedom);
   out.set_p_value(fit.goodness.p_value);
+  out.set_verdict(verdict_message(fit.goodness));
   out.set_termination(std::string(describe(fit.estimate.termination)));
   out.set_confidence(fit.confidence);
   add_terms(fit, measured, total.scales.half_widths(), out);

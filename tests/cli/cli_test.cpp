@@ -54,6 +54,10 @@ TEST_F(Cli, FitsWhatItSimulated) {
   const std::string page = read("out.html");
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));  // nothing from the network
+  EXPECT_NE(
+      page.find(" UTC: imunoise fit run_1.h5 run_2.h5 run_3.h5 --model &#39;WN + RW&#39; --json"),
+      std::string::npos)
+      << page.substr(page.find("<footer>"), 200);
   EXPECT_NE(read("out.svg").find("</svg>"), std::string::npos);
 }
 
@@ -128,6 +132,18 @@ TEST_F(Cli, WaveletVarianceOfOneFileAndOfSeveral) {
   for (const auto& replicate : all["replicates"])
     mean += replicate["variance"][0].get<double>() / 3.0;
   EXPECT_NEAR(all["variance"][0].get<double>() / mean, 1.0, 1e-12);
+}
+
+TEST_F(Cli, AMisfitCanBeAFailure) {
+  simulate("run.h5");  // WN + RW
+  const Outcome fits = run("fit run_?.h5 --model 'WN + RW' --json --fail-if-misfit");
+  EXPECT_EQ(fits.status, 0) << fits.errors;
+  EXPECT_EQ(nlohmann::json::parse(fits.out)["verdict"], "fits");
+  const Outcome fails = run("fit run_?.h5 --model QN --json --fail-if-misfit");
+  EXPECT_EQ(fails.status, 3) << fails.errors;
+  EXPECT_EQ(nlohmann::json::parse(fails.out)["verdict"], "does_not_fit");
+  EXPECT_EQ(run("fit run_?.h5 --model QN --fail-if-misfit").status, 3);
+  EXPECT_EQ(run("fit run_?.h5 --model QN").status, 0);
 }
 
 TEST_F(Cli, NamesTheNearestCommandAndOption) {

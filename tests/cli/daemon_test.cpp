@@ -91,6 +91,11 @@ TEST_F(Daemon, TellsWhatItDoesAndIsStoppedOnPurposeOnly) {
     std::this_thread::sleep_for(100ms);
   EXPECT_NE(ask("status").out.find(outlook), std::string::npos) << ask("status").out;
   const std::string recording = state("array")["recording"];
+  const std::string live = ask("live").out;
+  for (const std::string word :
+       {"array imu0", "Replicate 1 of", "gyro_x", "rad/s", "stored", "gaps"})
+    EXPECT_NE(live.find(word), std::string::npos) << word << " in\n" << live;
+  EXPECT_EQ(json::parse(ask("live --json").out)["replicates"][0]["campaign"], "array");
 
   const std::string path = " --recording data/array/" + recording;
   for (const std::string& wrong :

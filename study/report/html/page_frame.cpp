@@ -20,6 +20,13 @@ std::string page_frame(std::string_view title, std::string_view brand, std::stri
       body, kPageJs);
 }
 
+std::string with_footer(std::string page, std::string_view text) {
+  constexpr std::string_view kEnd = "<script>\n";
+  const std::size_t at = page.rfind(kEnd);
+  const std::string footer = "<footer>" + escape_markup(text) + "</footer>\n";
+  return page.insert(at == std::string::npos ? page.size() : at, footer);
+}
+
 std::string two_widths(const figure::Figure& figure) {
   constexpr double kDesk = 920.0;   // px
   constexpr double kPhone = 388.0;  // px

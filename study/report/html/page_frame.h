@@ -14,6 +14,9 @@ namespace imunoise::report {
 /// escaped here, `body` is markup.
 std::string page_frame(std::string_view title, std::string_view brand, std::string_view body);
 
+/// The page with one more line at its end, escaped here: where it comes from.
+std::string with_footer(std::string page, std::string_view text);
+
 /// A figure for desk and phone: the style sheet shows one of the two.
 std::string two_widths(const figure::Figure& figure);
 

@@ -9,9 +9,6 @@
 namespace imunoise::report {
 namespace {
 
-constexpr double kFitsFrom = 0.05;
-constexpr double kDoubtfulFrom = 0.01;
-
 // "in 37 % of", "in 1 of 250", "in fewer than 1 of 10 000".
 std::string how_often(double p) {
   if (p >= 0.01) return "in " + percent(p) + " of";
@@ -23,29 +20,6 @@ std::string how_often(double p) {
 
 Verdict verdict(const v1::FitReport& report) {
   return report.degrees_of_freedom() <= 0 ? Verdict::kUntested : verdict_at(report.p_value());
-}
-
-Verdict verdict_at(double p_value) {
-  if (!std::isfinite(p_value)) return Verdict::kUntested;
-  return p_value >= kFitsFrom       ? Verdict::kFits
-         : p_value >= kDoubtfulFrom ? Verdict::kDoubtful
-                                    : Verdict::kFails;
-}
-
-bool fails(Verdict verdict) { return verdict == Verdict::kFails || verdict == Verdict::kDoubtful; }
-
-std::string_view verdict_words(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kFits:
-      return "fits";
-    case Verdict::kDoubtful:
-      return "doubtful";
-    case Verdict::kFails:
-      return "does not fit";
-    case Verdict::kUntested:
-      break;
-  }
-  return "not tested";
 }
 
 std::string verdict_sentence(const v1::FitReport& report) {

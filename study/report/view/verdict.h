@@ -7,25 +7,11 @@
 #include <vector>
 
 #include "study/report/view/budget_view.h"
+#include "study/words/verdict.h"
 
 namespace imunoise::report {
 
-enum class Verdict {
-  kFits,      ///< p ≥ 5 %
-  kDoubtful,  ///< 1 % ≤ p < 5 %
-  kFails,     ///< p < 1 %
-  kUntested,  ///< No degrees of freedom are left, or no p-value was given.
-};
-
 Verdict verdict(const v1::FitReport& report);
-/// The same of the p-value alone.
-Verdict verdict_at(double p_value);
-/// True where it is doubtful or worse: then a figure marks where.
-bool fails(Verdict verdict);
-
-/// "fits", "doubtful", "does not fit", "not tested".
-std::string_view verdict_words(Verdict verdict);
-
 /// One sentence that says what the p-value means.
 std::string verdict_sentence(const v1::FitReport& report);
 
