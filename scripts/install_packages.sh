@@ -23,6 +23,7 @@ build_packages=(
   libtomlplusplus-dev libspdlog-dev libsystemd-dev  # the daemon
   libusb-1.0-0-dev pkg-config  # sensors behind USB bridges
   libserialport-dev  # the driver xsens
+  libiio-dev         # the driver iio
   libsoci-dev        # the catalogue of recordings
   liblz4-dev libzstd-dev libbz2-dev zlib1g-dev  # packed bags and files
   libsqlite3-dev     # bags of ROS 2
@@ -48,6 +49,7 @@ hil_packages=(
   qemu-system-x86 busybox-static cpio kmod  # the machine
   iproute2 dmsetup e2fsprogs xfsprogs  # its interfaces and disks
   udev                                 # tells libusb of devices
+  python3-h5py                         # reads what was recorded
   mmdebstrap genext2fs uidmap          # a Debian with systemd
 )
 slow_packages=(

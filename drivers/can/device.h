@@ -9,9 +9,9 @@
 #include "drivers/can/bus_trouble.h"
 #include "drivers/can/codec/channels.h"
 #include "drivers/can/frame_streams.h"
-#include "drivers/can/kernel_time.h"
 #include "drivers/plugin/device.h"
 #include "drivers/transport/can_socket.h"
+#include "drivers/transport/kernel_time.h"
 
 namespace imunoise::can {
 
@@ -57,7 +57,7 @@ class CanDevice final : public plugin::Device {
   plugin::WireTap wire_;
   std::vector<transport::CanFilter> filters_;
   std::optional<transport::CanSocket> socket_;  // none while the interface is away
-  KernelTime time_;
+  transport::KernelTime time_;
   BusTrouble trouble_;
   Clock::time_point last_frame_;
   Clock::duration patience_{};

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The programs of a build on a real kernel, in virtual machines.
 #
-#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, usb, serial, disk, systemd
+#   bash tests/hil/run.sh BUILD_FOLDER [SCENARIO...]   all scenarios, or some of them: can, usb, iio, serial, disk, systemd
 #
 # Exit status 77: this system has no package manager to take QEMU and a kernel from.
 set -euo pipefail
@@ -25,6 +25,7 @@ can() {
 }
 
 usb() { boot usb 600; }
+iio() { boot iio 300; }
 
 # order COMMAND: to QEMU's monitor.
 order() {
@@ -78,7 +79,7 @@ systemd() {
     -device piix3-usb-uhci -chardev null,id=nothing -device usb-serial,chardev=nothing,always-plugged=on
 }
 
-(($# > 0)) || set -- can usb serial disk systemd
+(($# > 0)) || set -- can usb iio serial disk systemd
 failed=()
 for scenario in "$@"; do
   begin=$SECONDS

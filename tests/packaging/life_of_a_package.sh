@@ -20,7 +20,7 @@ done
 bash -n /usr/share/bash-completion/completions/imunoise
 bash -n /usr/share/bash-completion/completions/imunoised
 test -s /usr/share/zsh/vendor-completions/_imunoise
-[[ $(imunoise drivers | grep -c -E '^(adis16405|can|emulated|replay|wire|xsens)\b') == 6 ]] ||
+[[ $(imunoise drivers | grep -c -E '^(adis16405|can|emulated|iio|replay|text|wire|xsens)\b') == 8 ]] ||
   { imunoise drivers && fail "a driver is missing"; }
 [[ $(stat --format='%U %G %a' /var/lib/imunoise) == "imunoise imunoise 750" ]] || fail "/var/lib/imunoise"
 [[ -d /etc/imunoise ]] || fail "/etc/imunoise"

@@ -1,6 +1,6 @@
 #pragma once
 
-// The kernel stamps frames by the time of day, which may be set; the host's clock never steps.
+// The kernel stamps samples by the time of day, which may be set; the host's clock never steps.
 
 #include <cstdint>
 #include <cstdlib>
@@ -9,18 +9,18 @@
 
 #include "drivers/plugin/device.h"
 
-namespace imunoise::can {
+namespace imunoise::transport {
 
 /// From the kernel's stamps to the host's clock. Not thread-safe.
 class KernelTime {
  public:
-  /// Before frames are fetched that came together.
+  /// Before samples are fetched that came together.
   void look(const plugin::Host& host) {
     const std::int64_t shift = read(host);
     was_set_ = shift_ns_ && std::llabs(shift - *shift_ns_) > kChance;
     if (!shift_ns_ || was_set_) shift_ns_ = shift;
   }
-  /// When the time of day was set since the last look, the frames' stamps are of before or after:
+  /// When the time of day was set since the last look, their stamps are of before or after:
   /// they came now, as those without a stamp (0).
   std::int64_t host_time_ns(std::int64_t stamp_ns) const {
     return stamp_ns == 0 || was_set_ ? now_ns_ : stamp_ns + shift_ns_.value_or(0);
@@ -47,4 +47,4 @@ class KernelTime {
   bool was_set_ = false;
 };
 
-}  // namespace imunoise::can
+}  // namespace imunoise::transport
