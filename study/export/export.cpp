@@ -55,6 +55,9 @@ Result<AxisNoise> axis_of(const v1::FitReport& fit, Quantity quantity) {
   return out;
 }
 
+// Probability that the bound holds at the next power-on.
+constexpr double kNextPowerOn = 0.95;
+
 Model white_and(double n, const Process& bias, Hertz rate) {
   return {{Term(WhiteNoise{n * n * rate.value}), Term(bias)}};
 }
@@ -75,7 +78,11 @@ std::string horizon_words(const Horizon& horizon) {
 }
 
 void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizon) {
-  const WhiteAndWalk bound = smallest_bound(axis.noise, axis.rate, horizon);
+  const Eigen::ArrayXd m = horizon_samples(axis.rate, horizon);
+  Eigen::ArrayXd allan = 2.0 * variance(axis.noise, m);
+  if (!axis.draws.empty())
+    allan = allan.max(power_on_allan(axis.noise, axis.draws, m, kNextPowerOn));
+  const WhiteAndWalk bound = smallest_bound(m, allan, axis.rate);
   axis.n = {bound.n, 0.0, 0.0};
   axis.k = {bound.k, 0.0, 0.0};
   axis.markov.reset();
@@ -86,6 +93,13 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizo
       fmt::format("{}: N and K bound the integrated error of the whole model over {}; they "
                   "overstate it by a factor of up to {:.2f} ({:.2f} in the mean square)",
                   axis.channel, horizon_words(horizon), bound.most, bound.usual));
+  for (const ParameterDraw& one : axis.draws)
+    axis.remarks.push_back(fmt::format("  {}", one.words));
+  if (!axis.draws.empty())
+    axis.remarks.push_back(fmt::format(
+        "  these parameters differ between replicates: N and K bound {:g} % of power-ons at each "
+        "averaging time",
+        100.0 * kNextPowerOn));
 }
 
 // Where a bias may be a Markov process: the random walk or the slowest Markov process, whichever
@@ -190,10 +204,10 @@ std::vector<std::string> origin_words(std::string_view of, const Consumer& to,
 
 }  // namespace
 
-Result<ImuNoise> imu_noise(const std::vector<v1::FitReport>& fits) {
+Result<ImuNoise> imu_noise(const std::vector<SourceFit>& fits) {
   ImuNoise out;
   std::set<std::pair<Quantity, char>> seen;
-  for (const v1::FitReport& fit : fits) {
+  for (const auto& [device, fit, stationarity] : fits) {
     const auto unit = parse_unit(fit.unit());
     SensorNoise* const sensor = !unit                                       ? nullptr
                                 : unit->quantity == Quantity::kAngularRate  ? &out.gyro
@@ -202,6 +216,7 @@ Result<ImuNoise> imu_noise(const std::vector<v1::FitReport>& fits) {
     if (sensor == nullptr) continue;
     auto axis = axis_of(fit, unit->quantity);
     if (!axis) return tl::unexpected(axis.error());
+    axis->draws = moving_parameters(axis->noise, stationarity);
     const bool twice = axis->axis != ' ' && !seen.emplace(unit->quantity, axis->axis).second;
     sensor->axes.push_back(std::move(*axis));
     if (!twice && sensor->axes.size() <= 3) continue;

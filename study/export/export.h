@@ -11,6 +11,7 @@
 #include "imunoise/v1/noise.pb.h"
 #include "study/export/conservative.h"
 #include "study/export/consumer.h"
+#include "study/export/source.h"
 
 namespace imunoise::study {
 
@@ -29,7 +30,7 @@ struct ExportOptions {
 
 /// The axes of one IMU. Error: no gyro and no accelerometer, more than three channels of one
 /// quantity, two of one axis, or a model that cannot be read.
-Result<ImuNoise> imu_noise(const std::vector<v1::FitReport>& fits);
+Result<ImuNoise> imu_noise(const std::vector<SourceFit>& fits);
 
 /// The file for a consumer. Error: a consumer without noise values, a rule for axes that it cannot
 /// hold, a step that it has not. Thread-safe.

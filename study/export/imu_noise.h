@@ -9,6 +9,7 @@
 
 #include "core/model/model.h"
 #include "core/support/units.h"
+#include "study/export/power_on.h"
 
 namespace imunoise::study {
 
@@ -45,6 +46,7 @@ struct AxisNoise {
   char axis = ' ';  ///< 'x', 'y', 'z'; ' ' where the name of the channel says none
   Hertz rate;
   Model noise;                               ///< the whole model, without effects
+  std::vector<ParameterDraw> draws;          ///< parameters that differ between replicates
   std::optional<double> p_value;             ///< that it fits; unset: not tested
   double confidence = 0.95;                  ///< of the intervals
   Bounded n;                                 ///< unit/√Hz; 0: the model has no white noise

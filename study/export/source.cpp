@@ -25,7 +25,7 @@ std::vector<SourceFit> fits_of(const v1::Calibration& calibration) {
   std::vector<SourceFit> out;
   for (const v1::ChannelCalibration& one : calibration.channels()) {
     if (!one.has_fit()) continue;
-    out.push_back({one.device(), one.fit()});
+    out.push_back({one.device(), one.fit(), one.stationarity()});
     out.back().fit.set_channel(one.channel());
   }
   return out;
@@ -38,9 +38,9 @@ Result<std::vector<SourceFit>> parse_fits(const std::string& text) {
   if (const auto calibration = parse_calibration(text)) {
     out = fits_of(*calibration);
   } else if (reads(text, one)) {
-    out.push_back({"", one});
+    out.push_back({"", one, {}});
   } else if (reads(text, several)) {
-    for (const v1::FitReport& fit : several.channels()) out.push_back({"", fit});
+    for (const v1::FitReport& fit : several.channels()) out.push_back({"", fit, {}});
   } else {
     return fail(
         "not the JSON of imunoise calibrate, fit or array; write it with imunoise calibrate "
@@ -56,9 +56,9 @@ std::optional<v1::ArrayReport> parse_array(const std::string& text) {
   return out;
 }
 
-Result<std::vector<v1::FitReport>> chosen_fits(const std::vector<SourceFit>& fits,
-                                               const std::string& device,
-                                               const std::vector<std::string>& channels) {
+Result<std::vector<SourceFit>> chosen_fits(const std::vector<SourceFit>& fits,
+                                           const std::string& device,
+                                           const std::vector<std::string>& channels) {
   std::set<std::string> devices;
   for (const SourceFit& one : fits) devices.insert(one.device);
   const auto list = [&] {
@@ -70,7 +70,7 @@ Result<std::vector<v1::FitReport>> chosen_fits(const std::vector<SourceFit>& fit
     return fail(fmt::format("several devices; choose one with --device ({})", list()));
   if (!device.empty() && !devices.contains(device))
     return fail(fmt::format("no device '{}' (known: {})", device, list()));
-  std::vector<v1::FitReport> out;
+  std::vector<SourceFit> out;
   std::string known;
   for (const SourceFit& one : fits) {
     if (!device.empty() && one.device != device) continue;
@@ -79,7 +79,7 @@ Result<std::vector<v1::FitReport>> chosen_fits(const std::vector<SourceFit>& fit
         channels.empty() || std::any_of(channels.begin(), channels.end(), [&](const auto& name) {
           return recording::matches(name, one.fit.channel());
         });
-    if (wanted) out.push_back(one.fit);
+    if (wanted) out.push_back(one);
   }
   if (out.empty()) return fail(fmt::format("no such channel with a fit (known: {})", known));
   return out;

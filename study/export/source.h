@@ -17,6 +17,7 @@ namespace imunoise::study {
 struct SourceFit {
   std::string device;  ///< its name in the recording; empty for plain files
   v1::FitReport fit;
+  v1::StationarityReport stationarity{};  ///< of the replicates; empty where there is only one
 };
 
 /// The fits of a calibration; channels without one are left out.
@@ -31,8 +32,8 @@ std::optional<v1::ArrayReport> parse_array(const std::string& text);
 
 /// Of one device, and of the channels that one of the patterns matches; empty: all. Error: no such
 /// device or channel, or several devices and none named.
-Result<std::vector<v1::FitReport>> chosen_fits(const std::vector<SourceFit>& fits,
-                                               const std::string& device,
-                                               const std::vector<std::string>& channels);
+Result<std::vector<SourceFit>> chosen_fits(const std::vector<SourceFit>& fits,
+                                           const std::string& device,
+                                           const std::vector<std::string>& channels);
 
 }  // namespace imunoise::study

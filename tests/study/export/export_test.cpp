@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/support/random.h"
 #include "study/export/known_consumers.h"
 #include "study/export/sha256.h"
 #include "tests/study/export/example_imu.h"
@@ -85,6 +86,59 @@ TEST(Conservative, NoOtherBoundIsSmaller) {
     ratio /= ratio.minCoeff();
     EXPECT_GT(std::sqrt(ratio.mean()), best.usual * 0.999) << tilt;
   }
+}
+
+// Replicates are drawn from a log-normal distribution, the bound is made from their spread, and new
+// draws stay below it as often as promised: 95 % of 2,000, ± 4.5 standard deviations (2.2 %).
+TEST(Conservative, BoundsTheNextPowerOn) {
+  const Model model = parse_model("WN(sigma2=1e-6)", kAt).value();
+  v1::StationarityReport report;
+  v1::ParameterSpread& spread = *report.add_spread();
+  spread.set_term("WN");
+  spread.set_parameter("sigma2");
+  spread.set_replicates(400);
+  spread.set_mean(1e-6);
+  spread.set_relative(0.3);
+  spread.set_moves(true);
+  const auto draws = study::moving_parameters(model, report);
+  ASSERT_EQ(draws.size(), 1U);
+  const Eigen::ArrayXd m = Eigen::ArrayXd::Constant(1, 50.0);
+  const double bound = study::power_on_allan(model, draws, m, 0.95)(0);
+  const double usual = 2.0 * variance(model, m)(0);
+  RandomStream rng(99);
+  int below = 0;
+  for (int i = 0; i < 2000; ++i) below += usual * std::exp(0.3 * rng.normal()) < bound ? 1 : 0;
+  EXPECT_NEAR(below / 2000.0, 0.95, 0.022);
+  // Few replicates say less: the bound is wider.
+  spread.set_replicates(4);
+  EXPECT_GT(study::power_on_allan(model, study::moving_parameters(model, report), m, 0.95)(0),
+            1.2 * bound);
+  spread.set_moves(false);
+  EXPECT_TRUE(study::moving_parameters(model, report).empty());
+}
+
+TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
+  v1::FitReport fit;
+  fit.set_channel("gyro_x");
+  fit.set_unit("rad/s");
+  fit.set_rate_hz(200.0);
+  fit.set_fitted_model(kGyro);
+  v1::StationarityReport stationarity;
+  v1::ParameterSpread& spread = *stationarity.add_spread();
+  spread.set_term("RW");
+  spread.set_parameter("gamma2");
+  spread.set_replicates(6);
+  spread.set_mean(8e-12);
+  spread.set_relative(0.5);
+  spread.set_moves(true);
+  ExportOptions options;
+  options.conservative = true;
+  const auto walk = [&](const v1::StationarityReport& of) {
+    const std::string file = written(study::imu_noise({{"", fit, of}}).value(), "kalibr", options);
+    EXPECT_EQ(file.find("95 % of power-ons") != std::string::npos, of.spread_size() > 0) << file;
+    return numbers_of(file, "gyroscope_random_walk").front();
+  };
+  EXPECT_GT(walk(stationarity), 1.3 * walk({}));
 }
 
 TEST(Export, KalibrNeverGetsZero) {
@@ -182,7 +236,7 @@ TEST(Export, IntervalsFollowTheFit) {
   n.set_value(2e-4);
   n.set_lower(1.9e-4);
   n.set_upper(2.1e-4);
-  const auto imu = study::imu_noise({fit});
+  const auto imu = study::imu_noise({{"", fit, {}}});
   ASSERT_TRUE(imu) << imu.error().message;
   EXPECT_EQ(imu->gyro.axes[0].axis, 'x');
   const auto sheet = study::export_sheet(*imu, *consumer_called("gtsam"), {"x", ""}, {});
@@ -192,7 +246,7 @@ TEST(Export, IntervalsFollowTheFit) {
   ASSERT_EQ(field.values.size(), 3U);
   EXPECT_DOUBLE_EQ(field.values[0].lower, 1.9e-4 * 1.9e-4);
   EXPECT_DOUBLE_EQ(field.values[0].upper, 2.1e-4 * 2.1e-4);
-  const auto twice = study::imu_noise({fit, fit});
+  const auto twice = study::imu_noise({{"", fit, {}}, {"", fit, {}}});
   ASSERT_FALSE(twice);
   EXPECT_NE(twice.error().message.find("one axis too many"), std::string::npos);
 }
