@@ -12,6 +12,7 @@
 
 #include "cli/client/daemon_client.h"
 #include "cli/show.h"
+#include "core/wavelet/deviation.h"
 #include "daemon/catalogue/history.h"
 #include "drivers/codec/wire_format.h"
 #include "drivers/emulator/serving/serve.h"
@@ -40,7 +41,9 @@ struct InputArguments {
 struct WvArguments {
   InputArguments input;
   study::MeasureOptions measure;
-  bool json = false;
+  std::optional<DeviationKind> deviation;  ///< instead of the wavelet variance
+  ShowArguments show;                      ///< its page: of deviations alone
+  std::optional<std::filesystem::path> svg;
 };
 
 struct FitArguments {

@@ -24,7 +24,8 @@ constexpr const char* kWvExamples = R"help(
 Examples:
   imunoise wv run1.h5                                    every channel: a plot and a table
   imunoise wv run?.csv --channel gyro_x --per-octave 4 --json > wv.json
-  imunoise wv run1.h5 --robust 0.6                       resists outliers)help";
+  imunoise wv run1.h5 --robust 0.6                       resists outliers
+  imunoise wv run?.h5 --allan --report allan.html        Allan deviation and bias instability)help";
 
 constexpr const char* kTestExamples = R"help(
 Examples:
@@ -66,11 +67,29 @@ ParsedCommand wv_command(CLI::App& program) {
   add_measure(*wv, raw->input);
   add_confidence(*wv, *raw);
   add_json(*wv, *raw);
-  return {wv, [raw] {
-            WvArguments out{input_from(raw->input), measure_from(raw->input), raw->json};
-            out.measure.confidence = raw->confidence;
-            return out;
-          }};
+  add_report(*wv, *raw);
+  const auto allan = std::make_shared<bool>(false);
+  const auto hadamard = std::make_shared<bool>(false);
+  const auto svg = std::make_shared<std::string>();
+  auto* const of_allan = wv->add_flag(
+      "--allan", *allan, "Show the overlapping Allan deviation at 1, 2, 4, 10, ... samples");
+  wv->add_flag("--hadamard", *hadamard,
+               "Show the overlapping Hadamard deviation, which does not see a ramp")
+      ->excludes(of_allan);
+  wv->add_option("--svg", *svg, "SVG picture of each deviation to write")->type_name("OUT.svg");
+  return {
+      wv, [raw, allan, hadamard, svg] {
+        WvArguments out{input_from(raw->input), measure_from(raw->input), {}, show_from(*raw), {}};
+        out.measure.confidence = raw->confidence;
+        if (*allan) out.deviation = DeviationKind::kAllan;
+        if (*hadamard) out.deviation = DeviationKind::kHadamard;
+        out.svg = output_from("--svg", *svg, *raw);
+        if (!out.deviation && (out.show.report || out.svg))
+          refuse(out.svg ? "--svg" : "--report", "needs --allan or --hadamard");
+        if (out.deviation && out.measure.robust)
+          refuse("--robust", "is for the wavelet variance, not for deviations");
+        return out;
+      }};
 }
 
 ParsedCommand fit_command(CLI::App& program) {

@@ -120,10 +120,10 @@ std::string section(const v1::FitReport& report, int index) {
   return fmt::format("<section id=\"{}\" aria-label=\"{}\">\n", id,
                      escape_markup(channel_name(report.channel()))) +
          heading(report) + misfit_list(report, view) + budget(report, view) +
-         scale_table(report, view) + coefficient_table(report) + parameter_table(report) +
-         fitted_effect_table(report) + replicates(report, view) + notes(report) +
-         "<h3>How it was fitted</h3>\n" + fitted_model(report) + provenance(report) +
-         "</section>\n";
+         scale_table(report, view) + coefficient_table(report) + bias_instability_table(report) +
+         parameter_table(report) + fitted_effect_table(report) + replicates(report, view) +
+         notes(report) + "<h3>How it was fitted</h3>\n" + fitted_model(report) +
+         provenance(report) + "</section>\n";
 }
 
 std::string navigation(const v1::FitReports& reports) {

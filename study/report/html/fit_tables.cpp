@@ -8,6 +8,7 @@
 #include "study/figure/figure.h"
 #include "study/report/documents/effect_rows.h"
 #include "study/report/html/page_frame.h"
+#include "study/report/view/bias_instability.h"
 #include "study/report/view/verdict.h"
 #include "study/words/number.h"
 #include "study/words/text.h"
@@ -83,6 +84,16 @@ std::string coefficient_table(const v1::FitReport& report) {
   return "<h3>Coefficients, as in data sheets</h3>\n<div class=\"scroll\"><table>" +
          table_head({"symbol", "name", "data-sheet unit", "SI"}) + "<tbody>" + rows +
          "</tbody></table></div>\n";
+}
+
+std::string bias_instability_table(const v1::FitReport& report) {
+  if (report.terms().empty()) return {};
+  std::string rows;
+  for (const BiasInstability& one : bias_instabilities(report, kStyle))
+    rows += "<tr>" + cell("", one.meaning) + cell("number", one.value) + cell("", one.remark) +
+            "</tr>\n";
+  return "<h3>Bias instability</h3>\n<div class=\"scroll\"><table>" +
+         table_head({"meaning", "value", ""}) + "<tbody>" + rows + "</tbody></table></div>\n";
 }
 
 std::string fitted_effect_table(const v1::FitReport& report) {

@@ -10,6 +10,8 @@ namespace imunoise::report {
 
 std::string parameter_table(const v1::FitReport& report);
 std::string coefficient_table(const v1::FitReport& report);
+/// The three quantities that are called bias instability.
+std::string bias_instability_table(const v1::FitReport& report);
 /// What was fitted of the model's effects.
 std::string fitted_effect_table(const v1::FitReport& report);
 

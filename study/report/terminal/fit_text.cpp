@@ -10,6 +10,7 @@
 #include "study/report/figures/budget_figure.h"
 #include "study/report/terminal/lines.h"
 #include "study/report/terminal/table.h"
+#include "study/report/view/bias_instability.h"
 #include "study/report/view/verdict.h"
 #include "study/words/number.h"
 
@@ -52,6 +53,14 @@ std::string coefficients(const v1::FitReport& report, const TerminalStyle& style
   }
   if (rows.empty()) return {};
   return "\n" + terminal_table({"", "coefficient", "unit", ""}, rows, style);
+}
+
+std::string instabilities(const v1::FitReport& report, const TerminalStyle& style) {
+  if (report.terms().empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const BiasInstability& one : bias_instabilities(report, kPlainDigits))
+    rows.push_back({one.meaning, one.value, one.remark});
+  return "\n" + terminal_table({"bias instability", "", ""}, rows, style);
 }
 
 std::string parameters(const v1::FitReport& report, const TerminalStyle& style) {
@@ -97,7 +106,8 @@ std::string fit_text(const v1::FitReport& report, const TerminalStyle& wanted) {
   if (v == Verdict::kFails || v == Verdict::kDoubtful) {
     for (const Misfit& misfit : misfits(view)) out += wrapped(misfit_words(view, misfit), 2, style);
   }
-  out += coefficients(report, style) + parameters(report, style) + effects(report, style);
+  out += coefficients(report, style) + instabilities(report, style) + parameters(report, style) +
+         effects(report, style);
   if (!report.notes().empty()) out += "\n";
   for (const std::string& note : report.notes()) out += wrapped("note: " + note, 0, style);
   return out;

@@ -1,0 +1,98 @@
+#include "study/analysis/deviations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/support/distributions.h"
+
+namespace imunoise::study {
+namespace {
+
+// σ_Allan of the floor of flicker noise: √(2 ln2/π) B.
+constexpr double kFlickerFloor = 0.664;
+
+struct Pooled {
+  double weight = 0.0;
+  double variance = 0.0;  // sum of weight · variance
+};
+
+std::map<std::size_t, Pooled> pool(const Series& series, DeviationKind kind) {
+  std::map<std::size_t, Pooled> out;
+  for (const Signal& signal : series.replicates) {
+    const std::vector<std::size_t> factors = customary_factors(kind, signal.size());
+    const Eigen::ArrayXd variance = deviation_variance(kind, signal, factors);
+    for (std::size_t j = 0; j < factors.size(); ++j) {
+      const auto weight = static_cast<double>(difference_count(kind, signal.size(), factors[j]));
+      Pooled& at = out[factors[j]];
+      at.weight += weight;
+      at.variance += weight * variance(static_cast<Eigen::Index>(j));
+    }
+  }
+  return out;
+}
+
+std::string law_name(PowerLaw law) {
+  if (law == PowerLaw::kQuantisation) return "QN";
+  return law == PowerLaw::kWhite ? "WN" : "RW";
+}
+
+// Slope of log variance over log τ, from the neighbours of a point.
+double slope_at(const std::vector<std::pair<double, double>>& points, std::size_t i) {
+  const auto& [left, low] = points[i > 0 ? i - 1 : i];
+  const auto& [right, high] = points[std::min(i + 1, points.size() - 1)];
+  if (!(low > 0.0 && high > 0.0) || left == right) return -1.0;
+  return std::log(high / low) / std::log(right / left);
+}
+
+void add_minimum(v1::DeviationReport& to) {
+  const auto lowest =
+      std::min_element(to.points().begin(), to.points().end(),
+                       [](const auto& a, const auto& b) { return a.deviation() < b.deviation(); });
+  v1::DeviationMinimum& out = *to.mutable_minimum();
+  out.set_tau_s(lowest->tau_s());
+  out.set_deviation(lowest->deviation());
+  if (to.kind() == "Allan") out.set_bias_instability(lowest->deviation() / kFlickerFloor);
+  out.set_at_edge(lowest + 1 == to.points().end());
+}
+
+}  // namespace
+
+Result<v1::DeviationReport> deviations(const Series& series, DeviationKind kind,
+                                       double confidence) {
+  const std::map<std::size_t, Pooled> pooled = pool(series, kind);
+  if (pooled.empty()) return fail(series.channel + ": too few samples for a deviation");
+  const Signal& first = series.replicates.front();
+  v1::DeviationReport out;
+  out.set_channel(series.channel);
+  out.set_unit(std::string(si_symbol(first.quantity())));
+  out.set_rate_hz(first.rate().value);
+  out.set_kind(kind == DeviationKind::kAllan ? "Allan" : "Hadamard");
+  out.set_confidence(confidence);
+  out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
+  std::vector<std::pair<double, double>> curve;
+  for (const auto& [m, sum] : pooled)
+    curve.emplace_back(static_cast<double>(m), sum.variance / sum.weight);
+  const double tail = 0.5 * (1.0 - confidence);
+  std::size_t i = 0;
+  for (const auto& [m, sum] : pooled) {
+    const PowerLaw law = nearest_law(slope_at(curve, i));
+    double degrees = 0.0;
+    for (const Signal& signal : series.replicates)
+      if (difference_count(kind, signal.size(), m) > 0)
+        degrees += deviation_degrees(kind, law, signal.size(), m);
+    const double variance = curve[i++].second;
+    v1::DeviationPoint& point = *out.add_points();
+    point.set_samples(m);
+    point.set_tau_s(static_cast<double>(m) / first.rate().value);
+    point.set_deviation(std::sqrt(variance));
+    point.set_lower(std::sqrt(variance * degrees / chi_square_quantile(1.0 - tail, degrees)));
+    point.set_upper(std::sqrt(variance * degrees / chi_square_quantile(tail, degrees)));
+    point.set_degrees_of_freedom(degrees);
+    point.set_noise(law_name(law));
+  }
+  add_minimum(out);
+  return out;
+}
+
+}  // namespace imunoise::study
