@@ -28,6 +28,7 @@
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
 #include "study/calibration/calibrate.h"
+#include "study/datasheet/printed.h"
 #include "study/export/export.h"
 
 namespace imunoise::cli {
@@ -43,6 +44,16 @@ struct WvArguments {
   study::MeasureOptions measure;
   std::optional<DeviationKind> deviation;  ///< instead of the wavelet variance
   ShowArguments show;                      ///< its page: of deviations alone
+  std::optional<std::filesystem::path> svg;
+};
+
+/// Figures of a data sheet, and what they are compared with.
+struct DatasheetArguments {
+  InputArguments input;  ///< no files: the figures alone, at the rate given
+  std::optional<study::PrintedFigures> gyro;
+  std::optional<study::PrintedFigures> accelerometer;
+  double confidence = 0.95;
+  ShowArguments show;
   std::optional<std::filesystem::path> svg;
 };
 
@@ -262,7 +273,7 @@ struct Arguments {
       WvArguments, FitArguments, TestArguments, SelectArguments, ArrayArguments, MixedArguments,
       FaultsArguments, DynamicArguments, DiagnoseArguments, StudyArguments, OpenArguments,
       SimulateArguments, RecordArguments, VerifyArguments, EmulateArguments, DriversArguments,
-      DecodeArguments, CalibrateArguments, ExportArguments, RecordingsArguments,
+      DecodeArguments, CalibrateArguments, ExportArguments, DatasheetArguments, RecordingsArguments,
       CalibrationsArguments, HistoryArguments, DevicesArguments, CampaignsArguments, LiveArguments,
       StatusArguments, StartArguments, StopArguments, BatchNewArguments, BatchRunArguments,
       BatchShardArguments, BatchStatusArguments, BatchMergeArguments>;

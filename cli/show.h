@@ -5,6 +5,7 @@
 #include "cli/output.h"
 #include "study/report/documents/batch_documents.h"
 #include "study/report/documents/catalogue_documents.h"
+#include "study/report/documents/datasheet_document.h"
 #include "study/report/documents/deviation_document.h"
 #include "study/report/documents/document.h"
 #include "study/report/documents/inference_documents.h"

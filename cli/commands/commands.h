@@ -24,6 +24,7 @@ int run(const RecordArguments& arguments);
 int run(const VerifyArguments& arguments);
 int run(const CalibrateArguments& arguments);
 int run(const ExportArguments& arguments);
+int run(const DatasheetArguments& arguments);
 int run(const RecordingsArguments& arguments);
 int run(const CalibrationsArguments& arguments);
 int run(const HistoryArguments& arguments);

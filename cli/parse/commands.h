@@ -21,6 +21,7 @@ std::vector<ParsedCommand> array_commands(CLI::App& program);  ///< array, mixed
 std::vector<ParsedCommand> diagnosis_commands(CLI::App& program);  ///< diagnose, study
 std::vector<ParsedCommand> open_commands(CLI::App& program);       ///< open
 std::vector<ParsedCommand> export_commands(CLI::App& program);     ///< export
+std::vector<ParsedCommand> datasheet_commands(CLI::App& program);  ///< datasheet
 std::vector<ParsedCommand> recording_commands(CLI::App& program);  ///< simulate, record, verify
 std::vector<ParsedCommand> device_commands(CLI::App& program);     ///< drivers, decode
 std::vector<ParsedCommand> emulation_commands(CLI::App& program);  ///< emulate

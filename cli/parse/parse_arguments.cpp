@@ -38,7 +38,8 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"Analyse recordings",
-       {analysis_commands, diagnosis_commands, open_commands, array_commands, export_commands}},
+       {analysis_commands, diagnosis_commands, open_commands, array_commands, export_commands,
+        datasheet_commands}},
       {"Record, replay and simulate",
        {recording_commands, replay_commands, device_commands, emulation_commands}},
       {"Manage many recordings", {catalogue_commands, batch_commands}},

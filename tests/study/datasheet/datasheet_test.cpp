@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "study/datasheet/compare.h"
+
+namespace imunoise::testing {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+double value_of(const char* text, Quantity quantity) {
+  const auto printed = study::parse_printed(text, quantity);
+  if (!printed) ADD_FAILURE() << printed.error().message;
+  return printed ? printed->figures.front().value : NAN;
+}
+
+// One density in each of its spellings.
+TEST(Datasheet, UnitsOfNoiseDensity) {
+  const double n = 0.3 * kDeg / 60.0;
+  for (const char* const text :
+       {"N=0.3 deg/sqrt(h)", "ARW=0.3 °/√h", "n = 0.3 deg/√hr", "N=0.3 deg/rt-hr",
+        "N=0.005 dps/sqrt(Hz)", "N=5 mdps/√Hz", "N=0.005 °/s/√Hz", "N=18 deg/h/√Hz",
+        "N=18 (deg/h)/sqrt(Hz)", "N=8.726646259971648e-05 rad/s/√Hz", "N=0.005 deg/√s"})
+    EXPECT_NEAR(value_of(text, Quantity::kAngularRate), n, 1e-12) << text;
+  const double a = 60e-6 * 9.80665;
+  for (const char* const text : {"N=60 ug/sqrt(Hz)", "N=60 µg/√Hz", "VRW=0.06 mg/√Hz",
+                                 "N=5.88399e-4 m/s²/√Hz", "N=0.0353039 m/s/√h"})
+    EXPECT_NEAR(value_of(text, Quantity::kAcceleration), a, 1e-6 * a) << text;
+}
+
+TEST(Datasheet, UnitsOfBiasInstabilityAndRandomWalk) {
+  EXPECT_NEAR(value_of("B=5 deg/h", Quantity::kAngularRate), 5.0 * kDeg / 3600.0, 1e-12);
+  EXPECT_NEAR(value_of("BI=15 ug", Quantity::kAcceleration), 15e-6 * 9.80665, 1e-12);
+  const double k = 12.0 * kDeg / 3600.0 / 60.0;
+  for (const char* const text :
+       {"K=12 deg/h/sqrt(h)", "RRW=12 (°/h)/√h", "K=9.696273622e-07 rad/s²/√Hz", "K=0.2 deg/h/√s"})
+    EXPECT_NEAR(value_of(text, Quantity::kAngularRate), k, 1e-9 * k) << text;
+}
+
+TEST(Datasheet, RefusesWhatItCannotRead) {
+  for (const char* const text :
+       {"N=0.3", "N=0.3 deg/h", "B=5 deg/√h", "N=-1 deg/√h", "X=1 deg/h", "N=0.3 ug/√Hz", "",
+        "N=1 deg/√h,", "N=1 deg/√h, N=2 deg/√h", "K=1 deg/√h", "N=nan deg/√h"}) {
+    const auto printed = study::parse_printed(text, Quantity::kAngularRate);
+    EXPECT_FALSE(printed) << text;
+  }
+  const auto unit = study::parse_printed("N=0.3 deg/h", Quantity::kAngularRate);
+  EXPECT_NE(unit.error().message.find("write °/√h or rad/s/√Hz"), std::string::npos)
+      << unit.error().message;
+}
+
+// A device whose N is 1.5 times the printed one, and whose B is what is printed.
+TEST(Datasheet, SaysWhichFigureIsMissedAndByHowMuch) {
+  constexpr Hertz kHundred{100.0};
+  const auto printed =
+      study::parse_printed("N=0.3 deg/sqrt(h), B=12 deg/h", Quantity::kAngularRate).value();
+  study::PrintedFigures real = printed;
+  real.figures[0].value *= 1.5;
+  real.figures[1].value *= 0.8;
+  const std::vector<double> x = simulate(study::printed_model(real, kHundred), 1U << 19U, 3, 0);
+  study::Series series{"gyro_x", {"a"}, {}};
+  series.replicates.emplace_back(std::span(x), kHundred, Quantity::kAngularRate);
+  const auto report = study::compare_with_datasheet(series, printed, 0.95);
+  ASSERT_TRUE(report) << report.error().message;
+  const v1::DatasheetFigure& n = report->figures(0);
+  EXPECT_EQ(n.verdict(), "missed");
+  EXPECT_NEAR(n.measured() / n.value(), 1.5, 0.02);
+  EXPECT_LT(n.lower(), n.measured());
+  EXPECT_EQ(report->figures(1).verdict(), "met") << report->ShortDebugString();
+  EXPECT_NE(report->summary().find("misses N by "), std::string::npos) << report->summary();
+}
+
+TEST(Datasheet, ARandomWalkBelowTheOtherNoiseIsNotSeen) {
+  constexpr Hertz kHundred{100.0};
+  const auto printed =
+      study::parse_printed("N=0.3 deg/sqrt(h), K=0.01 deg/h/sqrt(h)", Quantity::kAngularRate)
+          .value();
+  const std::vector<double> x = simulate(study::printed_model(printed, kHundred), 1U << 16U, 3, 0);
+  study::Series series{"gyro_x", {"a"}, {}};
+  series.replicates.emplace_back(std::span(x), kHundred, Quantity::kAngularRate);
+  const auto report = study::compare_with_datasheet(series, printed, 0.95).value();
+  EXPECT_EQ(report.figures(0).verdict(), "met");
+  EXPECT_EQ(report.figures(1).verdict(), "not seen");
+  EXPECT_NE(report.summary().find("record longer to see K"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace imunoise::testing
