@@ -9,9 +9,6 @@
 namespace imunoise::study {
 namespace {
 
-// σ_Allan of the floor of flicker noise: √(2 ln2/π) B.
-constexpr double kFlickerFloor = 0.664;
-
 struct Pooled {
   double weight = 0.0;
   double variance = 0.0;  // sum of weight · variance

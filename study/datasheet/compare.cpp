@@ -9,8 +9,6 @@
 namespace imunoise::study {
 namespace {
 
-constexpr double kFlickerFloor = 0.664;  // √(2 ln2/π)
-
 double allan_of(const Model& model, double m) {
   return std::sqrt(2.0 * variance(model, Eigen::ArrayXd::Constant(1, m))(0));
 }
