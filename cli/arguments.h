@@ -28,7 +28,7 @@
 #include "study/analysis/select_model.h"
 #include "study/analysis/test_series.h"
 #include "study/calibration/calibrate.h"
-#include "study/datasheet/printed.h"
+#include "study/deviation/printed.h"
 #include "study/export/export.h"
 
 namespace imunoise::cli {

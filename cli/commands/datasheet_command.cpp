@@ -1,7 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/show.h"
-#include "study/datasheet/compare.h"
+#include "study/deviation/compare.h"
 #include "study/figure/svg.h"
 #include "study/report/documents/datasheet_document.h"
 #include "study/report/figures/datasheet_figure.h"

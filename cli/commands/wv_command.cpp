@@ -3,7 +3,7 @@
 #include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
-#include "study/analysis/deviations.h"
+#include "study/deviation/deviations.h"
 #include "study/figure/svg.h"
 #include "study/report/figures/deviation_figure.h"
 #include "study/report/json.h"

@@ -29,7 +29,7 @@ TEST(Deviation, NistSp1065Points) {
   double mean = 0.0;
   for (const double x : points) mean += x / 1000.0;
   EXPECT_NEAR(mean, 4.897745e-1, 1e-7);
-  const Signal signal(std::span(points), Hertz{1.0});
+  const Signal signal(std::span<const double>{points}, Hertz{1.0});
   const std::vector<std::size_t> factors = {1, 10, 100};
   const Eigen::ArrayXd allan = deviation_variance(DeviationKind::kAllan, signal, factors).sqrt();
   EXPECT_NEAR(allan(0), 2.922319e-1, 5e-8);
@@ -44,7 +44,7 @@ TEST(Deviation, NistSp1065Points) {
 
 TEST(Deviation, AllanIsTwiceTheWaveletVariance) {
   const std::vector<double> points = nist_points();
-  const Signal signal(std::span(points), Hertz{1.0});
+  const Signal signal(std::span<const double>{points}, Hertz{1.0});
   const WaveletVariance wavelet = wavelet_variance(signal, Scales({1, 7, 64}));
   const Eigen::ArrayXd allan = deviation_variance(DeviationKind::kAllan, signal, {1, 7, 64});
   for (Eigen::Index i = 0; i < 3; ++i)

@@ -3,7 +3,7 @@
 #include "core/support/result.h"
 #include "imunoise/v1/datasheet.pb.h"
 #include "study/analysis/series.h"
-#include "study/datasheet/printed.h"
+#include "study/deviation/printed.h"
 
 namespace imunoise::study {
 

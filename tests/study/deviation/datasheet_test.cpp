@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/datasheet/compare.h"
+#include "study/deviation/compare.h"
 
 namespace imunoise::testing {
 namespace {

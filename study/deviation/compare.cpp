@@ -1,10 +1,10 @@
-#include "study/datasheet/compare.h"
+#include "study/deviation/compare.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "study/analysis/deviations.h"
+#include "study/deviation/deviations.h"
 
 namespace imunoise::study {
 namespace {

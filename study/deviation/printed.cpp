@@ -1,4 +1,4 @@
-#include "study/datasheet/printed.h"
+#include "study/deviation/printed.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/analysis/deviations.h"
+#include "study/deviation/deviations.h"
 
 #include <algorithm>
 #include <cmath>
