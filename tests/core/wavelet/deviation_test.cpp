@@ -74,7 +74,8 @@ TEST(Deviation, DegreesOfFreedomOfAllanAreExact) {
   constexpr std::size_t kLength = 4096;
   const Scales scales({1, 4, 64, 512, 1500});
   const std::pair<PowerLaw, SumCovariance> laws[] = {
-      {PowerLaw::kWhite, {.linear = -0.5}}, {PowerLaw::kRandomWalk, {.cubic = 1.0 / 12.0}}};
+      {PowerLaw::kWhite, {.linear = -0.5}},
+      {PowerLaw::kRandomWalk, {.linear = -1.0 / 12.0, .cubic = 1.0 / 12.0}}};
   for (const auto& [law, sums] : laws) {
     const Eigen::MatrixXd v = moment_covariance(sums, scales, kLength);
     for (std::size_t i = 0; i < scales.size(); ++i) {

@@ -26,7 +26,7 @@ TEST(Datasheet, UnitsOfNoiseDensity) {
     EXPECT_NEAR(value_of(text, Quantity::kAngularRate), n, 1e-12) << text;
   const double a = 60e-6 * 9.80665;
   for (const char* const text : {"N=60 ug/sqrt(Hz)", "N=60 µg/√Hz", "VRW=0.06 mg/√Hz",
-                                 "N=5.88399e-4 m/s²/√Hz", "N=0.0353039 m/s/√h"})
+                                 "N=5.88399e-4 m/s²/√Hz", "N=0.03530394 m/s/√h"})
     EXPECT_NEAR(value_of(text, Quantity::kAcceleration), a, 1e-6 * a) << text;
 }
 
