@@ -19,20 +19,20 @@ std::vector<double> weights(DeviationKind kind) {
 
 // Generalised covariance of prefix sums at a lag of u windows of m samples, up to polynomials that
 // the differences cancel.
-double sum_covariance_at(PowerLaw law, double u, double m) {
+double sum_covariance_at(NoiseType law, double u, double m) {
   const double lag = std::abs(u);
   switch (law) {
-    case PowerLaw::kQuantisation:
+    case NoiseType::kQuantisation:
       return lag * m < 0.5 ? 1.0 : 0.0;
-    case PowerLaw::kWhite:
+    case NoiseType::kWhite:
       return -0.5 * lag;
-    case PowerLaw::kRandomWalk:
+    case NoiseType::kRandomWalk:
       break;
   }
   return (lag * lag * lag - lag / (m * m)) / 12.0;
 }
 
-double difference_covariance(DeviationKind kind, PowerLaw law, double u, double m) {
+double difference_covariance(DeviationKind kind, NoiseType law, double u, double m) {
   const std::vector<double> p = weights(kind);
   double out = 0.0;
   for (std::size_t a = 0; a < p.size(); ++a) {
@@ -86,23 +86,24 @@ Eigen::ArrayXd deviation_variance(DeviationKind kind, const Signal& signal,
   return out;
 }
 
-PowerLaw nearest_law(double slope) {
-  if (slope < -1.5) return PowerLaw::kQuantisation;
-  return slope < -0.5 ? PowerLaw::kWhite : PowerLaw::kRandomWalk;
+NoiseType nearest_law(double slope) {
+  if (slope < -1.5) return NoiseType::kQuantisation;
+  return slope < -0.5 ? NoiseType::kWhite : NoiseType::kRandomWalk;
 }
 
-double deviation_degrees(DeviationKind kind, PowerLaw law, std::size_t samples, std::size_t m) {
+double deviation_degrees(DeviationKind kind, NoiseType law, std::size_t samples, std::size_t m) {
   const auto count = static_cast<double>(difference_count(kind, samples, m));
   const auto width = static_cast<double>(m);
   // Rounding errors are correlated at lags of whole windows alone.
-  const std::size_t stride = law == PowerLaw::kQuantisation ? m : std::max<std::size_t>(m / 256, 1);
+  const std::size_t stride =
+      law == NoiseType::kQuantisation ? m : std::max<std::size_t>(m / 256, 1);
   const double zero = difference_covariance(kind, law, 0.0, width);
   double sum =
-      count * zero * zero * (law == PowerLaw::kQuantisation ? 1.0 : static_cast<double>(stride));
+      count * zero * zero * (law == NoiseType::kQuantisation ? 1.0 : static_cast<double>(stride));
   for (std::size_t s = stride; s <= windows(kind) * m && static_cast<double>(s) < count;
        s += stride) {
     const double g = difference_covariance(kind, law, static_cast<double>(s) / width, width);
-    const double each = law == PowerLaw::kQuantisation ? 1.0 : static_cast<double>(stride);
+    const double each = law == NoiseType::kQuantisation ? 1.0 : static_cast<double>(stride);
     sum += 2.0 * each * (count - static_cast<double>(s)) * g * g;
   }
   return std::max(count * count * zero * zero / sum, 1.0);

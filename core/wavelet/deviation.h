@@ -28,14 +28,14 @@ Eigen::ArrayXd deviation_variance(DeviationKind kind, const Signal& signal,
                                   const std::vector<std::size_t>& factors);
 
 /// Power-law noises, by the slope of the variance over τ: -2, -1, +1.
-enum class PowerLaw { kQuantisation, kWhite, kRandomWalk };
+enum class NoiseType { kQuantisation, kWhite, kRandomWalk };
 /// The law nearest to the slope of log variance over log τ; halfway, where flicker lies, the one
 /// with fewer degrees of freedom.
-PowerLaw nearest_law(double slope);
+NoiseType nearest_law(double slope);
 
 /// Equivalent degrees of freedom 2E²/Var of the overlapping estimate from `samples` samples of a
 /// Gaussian noise: M²γ(0)² / Σ_s (M - |s|) γ(s)², γ the autocovariance of the differences. To 1 %
 /// (the sum takes at least 256 lags a factor, all of them up to m = 256).
-double deviation_degrees(DeviationKind kind, PowerLaw law, std::size_t samples, std::size_t m);
+double deviation_degrees(DeviationKind kind, NoiseType law, std::size_t samples, std::size_t m);
 
 }  // namespace imunoise

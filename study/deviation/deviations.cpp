@@ -29,9 +29,9 @@ std::map<std::size_t, Pooled> pool(const Series& series, DeviationKind kind) {
   return out;
 }
 
-std::string law_name(PowerLaw law) {
-  if (law == PowerLaw::kQuantisation) return "QN";
-  return law == PowerLaw::kWhite ? "WN" : "RW";
+std::string law_name(NoiseType law) {
+  if (law == NoiseType::kQuantisation) return "QN";
+  return law == NoiseType::kWhite ? "WN" : "RW";
 }
 
 // Slope of log variance over log τ, from the neighbours of a point.
@@ -73,7 +73,7 @@ Result<v1::DeviationReport> deviations(const Series& series, DeviationKind kind,
   const double tail = 0.5 * (1.0 - confidence);
   std::size_t i = 0;
   for (const auto& [m, sum] : pooled) {
-    const PowerLaw law = nearest_law(slope_at(curve, i));
+    const NoiseType law = nearest_law(slope_at(curve, i));
     double degrees = 0.0;
     for (const Signal& signal : series.replicates)
       if (difference_count(kind, signal.size(), m) > 0)

@@ -73,14 +73,14 @@ TEST(Deviation, CustomaryFactorsEndWithTheData) {
 TEST(Deviation, DegreesOfFreedomOfAllanAreExact) {
   constexpr std::size_t kLength = 4096;
   const Scales scales({1, 4, 64, 512, 1500});
-  const std::pair<PowerLaw, SumCovariance> laws[] = {
-      {PowerLaw::kWhite, {.linear = -0.5}},
-      {PowerLaw::kRandomWalk, {.linear = -1.0 / 12.0, .cubic = 1.0 / 12.0}}};
+  const std::pair<NoiseType, SumCovariance> laws[] = {
+      {NoiseType::kWhite, {.linear = -0.5}},
+      {NoiseType::kRandomWalk, {.linear = -1.0 / 12.0, .cubic = 1.0 / 12.0}}};
   for (const auto& [law, sums] : laws) {
     const Eigen::MatrixXd v = moment_covariance(sums, scales, kLength);
     for (std::size_t i = 0; i < scales.size(); ++i) {
       const auto m = static_cast<double>(scales[i]);
-      const double nu = law == PowerLaw::kWhite ? 0.5 / m : (2.0 * m * m + 1.0) / (12.0 * m);
+      const double nu = law == NoiseType::kWhite ? 0.5 / m : (2.0 * m * m + 1.0) / (12.0 * m);
       const auto at = static_cast<Eigen::Index>(i);
       const double exact = 2.0 * nu * nu / v(at, at);
       EXPECT_NEAR(deviation_degrees(DeviationKind::kAllan, law, kLength,
@@ -97,7 +97,7 @@ TEST(Deviation, DegreesOfFreedomOfHadamardBySimulation) {
   constexpr int kRuns = 400;
   constexpr std::size_t kLength = 600;
   const std::vector<std::size_t> factors = {4, 40};
-  for (const PowerLaw law : {PowerLaw::kWhite, PowerLaw::kRandomWalk}) {
+  for (const NoiseType law : {NoiseType::kWhite, NoiseType::kRandomWalk}) {
     RandomStream rng(5);
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2);
     Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(2);
@@ -106,7 +106,7 @@ TEST(Deviation, DegreesOfFreedomOfHadamardBySimulation) {
       double level = 0.0;
       for (double& one : x) {
         level += rng.normal();
-        one = law == PowerLaw::kWhite ? rng.normal() : level;
+        one = law == NoiseType::kWhite ? rng.normal() : level;
       }
       const Eigen::ArrayXd v =
           deviation_variance(DeviationKind::kHadamard, Signal(std::span(x), Hertz{1.0}), factors);
