@@ -97,7 +97,7 @@ Result<std::vector<recording::Replicate>> read_input(const InputArguments& argum
   if (is_recording(arguments)) {
     const recording::ImportOptions& options = arguments.import;
     if (options.time_unit || options.from || options.until || !options.exclude.empty() ||
-        options.strict)
+        options.use_disturbed || options.strict)
       return fail(
           "--time-unit, --from, --until, --exclude and --strict are for files, not for folders");
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),

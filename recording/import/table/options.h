@@ -49,6 +49,8 @@ struct ImportOptions {
   std::optional<double> until;
   /// Leaves these times out.
   std::vector<TimeSpan> exclude;
+  /// Uses times in which the sensor was disturbed, too.
+  bool use_disturbed = false;
   /// Refuses a file where the preflight would leave samples out or has doubts.
   bool strict = false;
   /// The topic of a bag. Empty: the only one that holds messages of an IMU.
