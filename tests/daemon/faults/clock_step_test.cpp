@@ -1,29 +1,14 @@
-// The time of day is set while a replicate is recorded: this program's calls of clock_gettime()
-// come here.
+// The time of day is set while a replicate is recorded.
 
-#include <sys/syscall.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <chrono>
-#include <ctime>
 #include <mutex>
 #include <thread>
 
 #include "daemon/acquire/record_replicate.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/verify/verify.h"
+#include "tests/daemon/faults/set_clock.h"
 #include "tests/daemon/whims.h"
-
-namespace {
-std::atomic<std::int64_t> set_by_s = 0;  // NOLINT: the C library's function has no object
-}  // namespace
-
-extern "C" int clock_gettime(clockid_t id, timespec* time) noexcept {
-  const auto result = static_cast<int>(::syscall(SYS_clock_gettime, id, time));
-  if (id == CLOCK_REALTIME) time->tv_sec += set_by_s;
-  return result;
-}
 
 namespace imunoise::acquire {
 namespace {

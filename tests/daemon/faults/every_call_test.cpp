@@ -7,13 +7,11 @@
 #include <iostream>
 #include <random>
 
-#include "daemon/acquire/campaign/campaign.h"
-#include "daemon/acquire/campaign/campaign_recorder.h"
 #include "recording/store/manifest/device_folder.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/recovery/recover.h"
 #include "recording/store/verify/verify.h"
-#include "tests/daemon/faults/hasty_clock.h"
+#include "tests/daemon/faults/run_once.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/fake_disk.h"
 
@@ -47,20 +45,7 @@ class EveryCallOfACampaign : public testing::Whims {
   }
 
   // Whether it came to its end by itself.
-  bool run(FakeDisk& disk) const {
-    testing::HastyClock clock;
-    CampaignRecorder recorder(disk, drivers(), {});
-    CampaignSurroundings with{clock, disk, recorder};
-    std::stop_source enough;
-    int told = 0;
-    bool finished = false;
-    with.tell = [&](const v1::CampaignStatus& status) {
-      finished = status.phase() == v1::finished;
-      if (++told > 100) enough.request_stop();
-    };
-    run_campaign(campaign_, RunMode::kOnce, with, enough.get_token());
-    return finished;
-  }
+  bool run(FakeDisk& disk) const { return testing::run_once(campaign_, drivers(), disk); }
 
   // How often a campaign whose disk never fails calls it, by kind.
   std::array<int, FakeDisk::kKinds> calls_of_a_run() const {

@@ -4,39 +4,23 @@
 // and the last that are stored is stored, refused, reported lost, or reported as not written.
 // IMUNOISE_DAYS and IMUNOISE_FIRST_SEED ask for others.
 
-#include <sys/syscall.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <iostream>
 #include <map>
 #include <random>
 #include <set>
 #include <thread>
 
-#include "daemon/acquire/campaign/campaign.h"
-#include "daemon/acquire/campaign/campaign_recorder.h"
 #include "recording/store/manifest/device_folder.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/reading/device_recording.h"
 #include "recording/store/recovery/recover.h"
 #include "recording/store/verify/verify.h"
-#include "tests/daemon/faults/hasty_clock.h"
+#include "tests/daemon/faults/run_once.h"
+#include "tests/daemon/faults/set_clock.h"
 #include "tests/daemon/whims.h"
 #include "tests/recording/store/fake_disk.h"
-
-namespace {
-std::atomic<std::int64_t> set_by_s = 0;  // NOLINT: the C library's function has no object
-}  // namespace
-
-extern "C" int clock_gettime(clockid_t id, timespec* time) noexcept {
-  const auto result = static_cast<int>(::syscall(SYS_clock_gettime, id, time));
-  if (id == CLOCK_REALTIME) time->tv_sec += set_by_s;
-  return result;
-}
 
 namespace imunoise::acquire {
 namespace {
@@ -85,21 +69,9 @@ class ThirtyDays : public testing::Whims {
     }
     return out;
   }
-
   // Whether it came to its end by itself.
   static bool run(const v1::Campaign& campaign, FakeDisk& disk) {
-    testing::HastyClock clock;
-    CampaignRecorder recorder(disk, drivers(), {});
-    CampaignSurroundings with{clock, disk, recorder};
-    std::stop_source enough;
-    int told = 0;
-    bool finished = false;
-    with.tell = [&](const v1::CampaignStatus& status) {
-      finished = status.phase() == v1::finished;
-      if (++told > 100) enough.request_stop();
-    };
-    run_campaign(campaign, RunMode::kOnce, with, enough.get_token());
-    return finished;
+    return testing::run_once(campaign, drivers(), disk);
   }
 };
 
