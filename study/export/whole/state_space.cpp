@@ -35,6 +35,10 @@ class Assembly {
     if (!block) return tl::unexpected(block.error());
     const bool walks = std::holds_alternative<RandomWalk>(latent.term.process);
     const Index n = block->phi.rows();
+    if (n == 0) {  // white noise: of the measurement alone
+      add_white(latent, block->r);
+      return {};
+    }
     if (latent.matrix() || latent.sensors.size() == 1) {
       std::vector<Index> first(latent.sensors.size());
       for (std::size_t i = 0; i < latent.sensors.size(); ++i) {
@@ -94,6 +98,14 @@ class Assembly {
   StateSpace take() { return std::move(system_); }
 
  private:
+  void add_white(const Latent& latent, double r) {
+    const bool own = latent.matrix() || latent.sensors.size() == 1;
+    for (const Index a : latent.sensors) {
+      for (const Index b : latent.sensors)
+        system_.r(a, b) += (own ? latent.power(a, b) : latent.scalar()) * r;
+    }
+  }
+
   // `sensor` < 0: a process that several share.
   Index append(const UnitBlock& block, const Latent& latent, Index sensor) {
     const Index first = system_.phi.rows();
