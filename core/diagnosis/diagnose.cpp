@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "core/diagnosis/causes.h"
 #include "core/diagnosis/missing_noise.h"
@@ -104,16 +106,16 @@ std::optional<DetectionLimit> limit_of(const Suggestion& one, double level, Hert
   return out;
 }
 
-// Those that may well be added next: others explain a tenth of the best at most, to first order.
-// Where the best is faint, all.
-Suggestions strongest(const Suggestions& all) {
-  constexpr double kFaint = 100.0;  // nats
-  constexpr double kFarLess = 0.1;
-  double most = 0.0;
-  for (const Suggestion& one : all) most = std::max(most, one.score_nats);
+// What these effects explain.
+Suggestions search_effects(const Current& current, std::span<const Effect* const> effects,
+                           const Progress& progress) {
   Suggestions out;
-  for (const Suggestion& one : all) {
-    if (most < kFaint || one.score_nats > kFarLess * most) out.push_back(one);
+  const SearchView view(current);
+  for (std::size_t i = 0; i < effects.size() && !progress.stopped(); ++i) {
+    progress.report(static_cast<double>(i) / static_cast<double>(effects.size()));
+    if (effects[i]->search == nullptr) continue;
+    Suggestions found = effects[i]->search(view);
+    std::move(found.begin(), found.end(), std::back_inserter(out));
   }
   return out;
 }
@@ -121,14 +123,44 @@ Suggestions strongest(const Suggestions& all) {
 // Noise, then each effect.
 Suggestions search_all(const Current& current, const Progress& progress) {
   Suggestions out = search_noise(current);
-  const SearchView view(current);
-  const std::span<const Effect* const> effects = known_effects();
-  for (std::size_t i = 0; i < effects.size() && !progress.stopped(); ++i) {
-    progress.report(static_cast<double>(i + 1) / static_cast<double>(effects.size() + 1));
-    if (effects[i]->search == nullptr) continue;
-    Suggestions found = effects[i]->search(view);
-    std::move(found.begin(), found.end(), std::back_inserter(out));
+  Suggestions effects = search_effects(current, known_effects(), progress.part(0.1, 1.0));
+  std::move(effects.begin(), effects.end(), std::back_inserter(out));
+  return out;
+}
+
+// What was searched, and what of it is worth a trial.
+struct Sought {
+  double searches = 0.0;
+  Suggestions wanted;
+};
+
+// The beginnings of the replicates, an eighth of a long recording, say what may well be added next;
+// only that is sought in the whole.
+Sought sought_by_beginnings(const Current& current, double level, const Progress& progress) {
+  constexpr Eigen::Index kSamples = 1 << 20;  // of all replicates together
+  constexpr std::size_t kMostWanted = 3;
+  constexpr double kFarLess = 0.5;
+  const auto count = static_cast<Eigen::Index>(current.subject().replicates());
+  const Regression part = current.regression.beginnings(kSamples / count);
+  const JointFit fit = joint_fit(part, current.fit.model.noise);
+  const Current begun = current_of(part, fit);
+  const Suggestions all = search_all(begun, progress.part(0.0, 0.4));
+  Sought out{.searches = static_cast<double>(all.size()), .wanted = {}};
+  const std::vector<TriedTerm> tried = try_all(begun, all, progress.part(0.4, 0.8));
+  std::vector<const Effect*> effects;
+  for (std::size_t i = 0; i < std::min(kMostWanted, tried.size()); ++i) {
+    const TriedTerm& one = tried[i];
+    const bool chance = one.log_p + std::log(out.searches) > std::log(level);
+    if (chance || one.gain < kFarLess * tried.front().gain) break;
+    const EffectTerm* const term = one.term();
+    if (term == nullptr) {
+      out.wanted.push_back(one.suggestion);
+    } else if (std::find(effects.begin(), effects.end(), term->effect) == effects.end()) {
+      effects.push_back(term->effect);
+    }
   }
+  Suggestions found = search_effects(current, effects, progress.part(0.8, 1.0));
+  std::move(found.begin(), found.end(), std::back_inserter(out.wanted));
   return out;
 }
 
@@ -138,14 +170,20 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
                    const Progress& progress) {
   const Current current = current_of(model.regression, model.fit);
   const Subject& subject = current.subject();
-  const Suggestions all = search_all(current, progress.part(0.0, 0.4));
-  if (progress.stopped()) return {};
   const double misfit_level = kSpent * kMisfitShare * options.level;
   const double level = kSpent * options.level - misfit_level;
+  Sought sought;
+  if (options.climbing) {
+    sought = sought_by_beginnings(current, level, progress.part(0.0, 0.4));
+    if (sought.wanted.empty()) return diagnose(model, {options.level}, progress);
+  } else {
+    sought.wanted = search_all(current, progress.part(0.0, 0.4));
+    sought.searches = static_cast<double>(sought.wanted.size());
+  }
+  if (progress.stopped()) return {};
   // Everything that was searched is a chance of a false alarm.
-  const auto searched = static_cast<double>(all.size());
-  const Suggestions wanted = options.climbing ? strongest(all) : all;
-  std::vector<TriedTerm> tried = try_all(current, wanted, progress.part(0.4, 0.75));
+  const double searched = sought.searches;
+  std::vector<TriedTerm> tried = try_all(current, sought.wanted, progress.part(0.4, 0.75));
   test_placebos(tried, current, std::log(level / searched), progress);
   name_shared_noise(tried, searched, level, progress);
   if (progress.stopped()) return {};
@@ -164,13 +202,13 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
   }
   fill_confusions(out.effects, subject, level);
   progress.report(1.0);
-  for (const Suggestion& one : all) {
-    if (auto limit = limit_of(one, level / static_cast<double>(all.size()), subject.rate))
+  for (const Suggestion& one : sought.wanted) {
+    if (auto limit = limit_of(one, level / searched, subject.rate))
       out.limits.push_back(std::move(*limit));
   }
   out.worth_adding = !out.effects.empty() && out.effects[0].familywise_p < level &&
                      proven(out.effects[0], out.heldout);
-  if (!out.worth_adding && wanted.size() < all.size()) return diagnose(model, {options.level});
+  if (!out.worth_adding && options.climbing) return diagnose(model, {options.level}, progress);
   if (out.worth_adding) {
     const FittedModel& best = out.effects[0].tried.fitted;
     // What remains after the best effect must be small against what it took away, or it is not it.

@@ -42,8 +42,9 @@ struct Diagnosis {
 
 struct DiagnosisOptions {
   double level = 0.05;  ///< false-alarm probability over everything that is tried
-  /// Only the next term of a ladder is wanted: what explains far less than the best is not tried,
-  /// and the first that proves itself will do. Where nothing does, everything is tried.
+  /// Only the next term of a ladder is wanted: it is sought in the beginnings of the replicates,
+  /// and the first that proves itself on the whole will do. Where nothing does, everything is tried
+  /// on the whole.
   bool climbing = false;
 };
 

@@ -159,7 +159,7 @@ std::string print(const EffectTerm& term) {
 EffectTerm rounded(EffectTerm term, double shape_error, Hertz rate) {
   for (std::size_t i = 0; i < term.values.size(); ++i) {
     double& value = term.values[i];
-    if (!(value > 0.0) || !std::isfinite(value)) continue;
+    if (value == 0.0 || !std::isfinite(value)) continue;
     switch (term.effect->parameters[i].rounding) {
       case Rounding::kNone:
         break;

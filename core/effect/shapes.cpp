@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <numbers>
 
 #include "core/spectrum/roots_of_unity.h"
@@ -60,9 +61,11 @@ Eigen::VectorXd warm_up_cosines(Index n, double tau) {
 Eigen::VectorXd step_cosines(Index n, Index at) {
   Eigen::VectorXd out(n - 1);
   const double scale = scale_of(n);
-  const double angle = std::numbers::pi * static_cast<double>(at) / static_cast<double>(n);
+  const auto turn = 2 * static_cast<std::uint64_t>(n);
+  const RootsOfUnity roots(turn);
   for_each_coefficient(n, [&](Index k, double, double sine) {
-    out(k - 1) = -0.5 * scale * std::sin(angle * static_cast<double>(k)) / sine;
+    const std::uint64_t place = static_cast<std::uint64_t>(at) * static_cast<std::uint64_t>(k);
+    out(k - 1) = -0.5 * scale * roots(place % turn).imag() / sine;
   });
   return out;
 }

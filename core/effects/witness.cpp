@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/effect/columns.h"
 #include "core/effect/filters.h"
@@ -26,6 +27,7 @@ enum WitnessParameter : std::size_t {
   kWitnessFrom,
   kWitnessTo,
   kWitnessQuadratic,
+  kWitnessVertex,
   kWitnessDerivative,
   kWitnessOwn,
   kWitnessCoefficient,
@@ -34,6 +36,8 @@ enum WitnessParameter : std::size_t {
 bool is_on(const EffectTerm& term, WitnessParameter flag) { return term[flag] != 0.0; }
 
 std::string_view witness_fault(const EffectTerm& term) {
+  if (term.given(kWitnessVertex) && !is_on(term, kWitnessQuadratic))
+    return "only a quadratic coupling has a vertex";
   return term[kWitnessFrom] < term[kWitnessTo] ? "" : "from must lie below to";
 }
 
@@ -52,6 +56,18 @@ void keep_between(Eigen::VectorXd& cosines, double from, double to, double rate)
   cosines.tail(cosines.size() - last).setZero();
 }
 
+// What was taken off a replicate of a channel; 0 where nothing was.
+double level(const Witness& channel, std::size_t k) {
+  return channel.levels.empty() ? 0.0 : channel.levels[k];
+}
+
+// Over the replicates.
+double mean_level(const Witness& channel) {
+  if (channel.levels.empty()) return 0.0;
+  return std::accumulate(channel.levels.begin(), channel.levels.end(), 0.0) /
+         static_cast<double>(channel.levels.size());
+}
+
 bool as_it_is(const EffectTerm& term) {
   return !is_on(term, kWitnessQuadratic) && !is_on(term, kWitnessDerivative) &&
          !(term[kWitnessLag] > 0.0);
@@ -64,7 +80,10 @@ SharedVector witness_samples(const EffectTerm& term, const Witness& channel, std
   const double lag = term[kWitnessLag];
   Eigen::VectorXd x =
       lag > 0.0 ? lagged(channel.samples[k], lag * rate) : Eigen::VectorXd(channel.samples[k]);
-  if (is_on(term, kWitnessQuadratic)) x = x.array().square();
+  if (is_on(term, kWitnessQuadratic)) {
+    const double vertex = term.given(kWitnessVertex) ? term[kWitnessVertex] : mean_level(channel);
+    x = (x.array() + (level(channel, k) - vertex)).square();
+  }
   if (is_on(term, kWitnessDerivative)) x = rate_of_change(x, rate);
   return x;
 }
@@ -241,15 +260,34 @@ void add_lagged(const Current& current, const SlowView& view, const Witness& cha
                    .shape_error = best.log_error,
                    .backwards = backwards.gain > best.gain + kClearly});
   }
+}
 
-  std::vector<Eigen::VectorXd> squares;
-  for (std::size_t k = 0; k < subject.replicates(); ++k)
-    squares.push_back(view.means(channel.samples[k].array().square().matrix(), k));
-  const Eigen::VectorXd squared = view.whitened(squares);
-  out.push_back({.cause = cause,
-                 .added = EffectTerm(witness(), channel.name, {{"quadratic", 1.0}}),
-                 .score_nats = view.gain(squared, false),
-                 .information = squared.squaredNorm()});
+// A parabola: its vertex is where a straight line beside the square puts it. A line alone may
+// explain most of it, so that it is offered only where it explains clearly more.
+void add_parabola(const Current& current, const SlowView& view, const Witness& channel,
+                  Suggestions& out) {
+  const Subject& subject = current.subject();
+  const double middle = mean_level(channel);
+  SlowView::Means straight;
+  SlowView::Means squares;
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    const Eigen::ArrayXd x = channel.samples[k].array() + (level(channel, k) - middle);
+    straight.push_back(view.means(channel.samples[k], k));
+    squares.push_back(view.means(x.square().matrix(), k));
+  }
+  const Eigen::VectorXd line = view.whitened(straight);
+  const SlowView::Two both = view.two(line, view.whitened(squares));
+  constexpr double kClearly = 6.0;  // nats: chance gains them once in 2,000
+  const bool curved = both.gain > view.gain(line, false) + kClearly;
+  EffectTerm term(witness(), channel.name, {{"quadratic", 1.0}});
+  // a (x - v)² = a x² - 2 a v x + ...
+  if (curved) term.set("vertex", middle - 0.5 * both.ratio);
+  out.push_back({.cause = coupling_effect(subject.quantity, channel),
+                 .added = std::move(term),
+                 .score_nats = curved ? both.gain : 0.0,
+                 .dof = 2.0,
+                 .information = both.information,
+                 .shape_error = curved ? 0.5 * both.ratio_error : 0.0});
 }
 
 Suggestions search_witness(const SearchView& view) {
@@ -261,11 +299,22 @@ Suggestions search_witness(const SearchView& view) {
     const Witness& channel = subject.witnesses[w];
     add_static(view.current(), channel, each[w]);
     add_lagged(view.current(), slow, channel, each[w]);
+    add_parabola(view.current(), slow, channel, each[w]);
     add_rocking(view.current(), channel, each[w]);
   });
   Suggestions out;
   for (const Suggestions& some : each) out.insert(out.end(), some.begin(), some.end());
   return out;
+}
+
+// A vertex has the witness's unit.
+void add_vertex(const TriedTerm& tried, std::vector<ReportedNumber>& first,
+                std::vector<ReportedNumber>&) {
+  const EffectTerm& term = *tried.term();
+  if (!term.given(kWitnessVertex)) return;
+  const Witness& channel = *tried.fitted.regression.subject().find(term.witness);
+  first.push_back(
+      with_error({"vertex", term[kWitnessVertex], unit_of(channel)}, tried.suggestion.shape_error));
 }
 
 // What comes before its cause has another.
@@ -302,6 +351,13 @@ const Effect& witness() {
             .reported = "to_hz",
             .rounding = Rounding::kFourDigits},
            {.name = "quadratic", .meaning = "the witness squared", .form = ParameterForm::kFlag},
+           {.name = "vertex",
+            .meaning =
+                "value of the witness (SI) at the vertex of a quadratic coupling (default: its "
+                "mean)",
+            .absent = std::numeric_limits<double>::infinity(),
+            .lower = -1e15,
+            .rounding = Rounding::kByError},
            {.name = "derivative",
             .meaning = "the change of the witness per second",
             .form = ParameterForm::kFlag},
@@ -323,6 +379,7 @@ const Effect& witness() {
       .simulate = simulate_witness,
       .search = search_witness,
       .review = review_witness,
+      .more_numbers = add_vertex,
   };
   return kWitness;
 }

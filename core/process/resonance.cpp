@@ -60,11 +60,20 @@ Eigen::ArrayXXd Resonance::shape_jacobian(HalfWidths m) const {
   return out;
 }
 
-double Resonance::spectrum(double f) const {
-  const double angle = 2.0 * std::numbers::pi * f;
-  const Complex z = std::polar(1.0, -angle);
-  const Complex response = 1.0 - 2.0 * r * std::cos(omega) * z + r * r * z * z;
-  return sigma2 / std::norm(response);
+double Resonance::spectrum(double f) const { return spectra(Eigen::ArrayXd::Constant(1, f))(0); }
+
+Eigen::ArrayXd Resonance::versines(const Eigen::ArrayXd& f) {
+  return 2.0 * (std::numbers::pi * f).sin().square();
+}
+
+// |1 - 2r cos ω z + r²z²|², z = e^-iθ, is 4r²(cos θ - (1 + r²)/2r · cos ω)² + (1 - r²)² sin² ω;
+// cosines as 1 - 2 sin² of half the angle, whose digits do not cancel.
+Eigen::ArrayXd Resonance::at(const Eigen::ArrayXd& versines) const {
+  const double shift = (1.0 - r) * (1.0 - r) / (2.0 * r);  // (1 + r²)/2r - 1
+  const double half = std::sin(0.5 * omega);
+  const double centre = 2.0 * half * half - shift * std::cos(omega);
+  const double floor = (1.0 - r) * (1.0 + r) * std::sin(omega);
+  return sigma2 / (4.0 * r * r * (versines - centre).square() + floor * floor);
 }
 
 SumCovariance Resonance::sum_covariance() const {

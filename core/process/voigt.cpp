@@ -89,19 +89,10 @@ Eigen::ArrayXXd Voigt::shape_jacobian(HalfWidths m) const {
 
 double Voigt::spectrum(double f) const { return spectra(Eigen::ArrayXd::Constant(1, f))(0); }
 
-// |1 - 2r cos ω z + r²z²|², z = e^-iθ, is 4r²(cos θ - (1 + r²)/2r · cos ω)² + (1 - r²)² sin² ω;
-// cosines as 1 - 2 sin² of half the angle, whose digits do not cancel.
 Eigen::ArrayXd Voigt::spectra(const Eigen::ArrayXd& f) const {
-  const Eigen::ArrayXd low = 2.0 * (std::numbers::pi * f).sin().square();  // 1 - cos θ
-  const double loss = (1.0 - r) * (1.0 + r);
-  const double shift = (1.0 - r) * (1.0 - r) / (2.0 * r);  // (1 + r²)/2r - 1
+  const Eigen::ArrayXd versines = Resonance::versines(f);
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(f.size());
-  for (const Resonance& one : parts()) {
-    const double half = std::sin(0.5 * one.omega);
-    const double centre = 2.0 * half * half - shift * std::cos(one.omega);
-    const double floor = loss * std::sin(one.omega);
-    out += one.sigma2 / (4.0 * r * r * (low - centre).square() + floor * floor);
-  }
+  for (const Resonance& one : parts()) out += one.at(versines);
   return out;
 }
 

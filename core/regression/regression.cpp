@@ -27,23 +27,6 @@ BandedPower empty_bands(Index n, Hertz rate) {
 // Numbers i ≥ j as one.
 Index pair_of(Index i, Index j) { return i * (i + 1) / 2 + j; }
 
-// One series in blocks of so many samples, each less its mean.
-std::vector<SharedVector> cut(const VectorRef& x, std::size_t blocks, Index length) {
-  std::vector<SharedVector> out;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    Eigen::VectorXd block = x.segment(static_cast<Index>(b) * length, length);
-    block.array() -= block.mean();
-    out.emplace_back(std::move(block));
-  }
-  return out;
-}
-
-std::vector<SharedVector> transformed(const std::vector<SharedVector>& blocks) {
-  std::vector<SharedVector> out(blocks.size());
-  for_each_index(out.size(), [&](std::size_t b) { out[b] = cosine_transform(blocks[b]); });
-  return out;
-}
-
 }  // namespace
 
 Regression::Regression(std::shared_ptr<const Subject> subject)
@@ -136,64 +119,6 @@ Regression Regression::of(const std::vector<std::size_t>& replicates) const {
 Regression Regression::on(std::shared_ptr<const Subject> subject) const {
   Regression out = *this;
   out.subject_ = std::move(subject);
-  out.fill_moments();
-  return out;
-}
-
-Regression Regression::in_blocks(std::size_t blocks) const {
-  const auto length =
-      static_cast<Index>(quick_length(static_cast<std::size_t>(subject_->length(0)) / blocks));
-  auto parts = std::make_shared<Subject>(
-      Subject{subject_->rate, subject_->quantity, {}, {}, uncut(blocks), {}});
-  parts->samples = cut(subject_->samples[0], blocks, length);
-  parts->cosines = transformed(parts->samples);
-  // Columns are cut below; only noise that follows a witness needs the witness itself.
-  for (const EffectTerm& term : effects_) {
-    if (term.effect->variance_course == nullptr || parts->find(term.witness) != nullptr) continue;
-    const Witness& from = *subject_->find(term.witness);
-    Witness& to = parts->witnesses.emplace_back(Witness{from.name, from.quantity, {}, {}});
-    // The level of a block is part of what it says about the noise there.
-    for (std::size_t b = 0; b < blocks; ++b)
-      to.samples.emplace_back(
-          Eigen::VectorXd(from.samples[0].segment(static_cast<Index>(b) * length, length)));
-    to.cosines = transformed(to.samples);
-  }
-  if (!subject_->own_nats.empty())
-    parts->own_nats.assign(blocks, subject_->own_nats[0] / static_cast<double>(blocks));
-  if (!subject_->reshaped_nats.empty()) {
-    const double each = subject_->reshaped_nats[0] / static_cast<double>(blocks);
-    parts->reshaped_nats.assign(blocks, each);
-  }
-  Regression out(parts);
-  out.effects_ = effects_;
-  out.first_ = first_;
-  out.names_ = names_;
-  for (CoefficientName& name : out.names_) name.replicate = CoefficientName::kAll;
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    auto made = std::make_shared<Regressors>();
-    made->replicates.resize(blocks);
-    const auto columns = static_cast<Index>(columns_[e]->replicates[0].places.size());
-    for (Index i = 0; i < columns; ++i) {
-      Eigen::VectorXd samples = Eigen::VectorXd::Zero(subject_->length(0));
-      add_effect(effects_[e], *subject_, 0, columns_[e]->replicates[0],
-                 Eigen::VectorXd::Unit(columns, i), samples);
-      const std::vector<SharedVector> each = cut(samples, blocks, length);
-      double all = 0.0;
-      for (const SharedVector& one : each) all += one.squaredNorm();
-      std::vector<std::size_t> felt;
-      for (std::size_t b = 0; b < blocks; ++b) {
-        constexpr double kNothing = 1e-12;
-        if (!(each[b].squaredNorm() > kNothing * all)) continue;
-        felt.push_back(b);
-        Columns& to = made->replicates[b];
-        to.cosines.emplace_back(cosine_transform(each[b]));
-        to.places.push_back(i);
-      }
-      if (felt.size() == 1)
-        out.names_[static_cast<std::size_t>(first_[e] + i)].replicate = felt.front();
-    }
-    out.columns_.push_back(std::move(made));
-  }
   out.fill_moments();
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/effect/columns.h"
+#include "core/model/model.h"
 
 namespace imunoise {
 
@@ -32,6 +33,9 @@ class Regression {
   /// that a single block feels (a step's height) belongs to that block, all others are shared.
   /// Effects keep the form that they have over the whole: residual_samples() has no meaning then.
   Regression in_blocks(std::size_t blocks) const;
+  /// The beginning of each replicate, so many samples of it at most, with all witnesses. Effects
+  /// keep their form, too.
+  Regression beginnings(Eigen::Index samples) const;
 
   const Subject& subject() const { return *subject_; }
   const std::shared_ptr<const Subject>& shared_subject() const { return subject_; }
@@ -81,6 +85,15 @@ class Regression {
   std::vector<std::size_t> replicates_;                  // those that count
   std::vector<std::shared_ptr<const Moments>> moments_;  // one a replicate of the subject
 
+  // A stretch of a replicate.
+  struct Piece {
+    std::size_t replicate;
+    Eigen::Index begin;
+    Eigen::Index length;  // a quick_length()
+  };
+  // These as replicates, with the named witnesses. `parts`: where they lie.
+  Regression of_pieces(const std::vector<Piece>& pieces, std::vector<Part> parts,
+                       const std::vector<const Witness*>& witnesses) const;
   void fill_moments();
   // Of what there are already, all but products with further columns.
   void extend_moments(std::size_t replicate);

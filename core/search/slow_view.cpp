@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/search/evidence.h"
 #include "core/search/peak.h"
 #include "core/spectrum/cosine_transform.h"
 
@@ -80,6 +81,27 @@ double SlowView::gain(const Eigen::VectorXd& whitened, bool own) const {
   }
   if (own) return out;
   return square > 0.0 ? 0.5 * product * product / square : 0.0;
+}
+
+SlowView::Two SlowView::two(const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
+  const double aa = first.squaredNorm();
+  const double bb = second.squaredNorm();
+  const double ab = first.dot(second);
+  const double determinant = aa * bb - ab * ab;
+  constexpr double kAlike = 1e-9;
+  if (!(determinant > kAlike * aa * bb)) return {};
+  const double a = first.dot(left_);
+  const double b = second.dot(left_);
+  const double one = (bb * a - ab * b) / determinant;
+  const double other = (aa * b - ab * a) / determinant;
+  if (other == 0.0) return {};
+  const double ratio = one / other;
+  const double variance =
+      (bb + 2.0 * ratio * ab + ratio * ratio * aa) / (determinant * other * other);
+  return {.gain = 0.5 * (one * a + other * b),
+          .ratio = ratio,
+          .ratio_error = std::sqrt(variance),
+          .information = determinant / aa};
 }
 
 SlowView::BestTime SlowView::best_time(double shortest_s, double longest_s, bool own,

@@ -28,6 +28,16 @@ class SlowView {
   /// for each.
   double gain(const Eigen::VectorXd& whitened, bool own) const;
 
+  /// What two whitened regressors explain together, a coefficient each for all replicates.
+  struct Two {
+    double gain = 0.0;         ///< nats
+    double ratio = 0.0;        ///< coefficient of the first over that of the second,
+    double ratio_error = 0.0;  ///< its standard error (to first order),
+    double information = 0.0;  ///< and 1/variance of the second beside the first
+  };
+  /// All zero where the data cannot tell them apart.
+  Two two(const Eigen::VectorXd& first, const Eigen::VectorXd& second) const;
+
   using Means = std::vector<Eigen::VectorXd>;
   /// The regressor of most gain among a family of time constants, finer than its grid.
   struct BestTime {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/spectrum/fourier.h"
+#include "core/spectrum/roots_of_unity.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -21,9 +22,10 @@ StepProducts::StepProducts(const Eigen::VectorXd& weighted, const Eigen::ArrayXd
   std::vector<double> weight(static_cast<std::size_t>(2 * n), 0.0);
   double total = 0.0;
   double turning = 0.0;
+  const RootsOfUnity roots(4 * static_cast<std::size_t>(n));
   for (Index k = 1; k < n; ++k) {
     const double turn = std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
-    const double s = 2.0 * std::sin(0.5 * turn);
+    const double s = 2.0 * roots(static_cast<std::size_t>(k)).imag();
     const double w = 1.0 / (s * s * spectrum(k - 1) * static_cast<double>(n));
     weight[static_cast<std::size_t>(k)] = w;
     total += w;

@@ -1,5 +1,6 @@
 // What gyro_x shares with the other sensors of its board.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,8 +18,60 @@ void add_scaled(Series& to, const Series& part, double factor) {
   for (std::size_t t = 0; t < to.size(); ++t) to[t] += factor * part[t];
 }
 
+// Nats by which gyro_x, given what a neighbour measures of the same motion, is likelier under what
+// both share than gyro_x alone under the nearest of the base's noises. `measured`: the neighbour's
+// series, one a replicate; `neighbour`: the spectrum of what it does not share; `common`: of what
+// it does.
+double gained_beside(const Scene& scene, const std::vector<Series>& measured,
+                     const Series& neighbour, const Series& common) {
+  Series after = scene.spectrum;
+  for (std::size_t k = 0; k < after.size(); ++k) after[k] += common[k];
+  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
+  double out = 0.0;
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    const Series x = cosine_coefficients(scene.recordings[r][kSubject]);
+    const Series y = cosine_coefficients(measured[r]);
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      const double transfer = common[k] / (neighbour[k] + common[k]);
+      const double variance = after[k] - transfer * common[k];
+      const double left = x[k + 1] - transfer * y[k + 1];
+      out += 0.5 * (std::log(nearest[k] / variance) + x[k + 1] * x[k + 1] / nearest[k] -
+                    left * left / variance);
+    }
+  }
+  return out;
+}
+
+// What an accelerometer says of the rate at which its axis turns against gravity.
+Series turning(const Series& acceleration, double rate_hz) {
+  Series out(acceleration.size());
+  for (std::size_t t = 0; t + 1 < out.size(); ++t)
+    out[t] = (acceleration[t + 1] - acceleration[t]) * rate_hz / kGravity;
+  return out;
+}
+
+// The power of series by frequency: mean over them and over neighbouring coefficients, entry k-1
+// for k ≥ 1.
+Series power_of(const std::vector<Series>& all) {
+  constexpr std::size_t kReach = 32;
+  Series sums(all.front().size(), 0.0);  // of the coefficients before each
+  for (const Series& one : all) {
+    const Series c = cosine_coefficients(one);
+    for (std::size_t k = 1; k < c.size(); ++k)
+      sums[k] += c[k] * c[k] / static_cast<double>(all.size());
+  }
+  for (std::size_t k = 1; k < sums.size(); ++k) sums[k] += sums[k - 1];
+  Series out(sums.size() - 1);
+  for (std::size_t k = 1; k < sums.size(); ++k) {
+    const std::size_t first = k > kReach ? k - kReach - 1 : 0;
+    const std::size_t last = std::min(k + kReach, sums.size() - 1);
+    out[k - 1] = (sums[last] - sums[first]) / static_cast<double>(last - first);
+  }
+  return out;
+}
+
 // The bench rocks slowly by an angle θ: the gyro feels dθ/dt, the accelerometer g·θ. δ is that of
-// an observer who knows θ.
+// an observer who knows θ; what the accelerometer's noise leaves of that is gained.
 Injection hide_tilt(Scene& scene, double delta) {
   const double frequency = uniform(scene.random, 0.02, 0.05);  // Hz
   const Ringing rocking{1.0, std::exp(-0.2 * 2.0 * std::numbers::pi * frequency / scene.rate_hz),
@@ -34,31 +87,25 @@ Injection hide_tilt(Scene& scene, double delta) {
     angles.back().pop_back();
     rates.push_back(std::move(rate));
   }
+  std::vector<Series> before;
+  for (const Recording& recording : scene.recordings)
+    before.push_back(turning(recording["acc_x"], scene.rate_hz));
   const double factor = add_shapes(scene, rates, delta);
+  std::vector<Series> measured;
   for (std::size_t r = 0; r < scene.replicates(); ++r) {
     add_scaled(scene.recordings[r]["acc_x"], angles[r], factor * kGravity);
+    measured.push_back(turning(scene.recordings[r]["acc_x"], scene.rate_hz));
   }
-  return of_mean(delta, {});
-}
-
-// Nats by which gyro_x, given gyro_y, is likelier under what both share than gyro_x alone under the
-// nearest of the base's noises.
-double gained_beside(const Scene& scene, const Series& neighbour, const Series& common) {
-  Series after = scene.spectrum;
-  for (std::size_t k = 0; k < after.size(); ++k) after[k] += common[k];
-  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
-  double out = 0.0;
-  for (const Recording& recording : scene.recordings) {
-    const Series x = cosine_coefficients(recording[kSubject]);
-    const Series y = cosine_coefficients(recording["gyro_y"]);
-    for (std::size_t k = 0; k < after.size(); ++k) {
-      const double transfer = common[k] / (neighbour[k] + common[k]);
-      const double variance = after[k] - transfer * common[k];
-      const double left = x[k + 1] - transfer * y[k + 1];
-      out += 0.5 * (std::log(nearest[k] / variance) + x[k + 1] * x[k + 1] / nearest[k] -
-                    left * left / variance);
-    }
+  // The rate's own spectrum: that of the angle times 4 sin²(πf) f_s².
+  Series common = spectrum(rocking, scene.samples());
+  for (std::size_t k = 0; k < common.size(); ++k) {
+    const double half =
+        0.5 * std::numbers::pi * static_cast<double>(k + 1) / static_cast<double>(scene.samples());
+    const double turn = 2.0 * std::sin(half) * scene.rate_hz * factor;
+    common[k] *= turn * turn;
   }
+  Injection out = of_mean(delta, {});
+  out.gained = gained_beside(scene, measured, power_of(before), common);
   return out;
 }
 
@@ -79,7 +126,10 @@ Injection hide_vibration(Scene& scene, double delta) {
     add_scaled(recording["gyro_y"], shaking, 1.0);
   }
   Injection out = of_mean(delta, {});
-  out.gained = gained_beside(scene, neighbour, spectrum(Markov{deviation, tau}, scene.samples()));
+  std::vector<Series> measured;
+  for (const Recording& recording : scene.recordings) measured.push_back(recording["gyro_y"]);
+  out.gained =
+      gained_beside(scene, measured, neighbour, spectrum(Markov{deviation, tau}, scene.samples()));
   return out;
 }
 
