@@ -36,7 +36,7 @@ void set(ArrayModel& model, const ArrayParameter& parameter, double at) {
 }
 
 SpectralDirection direction_of(const ArrayModel& model, const ArrayParameter& parameter,
-                               const Eigen::ArrayXd& frequency) {
+                               const Frequencies& frequency) {
   Latent moved = model.latents[parameter.latent];
   if (parameter.parameter == 0 && moved.matrix()) {
     moved.power.setZero();

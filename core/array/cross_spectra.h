@@ -11,7 +11,7 @@ namespace imunoise {
 /// model: one I × I matrix a frequency, unit² per cycle/sample.
 class CrossSpectra {
  public:
-  CrossSpectra(const ArrayModel& model, const Eigen::ArrayXd& frequency) : model_(model) {
+  CrossSpectra(const ArrayModel& model, const Frequencies& frequency) : model_(model) {
     for (const Latent& latent : model.latents)
       spectra_.push_back(spectrum(latent.term.process, frequency));
   }

@@ -40,7 +40,6 @@ struct PlaceboSums {
     aaar += more.aaar;
     aarr += more.aarr;
   }
-  double gain() const { return aa > 0.0 ? 0.5 * ar * ar / aa : 0.0; }
   double dof() const { return aa * aa / aaaa; }
   // Variance of the score by its scatter once the regressor is fitted, over that by the model.
   double inflation() const {
@@ -74,37 +73,59 @@ SharedVector within(const SharedVector& cosines, Index extent, Index samples) {
   return cosine_transform(out);
 }
 
-// Each replicate's own column, and that of the replicate `shift` further on, over the time that
-// both have.
-struct Copies {
-  PlaceboSums own;
-  PlaceboSums copied;
+// Of all replicates.
+PlaceboSums sums_of(const Current& current, const std::vector<SharedVector>& columns) {
+  std::vector<PlaceboSums> each(columns.size());
+  for_each_index(columns.size(), [&](std::size_t k) {
+    const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
+    each[k].add(columns[k].array() / deviation, current.cosines[k].array() / deviation);
+  });
+  PlaceboSums out;
+  for (const PlaceboSums& one : each) out.add(one);
+  return out;
+}
+
+// What a regressor explains of what is left of a replicate.
+struct Explained {
+  double product = 0.0;
+  double square = 0.0;
+
+  Explained() = default;
+  Explained(const Current& current, std::size_t k, const SharedVector& column)
+      : product((column.array() * current.cosines[k].array() / current.spectrum[k]).sum()),
+        square((column.array().square() / current.spectrum[k]).sum()) {}
+  void add(const Explained& more) {
+    product += more.product;
+    square += more.square;
+  }
+  double gain() const { return square > 0.0 ? 0.5 * product * product / square : 0.0; }
 };
 
-Copies copies_of(const Current& current, const std::vector<SharedVector>& columns,
-                 std::size_t shift) {
-  std::vector<Copies> each(columns.size());
+// Does the column of the replicate `shift` further on explain as much as each replicate's own, over
+// the time that both have?
+bool copies_explain_as_much(const Current& current, const std::vector<SharedVector>& columns,
+                            std::size_t shift) {
+  std::vector<Explained> own(columns.size());
+  std::vector<Explained> copied(columns.size());
   for_each_index(columns.size(), [&](std::size_t k) {
     const SharedVector& other = columns[(k + shift) % columns.size()];
     const Index n = columns[k].size() + 1;
     const Index extent = std::min(n, other.size() + 1);
-    const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
-    const Eigen::ArrayXd left = current.cosines[k].array() / deviation;
-    each[k].own.add(within(columns[k], extent, n).array() / deviation, left);
-    if (shift > 0) each[k].copied.add(within(other, extent, n).array() / deviation, left);
+    own[k] = {current, k, within(columns[k], extent, n)};
+    copied[k] = {current, k, within(other, extent, n)};
   });
-  Copies out;
-  for (const Copies& one : each) {
-    out.own.add(one.own);
-    out.copied.add(one.copied);
+  Explained all_own;
+  Explained all_copied;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    all_own.add(own[k]);
+    all_copied.add(copied[k]);
   }
-  return out;
+  return all_copied.gain() > all_own.gain() - kAsMuch;
 }
 
 bool copies_explain_as_much(const Current& current, const std::vector<SharedVector>& columns) {
   for (std::size_t shift = 1; shift < columns.size(); ++shift) {
-    const Copies found = copies_of(current, columns, shift);
-    if (found.copied.gain() > found.own.gain() - kAsMuch) return true;
+    if (copies_explain_as_much(current, columns, shift)) return true;
   }
   return false;
 }
@@ -113,7 +134,7 @@ void test_placebo(TriedTerm& tried, const Current& current) {
   const Subject& subject = current.subject();
   const std::vector<SharedVector> columns = shared_column(*tried.term(), subject);
   if (columns.empty()) return;
-  const PlaceboSums own = copies_of(current, columns, 0).own;
+  const PlaceboSums own = sums_of(current, columns);
   if (!(own.aa > 0.0)) return;
   const bool several = subject.parts.back().recorded > 0;
   if (several && copies_explain_as_much(current, columns))

@@ -54,7 +54,7 @@ Suggestions search_heavy_tails(const SearchView& view) {
 // Standard deviation of the innovations, all of which have such tails: from the mean logarithm of
 // the spectrum (Szegő and Kolmogorov: Brockwell & Davis 1991, Theorem 5.8.1).
 std::vector<ReportedNumber> heavy_tails_numbers(const FittedEffect& effect) {
-  const Eigen::ArrayXd frequency = Eigen::ArrayXd::LinSpaced(1024, 0.5, 1023.5) / 2048.0;
+  const Frequencies frequency(Eigen::ArrayXd::LinSpaced(1024, 0.5, 1023.5) / 2048.0);
   const Eigen::ArrayXd power = spectrum(effect.model.fit.model.noise, frequency);
   return {{"size", std::exp(0.5 * power.log().mean()), unit_of(effect.term(), effect.subject())}};
 }

@@ -13,9 +13,16 @@ using Index = Eigen::Index;
 constexpr Index kBurstStretch = 16;  // samples
 constexpr auto kBurstSamples = static_cast<double>(kBurstStretch);
 
-double log_density_of(double power, double variance) {
-  return -0.5 * kBurstSamples * (std::log(variance) + power / variance);
-}
+// Logarithm of the density of a stretch's mean power, but for what the variance does not change.
+struct PowerDensity {
+  double level;      // of power 0
+  double per_power;  // its slope
+
+  explicit PowerDensity(double variance)
+      : level(-0.5 * kBurstSamples * std::log(variance)),
+        per_power(-0.5 * kBurstSamples / variance) {}
+  double operator()(double power) const { return level + per_power * power; }
+};
 
 }  // namespace
 
@@ -66,6 +73,9 @@ void TwoPowers::climb(bool times) {
 void TwoPowers::expect(Replicate& one) const {
   const Index n = one.power.size();
   const double loud_share = change_[0] / (change_[0] + change_[1]);
+  const PowerDensity of_quiet(variance_[0]);
+  const PowerDensity of_loud(variance_[1]);
+  const PowerDensity of_constant(1.0);
   Eigen::ArrayXXd forward(n, 2);
   Eigen::ArrayXXd density(n, 2);
   Eigen::ArrayXd scale(n);
@@ -73,11 +83,12 @@ void TwoPowers::expect(Replicate& one) const {
   one.gain = 0.0;
   double before[2] = {1.0 - loud_share, loud_share};
   for (Index i = 0; i < n; ++i) {
-    const double quiet = log_density_of(one.power(i), variance_[0]);
-    const double loud = log_density_of(one.power(i), variance_[1]);
+    const double quiet = of_quiet(one.power(i));
+    const double loud = of_loud(one.power(i));
     const double top = std::max(quiet, loud);
-    density(i, 0) = std::exp(quiet - top);
-    density(i, 1) = std::exp(loud - top);
+    const double less = std::exp(-std::abs(quiet - loud));
+    density(i, 0) = quiet < loud ? less : 1.0;
+    density(i, 1) = quiet < loud ? 1.0 : less;
     const double reached[2] = {
         i == 0 ? before[0] : before[0] * (1.0 - change_[0]) + before[1] * change_[1],
         i == 0 ? before[1] : before[0] * change_[0] + before[1] * (1.0 - change_[1])};
@@ -89,7 +100,7 @@ void TwoPowers::expect(Replicate& one) const {
     before[1] = forward(i, 1);
     const double here = top + std::log(scale(i));
     one.likelihood += here;
-    one.gain += here - log_density_of(one.power(i), 1.0);
+    one.gain += here - of_constant(one.power(i));
   }
   one.loud.resize(n);
   one.starts = 0.0;

@@ -37,7 +37,7 @@ inline double searched_scale(const Process& process, std::size_t parameter) {
 
 /// d spectrum / d parameter on that scale.
 inline Eigen::ArrayXd searched_slope(const Process& process, std::size_t parameter,
-                                     const Eigen::ArrayXd& frequency) {
+                                     const Frequencies& frequency) {
   constexpr double kStep = 1e-4;
   const double at = searched(process, parameter);
   const auto spectrum_at = [&](double to) -> Eigen::ArrayXd {

@@ -44,7 +44,7 @@ std::vector<ParameterPlace> coordinates_of(const Model& model) {
 }
 
 SpectralDirection direction_of(const Model& model, const ParameterPlace& c,
-                               const Eigen::ArrayXd& frequency) {
+                               const Frequencies& frequency) {
   return {searched_slope(process_of(model, c), c.parameter, frequency),
           Eigen::MatrixXd::Ones(1, 1)};
 }

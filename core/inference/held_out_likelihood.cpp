@@ -13,8 +13,9 @@ BandedPower rows_of(const BandedPower& whole, std::size_t first, std::size_t ste
   const auto pick = [&](const Eigen::ArrayXd& from) -> Eigen::ArrayXd {
     return from(Eigen::seqN(begin, rows, by));
   };
-  return {pick(whole.frequency),  pick(whole.count), pick(whole.power), pick(whole.ramp_cross),
-          pick(whole.ramp_power), whole.samples,     whole.rate};
+  return {
+      pick(whole.frequency.cycles()), pick(whole.count), pick(whole.power), pick(whole.ramp_cross),
+      pick(whole.ramp_power),         whole.samples,     whole.rate};
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ Eigen::ArrayXd variance(const Model& model, HalfWidths m) {
   return out;
 }
 
-Eigen::ArrayXd spectrum(const Model& model, const Eigen::ArrayXd& frequency) {
+Eigen::ArrayXd spectrum(const Model& model, const Frequencies& frequency) {
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(frequency.size());
   for (const Term& term : model.terms) out += spectrum(term.process, frequency);
   return out;

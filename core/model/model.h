@@ -92,7 +92,7 @@ Eigen::ArrayXd variance(const Model& model, HalfWidths m);
 Eigen::MatrixXd jacobian(const Model& model, HalfWidths m);
 /// Two-sided spectrum of the sum at frequencies in cycles per sample, unit² per cycle/sample. A
 /// ramp has none.
-Eigen::ArrayXd spectrum(const Model& model, const Eigen::ArrayXd& frequency);
+Eigen::ArrayXd spectrum(const Model& model, const Frequencies& frequency);
 /// Covariance of the prefix sums of the whole model.
 SumCovariance sum_covariance(const Model& model);
 

@@ -51,9 +51,8 @@ Eigen::ArrayXXd Ar1::shape_jacobian(HalfWidths m) const {
   return m.unaryExpr([this](double width) { return at_scale(phi, width).slope; });
 }
 
-double Ar1::spectrum(double f) const {
-  const double s = std::sin(std::numbers::pi * f);
-  return sigma2 / ((1.0 - phi) * (1.0 - phi) + 4.0 * phi * s * s);
+double Ar1::spectrum(const Frequency& f) const {
+  return sigma2 / ((1.0 - phi) * (1.0 - phi) + 4.0 * phi * f.half_sine * f.half_sine);
 }
 
 SumCovariance Ar1::sum_covariance() const {

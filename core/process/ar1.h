@@ -24,7 +24,7 @@ struct Ar1 {
   }
   Eigen::ArrayXd shape(HalfWidths m) const;
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const;
-  double spectrum(double f) const;
+  double spectrum(const Frequency& f) const;
   SumCovariance sum_covariance() const;
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales& scales) const;

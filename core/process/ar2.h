@@ -81,10 +81,10 @@ struct Ar2 {
   }
 
   /// |1 - φ₁e^{-iω} - φ₂e^{-2iω}|² = (1 - φ₂)²(cos ω - ρ₁)² + (1 + φ₂)² sin² ω.
-  double spectrum(double f) const {
-    const double half = std::sin(std::numbers::pi * f);
+  double spectrum(const Frequency& f) const {
+    const double half = f.half_sine;
     const double even = (1.0 - phi2) * ((1.0 - rho1) - 2.0 * half * half);
-    const double odd = (1.0 + phi2) * 2.0 * half * std::cos(std::numbers::pi * f);
+    const double odd = (1.0 + phi2) * 2.0 * half * f.half_cosine;
     return sigma2 / (even * even + odd * odd);
   }
 

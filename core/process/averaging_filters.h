@@ -38,7 +38,7 @@ struct AveragingFilter {
   FiniteMemory filter() const { return {Form::taps(length), Form::autocovariance(length)}; }
   Eigen::ArrayXd shape(HalfWidths m) const { return filter().variance(m); }
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double f) const { return sigma2 * Form::gain(length, f); }
+  double spectrum(const Frequency& f) const { return sigma2 * Form::gain(length, f.cycles); }
   SumCovariance sum_covariance() const { return filter().sum_covariance().scaled(sigma2); }
   std::vector<DerivedQuantity> derived(Hertz rate) const {
     return {{Coefficient::kRandomWalk, std::sqrt(sigma2 / rate.value)}};

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/support/frequency.h"
 #include "core/support/random.h"
 #include "core/support/units.h"
 #include "core/wavelet/scales.h"

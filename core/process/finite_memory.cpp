@@ -41,11 +41,9 @@ Eigen::ArrayXd FiniteMemory::slope(HalfWidths m, std::size_t k) const {
   return variance_of(gamma_slope, m);
 }
 
-double FiniteMemory::spectrum(double f) const {
+double FiniteMemory::spectrum(const Frequency& f) const {
   std::complex<double> response = 0.0;
-  for (std::size_t i = 0; i < taps_.size(); ++i) {
-    response += taps_[i] * std::polar(1.0, -2.0 * std::numbers::pi * f * static_cast<double>(i));
-  }
+  for (std::size_t i = taps_.size(); i-- > 0;) response = response * f.turn() + taps_[i];
   return std::norm(response);
 }
 

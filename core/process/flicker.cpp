@@ -18,7 +18,7 @@ Eigen::ArrayXd Flicker::shape(HalfWidths m) const {
   });
 }
 
-double Flicker::spectrum(double f) const { return b2 / (2.0 * std::sin(std::numbers::pi * f)); }
+double Flicker::spectrum(const Frequency& f) const { return b2 / (2.0 * f.half_sine); }
 
 std::vector<DerivedQuantity> Flicker::derived(Hertz) const {
   return {{Coefficient::kBiasInstability, std::sqrt(b2)}};

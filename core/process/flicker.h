@@ -23,7 +23,7 @@ struct Flicker {
   void set_values(std::span<const double> v) { b2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const;
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double f) const;
+  double spectrum(const Frequency& f) const;
   SumCovariance sum_covariance() const { return {.flicker = b2}; }
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales&) const { return {{}}; }

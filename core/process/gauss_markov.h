@@ -42,7 +42,7 @@ struct GaussMarkov {
     const double phi_slope = unit.phi / (tc * tc * rate.value);
     return phi_slope * (unit.sigma2 * unit.shape_jacobian(m) - (2.0 * unit.phi * unit.shape(m)));
   }
-  double spectrum(double f) const { return discrete().spectrum(f); }
+  double spectrum(const Frequency& f) const { return discrete().spectrum(f); }
   SumCovariance sum_covariance() const { return discrete().sum_covariance(); }
   std::vector<DerivedQuantity> derived(Hertz) const {
     return {{Coefficient::kAmplitude, std::sqrt(sigma2)}, {Coefficient::kCorrelationTime, tc}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <complex>
 
 #include "core/process/finite_memory.h"
 
@@ -55,7 +56,12 @@ struct MovingAverage {
     }
     return out;
   }
-  double spectrum(double f) const { return sigma2 * filter().spectrum(f); }
+  double spectrum(const Frequency& f) const {
+    const std::complex<double> turn = f.turn();
+    std::complex<double> response = 0.0;
+    for (std::size_t k = theta.size(); k-- > 0;) response = (response + theta[k]) * turn;
+    return sigma2 * std::norm(1.0 + response);
+  }
   SumCovariance sum_covariance() const { return filter().sum_covariance().scaled(sigma2); }
   std::vector<DerivedQuantity> derived(Hertz rate) const {
     double gain = 1.0;

@@ -73,10 +73,12 @@ Eigen::ArrayXXd PowerLaw::shape_jacobian(HalfWidths m) const {
   return out;
 }
 
-double PowerLaw::spectrum(double f) const { return spectra(Eigen::ArrayXd::Constant(1, f))(0); }
+double PowerLaw::spectrum(const Frequency& f) const {
+  return spectra(Frequencies(Eigen::ArrayXd::Constant(1, f.cycles)))(0);
+}
 
-Eigen::ArrayXd PowerLaw::spectra(const Eigen::ArrayXd& f) const {
-  const Eigen::ArrayXd square = 4.0 * (std::numbers::pi * f).sin().square();
+Eigen::ArrayXd PowerLaw::spectra(const Frequencies& f) const {
+  const Eigen::ArrayXd square = 4.0 * f.half_sines().square();
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(f.size());
   for (const Ar1& part : parts()) {
     const double loss = 1.0 - part.phi;

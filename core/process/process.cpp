@@ -36,16 +36,18 @@ Eigen::ArrayXd shape(const Process& process, HalfWidths m) {
 Eigen::ArrayXXd shape_jacobian(const Process& process, HalfWidths m) {
   return std::visit([&](const auto& p) { return p.shape_jacobian(m); }, process);
 }
-double spectrum(const Process& process, double f) {
+double spectrum(const Process& process, const Frequency& f) {
   return std::visit([&](const auto& p) { return p.spectrum(f); }, process);
 }
-Eigen::ArrayXd spectrum(const Process& process, const Eigen::ArrayXd& f) {
+Eigen::ArrayXd spectrum(const Process& process, const Frequencies& f) {
   return std::visit(
       [&](const auto& p) -> Eigen::ArrayXd {
         if constexpr (requires { p.spectra(f); }) {
           return p.spectra(f);
         } else {
-          return f.unaryExpr([&](double at) { return p.spectrum(at); });
+          Eigen::ArrayXd out(f.size());
+          for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = p.spectrum(f.at(i));
+          return out;
         }
       },
       process);

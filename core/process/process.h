@@ -36,9 +36,9 @@ std::vector<double> values(const Process& process);
 void set_values(Process& process, std::span<const double> values);
 Eigen::ArrayXd shape(const Process& process, HalfWidths m);
 Eigen::ArrayXXd shape_jacobian(const Process& process, HalfWidths m);
-double spectrum(const Process& process, double f);
+double spectrum(const Process& process, const Frequency& f);
 /// At many frequencies, cycles per sample.
-Eigen::ArrayXd spectrum(const Process& process, const Eigen::ArrayXd& f);
+Eigen::ArrayXd spectrum(const Process& process, const Frequencies& f);
 SumCovariance sum_covariance(const Process& process);
 std::vector<DerivedQuantity> derived(const Process& process, Hertz rate);
 std::vector<std::vector<double>> scan(const Process& process, const Scales& scales);

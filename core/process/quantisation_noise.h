@@ -24,8 +24,8 @@ struct QuantisationNoise {
   void set_values(std::span<const double> v) { q2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const { return 1.5 / m.square(); }
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double f) const {
-    const double s = 2.0 * std::sin(std::numbers::pi * f);
+  double spectrum(const Frequency& f) const {
+    const double s = 2.0 * f.half_sine;
     return q2 * s * s;
   }
   SumCovariance sum_covariance() const { return {.near = {q2}}; }

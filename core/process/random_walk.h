@@ -23,8 +23,8 @@ struct RandomWalk {
   void set_values(std::span<const double> v) { gamma2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const { return (2.0 * m.square() + 1.0) / (12.0 * m); }
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double f) const {
-    const double s = 2.0 * std::sin(std::numbers::pi * f);
+  double spectrum(const Frequency& f) const {
+    const double s = 2.0 * f.half_sine;
     return gamma2 / (s * s);
   }
   SumCovariance sum_covariance() const {

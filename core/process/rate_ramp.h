@@ -22,7 +22,7 @@ struct RateRamp {
   void set_values(std::span<const double> v) { omega2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const { return 0.25 * m.square(); }
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double) const { return 0.0; }  // deterministic
+  double spectrum(const Frequency&) const { return 0.0; }  // deterministic
   SumCovariance sum_covariance() const { return {.slope_squared = omega2}; }
   std::vector<DerivedQuantity> derived(Hertz rate) const {
     return {{Coefficient::kRamp, std::sqrt(omega2) * rate.value}};

@@ -60,10 +60,8 @@ Eigen::ArrayXXd Resonance::shape_jacobian(HalfWidths m) const {
   return out;
 }
 
-double Resonance::spectrum(double f) const { return spectra(Eigen::ArrayXd::Constant(1, f))(0); }
-
-Eigen::ArrayXd Resonance::versines(const Eigen::ArrayXd& f) {
-  return 2.0 * (std::numbers::pi * f).sin().square();
+double Resonance::spectrum(const Frequency& f) const {
+  return spectra(Frequencies(Eigen::ArrayXd::Constant(1, f.cycles)))(0);
 }
 
 // |1 - 2r cos ω z + r²z²|², z = e^-iθ, is 4r²(cos θ - (1 + r²)/2r · cos ω)² + (1 - r²)² sin² ω;

@@ -27,13 +27,11 @@ struct Resonance {
   }
   Eigen::ArrayXd shape(HalfWidths m) const;
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const;
-  double spectrum(double f) const;
-  /// At many frequencies, cycles per sample.
-  Eigen::ArrayXd spectra(const Eigen::ArrayXd& f) const { return at(versines(f)); }
+  double spectrum(const Frequency& f) const;
+  /// The same at many frequencies.
+  Eigen::ArrayXd spectra(const Frequencies& f) const { return at(2.0 * f.half_sines().square()); }
   /// The same from 1 - cos 2πf.
   Eigen::ArrayXd at(const Eigen::ArrayXd& versines) const;
-  /// 1 - cos 2πf, all digits kept.
-  static Eigen::ArrayXd versines(const Eigen::ArrayXd& f);
   SumCovariance sum_covariance() const;
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales& scales) const;

@@ -87,10 +87,12 @@ Eigen::ArrayXXd Voigt::shape_jacobian(HalfWidths m) const {
   return out;
 }
 
-double Voigt::spectrum(double f) const { return spectra(Eigen::ArrayXd::Constant(1, f))(0); }
+double Voigt::spectrum(const Frequency& f) const {
+  return spectra(Frequencies(Eigen::ArrayXd::Constant(1, f.cycles)))(0);
+}
 
-Eigen::ArrayXd Voigt::spectra(const Eigen::ArrayXd& f) const {
-  const Eigen::ArrayXd versines = Resonance::versines(f);
+Eigen::ArrayXd Voigt::spectra(const Frequencies& f) const {
+  const Eigen::ArrayXd versines = 2.0 * f.half_sines().square();
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero(f.size());
   for (const Resonance& one : parts()) out += one.at(versines);
   return out;

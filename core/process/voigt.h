@@ -33,9 +33,8 @@ struct Voigt {
   std::vector<Resonance> parts() const;
   Eigen::ArrayXd shape(HalfWidths m) const;
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const;
-  double spectrum(double f) const;
-  /// At many frequencies, cycles per sample.
-  Eigen::ArrayXd spectra(const Eigen::ArrayXd& f) const;
+  double spectrum(const Frequency& f) const;
+  Eigen::ArrayXd spectra(const Frequencies& f) const;
   SumCovariance sum_covariance() const;
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales& scales) const;

@@ -21,7 +21,7 @@ struct WhiteNoise {
   void set_values(std::span<const double> v) { sigma2 = v[0]; }
   Eigen::ArrayXd shape(HalfWidths m) const { return 0.5 / m; }
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const { return no_shape_jacobian(m); }
-  double spectrum(double) const { return sigma2; }
+  double spectrum(const Frequency&) const { return sigma2; }
   SumCovariance sum_covariance() const { return {.linear = -0.5 * sigma2}; }
   std::vector<DerivedQuantity> derived(Hertz rate) const {
     return {{Coefficient::kRandomWalk, std::sqrt(sigma2 / rate.value)}};

@@ -4,15 +4,16 @@
 #include <cstddef>
 
 #include "core/signal/signal.h"
+#include "core/support/frequency.h"
 #include "core/support/units.h"
 
 namespace imunoise {
 
 /// The power of a signal over frequency: squares of its cosine_transform(), averaged in bands.
 struct BandedPower {
-  Eigen::ArrayXd frequency;  ///< of each band, cycles per sample
-  Eigen::ArrayXd count;      ///< coefficients in the band: degrees of freedom of its power
-  Eigen::ArrayXd power;      ///< mean square, unit²: two-sided spectrum in unit² per cycle/sample
+  Frequencies frequency;  ///< of each band, cycles per sample
+  Eigen::ArrayXd count;   ///< coefficients in the band: degrees of freedom of its power
+  Eigen::ArrayXd power;   ///< mean square, unit²: two-sided spectrum in unit² per cycle/sample
   Eigen::ArrayXd ramp_cross;  ///< mean product with the transform of a ramp of slope 1 per sample
   Eigen::ArrayXd ramp_power;  ///< mean square of that ramp's transform
   std::size_t samples = 0;    ///< transformed: quick_length() of the signal's size

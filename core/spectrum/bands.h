@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/support/frequency.h"
+
 namespace imunoise {
 
 /// Bands of the coefficients k = 1 … n-1 of a cosine transform of length n. The first 256 stand
@@ -14,7 +16,7 @@ struct Bands {
 
   Eigen::Index size() const { return frequency.size(); }
 
-  Eigen::ArrayXd frequency;         ///< middle of each, cycles per sample
+  Frequencies frequency;            ///< middle of each, cycles per sample
   Eigen::ArrayXd count;             ///< coefficients in each
   std::vector<Eigen::Index> edges;  ///< place of the first coefficient of each, and the end
 };

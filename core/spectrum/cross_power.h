@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/signal/signal.h"
+#include "core/support/frequency.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/units.h"
 
@@ -13,7 +14,7 @@ namespace imunoise {
 /// Powers and cross powers of several series over frequency: products of their cosine_transform(),
 /// averaged in bands.
 struct CrossPower {
-  Eigen::ArrayXd frequency;            ///< of each band, cycles per sample
+  Frequencies frequency;               ///< of each band, cycles per sample
   Eigen::ArrayXd count;                ///< coefficients in the band
   std::vector<Eigen::MatrixXd> power;  ///< a band, series × series, unit²
   std::size_t samples = 0;             ///< of each series

@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Models, WhittleLaw,
 
 TEST(Whittle, OfWhiteNoiseIsItsMeanSquare) {
   BandedPower bands = bands_of(kSamples, kRate);
-  bands.power = 3.0 + bands.frequency.sin();
+  bands.power = 3.0 + bands.frequency.cycles().sin();
   const Model white = freed(model_of("WN(sigma2=1)"));
   const WhittleEstimate found = whittle(white, std::span(&bands, 1));
   const double mean = (bands.count * bands.power).sum() / bands.count.sum();

@@ -126,7 +126,7 @@ TEST(BandedPower, HoldsEveryCoefficientOnce) {
   EXPECT_LT(bands.frequency(bands.frequency.size() - 1), 0.5);
   EXPECT_GT(bands.frequency.size(), 700);
   // One more coefficient for every 256 below the band.
-  const Eigen::ArrayXd below = 2.0 * kN * bands.frequency - 0.5 * bands.count;
+  const Eigen::ArrayXd below = 2.0 * kN * bands.frequency.cycles() - 0.5 * bands.count;
   EXPECT_LE((bands.count - 1.0 - below / 256.0).maxCoeff(), 0.01);
 }
 
