@@ -352,9 +352,9 @@ const Effect& witness() {
             .rounding = Rounding::kFourDigits},
            {.name = "quadratic", .meaning = "the witness squared", .form = ParameterForm::kFlag},
            {.name = "vertex",
-            .meaning =
-                "value of the witness (SI) at the vertex of a quadratic coupling (default: its "
-                "mean)",
+            .meaning = "value of the witness at the vertex of a quadratic coupling; without it, "
+                       "its mean",
+            .unit = "SI unit of the witness",
             .absent = std::numeric_limits<double>::infinity(),
             .lower = -1e15,
             .rounding = Rounding::kByError},

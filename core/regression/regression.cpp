@@ -231,13 +231,22 @@ Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients
 Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients,
                                              std::size_t replicate) const {
   Eigen::VectorXd out = subject_->samples[replicate];
+  // Columns that are known by their transforms alone: their sum takes one transform back.
+  Eigen::VectorXd cosines(0);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Columns& columns = columns_[e]->replicates[replicate];
     Eigen::VectorXd own(static_cast<Index>(columns.places.size()));
     for (std::size_t i = 0; i < columns.places.size(); ++i)
       own(static_cast<Index>(i)) = -coefficients(first_[e] + columns.places[i]);
-    add_effect(effects_[e], *subject_, replicate, columns, own, out);
+    if (effects_[e].effect->add != nullptr || !columns.samples.empty()) {
+      add_effect(effects_[e], *subject_, replicate, columns, own, out);
+      continue;
+    }
+    if (own.size() > 0 && cosines.size() == 0) cosines = Eigen::VectorXd::Zero(out.size() - 1);
+    for (std::size_t i = 0; i < columns.places.size(); ++i)
+      cosines += own(static_cast<Index>(i)) * columns.cosines[i];
   }
+  if (cosines.size() > 0) out += inverse_cosine_transform(cosines);
   return out;
 }
 

@@ -14,20 +14,20 @@ constexpr double kPerSquare = 0.1;  // 1/K²
 
 // Swings of 3 K about a temperature that differs between replicates, by 6 K from the vertex at
 // most.
-double kelvins(std::size_t k, double s) {
+double temperature_of(std::size_t k, double s) {
   static constexpr double kMeans[] = {295.0, 299.0, 304.0, 307.0};
   return kMeans[k] + 3.0 * wave(0.011, s + 7.0 * static_cast<double>(k)) + wave(0.031, s);
 }
 
 TriedTerm found_under(const Addition& added, std::uint64_t seed) {
-  const auto subject = subject_of({.seed = seed, .added = added, .temperature = kelvins});
+  const auto subject = subject_of({.seed = seed, .added = added, .temperature = temperature_of});
   return diagnose(fitted(subject)).effects.at(0).tried;
 }
 
 TEST(Parabola, ItsVertexIsFound) {
   constexpr std::uint64_t kSeed = 61;
   const auto parabola = [](std::size_t k, double s) {
-    const double from = kelvins(k, s) - kVertex;
+    const double from = temperature_of(k, s) - kVertex;
     return kPerSquare * from * from;
   };
   const TriedTerm best = found_under(parabola, kSeed);
@@ -44,8 +44,8 @@ TEST(Parabola, ItsVertexIsFound) {
 
 TEST(Parabola, AStraightLineIsNone) {
   constexpr std::uint64_t kSeed = 62;
-  const TriedTerm best =
-      found_under([](std::size_t k, double s) { return 0.5 * (kelvins(k, s) - kVertex); }, kSeed);
+  const TriedTerm best = found_under(
+      [](std::size_t k, double s) { return 0.5 * (temperature_of(k, s) - kVertex); }, kSeed);
   EXPECT_EQ(best.cause, "temperature");
   EXPECT_EQ((*best.term())["quadratic"], 0.0) << print(*best.term());
 }

@@ -82,6 +82,17 @@ TEST(ProcessLaws, VarianceIsTheSpectrumSeenThroughTheWavelet) {
   }
 }
 
+TEST(ProcessLaws, ManyFrequenciesAreEachOfThem) {
+  const Frequencies all((Eigen::ArrayXd(7) << 1e-9, 3e-5, 0.01, 0.1, 0.25, 0.4999, 0.5).finished());
+  for (const Process& process : process_examples()) {
+    const Eigen::ArrayXd found = spectrum(process, all);
+    for (Eigen::Index i = 0; i < all.size(); ++i) {
+      const double one = spectrum(process, all(i));
+      EXPECT_NEAR(found(i), one, 1e-15 * one) << print(process) << ", f = " << all(i);
+    }
+  }
+}
+
 // ν(m) = [6Γ(0) - 8Γ(m) + 2Γ(2m)]/4m² ties the two descriptions a process gives of itself; here
 // through the covariance of moments of the shortest signal, where V = 2ν² exactly (one
 // coefficient).

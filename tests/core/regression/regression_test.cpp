@@ -49,6 +49,44 @@ TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
   }
 }
 
+// The beginnings of recordings are those of shorter recordings, with the same effects in them.
+TEST(Regression, BeginningsAreShorterRecordings) {
+  constexpr std::size_t kShort = 400;
+  const auto made = [](std::size_t samples) {
+    return subject_of({.samples = samples,
+                       .replicates = 2,
+                       .seed = 11,
+                       .temperature = [](std::size_t k, double s) {
+                         return 300.0 + 2.0 * static_cast<double>(k) + std::sin(0.7 * s);
+                       }});
+  };
+  const auto whole = made(1000);
+  const auto begun = made(kShort);
+  const FullModel model = *parse_full_model(
+      "WN(sigma2=1) + RW(gamma2=1e-5) + ramp + line(f=3) + step(replicate=2, t=7) + "
+      "step(replicate=1, t=15) + witness(temperature, quadratic, vertex=301)",
+      whole->rate);
+  Regression cut(whole);
+  Regression short_one(begun);
+  for (const EffectTerm& term : model.effects) {
+    cut = cut.with(term);
+    const bool behind = term.effect->name == "step" && term["t"] == 15.0;
+    if (!behind) short_one = short_one.with(term);
+  }
+  cut = cut.beginnings(kShort);
+  ASSERT_EQ(cut.subject().length(0), begun->length(0));
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(cut.subject().witnesses[0].levels[k], begun->witnesses[0].levels[k], 1e-9);
+  const Eigen::VectorXd expected = short_one.under(model.noise).value;
+  const Eigen::VectorXd found = cut.under(model.noise).value;
+  // The step behind the end (coefficient 6, after the ramp, two waves of two replicates, a step) is
+  // not felt.
+  ASSERT_EQ(found.size(), expected.size() + 1);
+  EXPECT_LT((found.head(6) - expected.head(6)).norm(), 1e-8 * expected.norm());
+  EXPECT_EQ(found(6), 0.0);
+  EXPECT_LT((found.tail(1) - expected.tail(1)).norm(), 1e-8 * expected.norm());
+}
+
 // The transform makes white noise plus a walk independent, so that banded least squares differ from
 // dense ones only in that the spectrum is one number a band; the first 256 coefficients have a band
 // each.

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "core/process/process.h"
+#include "core/support/distributions.h"
 #include "core/wavelet/discrete_quadrature.h"
+#include "core/wavelet/sum_covariance_terms.h"
 #include "tests/support/golden.h"
 
 namespace imunoise {
@@ -168,6 +170,14 @@ TEST(MomentCovariance, Golden) {
                   1e-8)
           << name << i;
     }
+  }
+}
+
+// Sums over lags take its expansion from 32 on.
+TEST(FlickerCovariance, ItsExpansionIsDigamma) {
+  for (const double s : {31.999, 32.0, 32.5, 47.0, 300.25, 1e4, 3.7e6, 1e9}) {
+    const double exact = digamma(s + 0.5);
+    EXPECT_NEAR(digamma_of_half_beyond(s), exact, 4e-16 * exact) << s;
   }
 }
 
