@@ -214,8 +214,8 @@ void add_static(const Current& current, const Witness& channel, Suggestions& out
 }
 
 // A gyroscope on a bench that rocks feels how fast the accelerometers' view of gravity turns: at
-// the frequencies where that view is more than the accelerometers' own noise, which are the low
-// ones.
+// the frequencies where that view is more than the accelerometers' own noise and what else
+// accelerates them.
 void add_rocking(const Current& current, const Witness& channel, Suggestions& out) {
   const Subject& subject = current.subject();
   if (!feels_rocking(subject.quantity, channel)) return;
@@ -225,18 +225,21 @@ void add_rocking(const Current& current, const Witness& channel, Suggestions& ou
   const Cumulated sums = cumulated(current, turning);
   const Index last = sums.product.size() - 1;
   const EffectTerm rate(witness(), channel.name, {{"derivative", 1.0}});
-  Suggestion best{.cause = "tilt",
-                  .added = rate,
-                  .score_nats = sums.gain(0, last),
-                  .search = {.log_places = std::log(static_cast<double>(last - kFirstOctave + 1))},
-                  .information = sums.square(last)};
-  for (Index i = kFirstOctave; i < last; ++i) {
-    const double gain = sums.gain(0, i);
-    if (!(gain > best.score_nats)) continue;
-    best.score_nats = gain;
-    best.information = sums.square(i);
-    std::get<EffectTerm>(best.added).set("to", edge_of(current, i));
+  Suggestion best{.cause = "tilt", .added = rate};
+  Index tried = 0;
+  for (Index from = 0; from < last; from = from == 0 ? kFirstOctave : from + 1) {
+    for (Index to = std::max(from + 1, kFirstOctave); to <= last; ++to, ++tried) {
+      const double gain = sums.gain(from, to);
+      if (tried > 0 && !(gain > best.score_nats)) continue;
+      best.score_nats = gain;
+      best.information = sums.square(to) - sums.square(from);
+      EffectTerm band = rate;
+      if (from > 0) band.set("from", edge_of(current, from));
+      if (to < last) band.set("to", edge_of(current, to));
+      best.added = std::move(band);
+    }
   }
+  best.search.log_places = std::log(static_cast<double>(tried));
   out.push_back(std::move(best));
 }
 
