@@ -1,0 +1,163 @@
+#include "recording/scratch/scratch_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdlib>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace imunoise::recording {
+namespace {
+
+constexpr std::size_t kUnit = std::size_t{64} << 10U;       // pieces are multiples of it
+constexpr std::size_t kZeros = std::size_t{256} << 10U;     // bytes written at once
+constexpr std::size_t kMostGaps = std::size_t{512} << 20U;  // bytes kept for the next piece
+
+std::size_t rounded(std::size_t bytes) { return (bytes + kUnit - 1) / kUnit * kUnit; }
+
+}  // namespace
+
+std::optional<int> ScratchFile::create(const std::filesystem::path& folder) {
+  std::error_code wrong;
+  std::filesystem::create_directories(folder, wrong);
+  int out = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (out < 0) {  // some file systems have no files without a name
+    std::string name = (folder / "scratch.XXXXXX").string();
+    out = ::mkostemp(name.data(), O_CLOEXEC);
+    if (out >= 0) ::unlink(name.c_str());
+  }
+  if (out < 0) return std::nullopt;
+  return out;
+}
+
+ScratchFile::ScratchFile(int descriptor, std::size_t most) : descriptor_(descriptor) {
+  void* const at =
+      ::mmap(nullptr, most, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (at == MAP_FAILED) return;
+  begin_ = reinterpret_cast<std::uintptr_t>(at);
+  reserved_ = most;
+}
+
+ScratchFile::~ScratchFile() {
+  if (reserved_ > 0) ::munmap(address(0), reserved_);
+  ::close(descriptor_);
+}
+
+void* ScratchFile::address(std::size_t offset) const {
+  return reinterpret_cast<void*>(begin_ + offset);
+}
+
+std::size_t ScratchFile::size_of(const void* piece) const {
+  const std::lock_guard lock(mutex_);
+  return taken_.at(offset_of(piece)).bytes;
+}
+
+// Zeros are written where a piece will lie: a page that the disk has no room for would end the
+// process when it is first used, and pages that are mapped before they were written cost twice as
+// much as memory does.
+bool ScratchFile::store(std::size_t offset, std::size_t bytes) {
+  static const std::array<char, kZeros> zeros{};
+  for (std::size_t done = 0; done < bytes;) {
+    const ssize_t wrote = ::pwrite(descriptor_, zeros.data(), std::min(kZeros, bytes - done),
+                                   static_cast<off_t>(offset + done));
+    if (wrote <= 0) {
+      ::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                  static_cast<off_t>(offset), static_cast<off_t>(done));
+      return false;
+    }
+    done += static_cast<std::size_t>(wrote);
+  }
+  return true;
+}
+
+// The smallest gap that it fits in.
+std::optional<std::size_t> ScratchFile::from_gap(std::size_t bytes) {
+  auto best = gaps_.end();
+  for (auto one = gaps_.begin(); one != gaps_.end(); ++one) {
+    const bool fits = one->second.bytes >= bytes;
+    if (fits && (best == gaps_.end() || one->second.bytes < best->second.bytes)) best = one;
+  }
+  if (best == gaps_.end()) return std::nullopt;
+  const auto [offset, gap] = *best;
+  if (!gap.stored && !store(offset, bytes)) return std::nullopt;
+  gaps_.erase(best);
+  if (gap.bytes > bytes) gaps_.emplace(offset + bytes, Gap{gap.bytes - bytes, gap.stored});
+  if (gap.stored) stored_gaps_ -= bytes;
+  return offset;
+}
+
+std::optional<std::size_t> ScratchFile::from_end(std::size_t bytes) {
+  if (bytes > reserved_ - end_ || !store(end_, bytes)) return std::nullopt;
+  void* const at = ::mmap(address(end_), bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED,
+                          descriptor_, static_cast<off_t>(end_));
+  if (at == MAP_FAILED) return std::nullopt;
+  end_ += bytes;
+  return end_ - bytes;
+}
+
+void* ScratchFile::take(std::size_t bytes) {
+  const std::size_t wanted = rounded(bytes);
+  const std::lock_guard lock(mutex_);
+  std::optional<std::size_t> offset = from_gap(wanted);
+  if (!offset) offset = from_end(wanted);
+  if (!offset) return nullptr;
+  taken_.emplace(*offset, Piece{wanted, ++count_});
+  return address(*offset);
+}
+
+void ScratchFile::give_back(void* piece) {
+  const std::lock_guard lock(mutex_);
+  const auto found = taken_.find(offset_of(piece));
+  assert(found != taken_.end());
+  const auto [offset, taken] = *found;
+  taken_.erase(found);
+  const bool stored = stored_gaps_ + taken.bytes <= kMostGaps;
+  if (stored) {
+    stored_gaps_ += taken.bytes;
+  } else {
+    ::madvise(address(offset), taken.bytes, MADV_REMOVE);  // nor is it written to the disk
+  }
+  add_gap(offset, {taken.bytes, stored});
+}
+
+void ScratchFile::add_gap(std::size_t offset, Gap gap) {
+  const auto next = gaps_.find(offset + gap.bytes);
+  if (next != gaps_.end() && next->second.stored == gap.stored) {
+    gap.bytes += next->second.bytes;
+    gaps_.erase(next);
+  }
+  const auto after = gaps_.lower_bound(offset);
+  if (after != gaps_.begin()) {
+    auto& [begin, before] = *std::prev(after);
+    if (begin + before.bytes == offset && before.stored == gap.stored) {
+      before.bytes += gap.bytes;
+      return;
+    }
+  }
+  gaps_.emplace(offset, gap);
+}
+
+void ScratchFile::shrink(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::pair<std::uint64_t, std::size_t>> latest;  // number and offset
+  for (const auto& [offset, piece] : taken_) latest.emplace_back(piece.number, offset);
+  std::sort(latest.begin(), latest.end(), std::greater<>());
+  std::size_t kept = 0;
+  for (const auto& [number, offset] : latest) {
+    const std::size_t size = taken_.at(offset).bytes;
+    kept += size;
+    if (kept > bytes) ::madvise(address(offset), size, MADV_DONTNEED);
+  }
+  for (const auto& [offset, gap] : gaps_) ::madvise(address(offset), gap.bytes, MADV_DONTNEED);
+}
+
+}  // namespace imunoise::recording
