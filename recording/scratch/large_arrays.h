@@ -15,7 +15,7 @@ struct LargeArrays {
   /// Of the file: on a disk. Empty: there is no file.
   std::filesystem::path folder;
   /// Bytes of large arrays that lie in ordinary memory; those that come after lie in the file.
-  std::size_t in_memory = std::size_t{256} << 20U;
+  std::size_t in_memory = std::size_t{128} << 20U;
   /// Bytes of mapped files, programs among them, of which more leave the process's memory within
   /// some ms. They come back when they are used.
   std::size_t mapped = std::size_t{128} << 20U;
