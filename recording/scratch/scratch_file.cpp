@@ -64,23 +64,19 @@ std::size_t ScratchFile::size_of(const void* piece) const {
 // Zeros are written where a piece will lie: a page that the disk has no room for would end the
 // process when it is first used, and pages that are mapped before they were written cost twice as
 // much as memory does.
-bool ScratchFile::store(std::size_t offset, std::size_t bytes) {
+bool ScratchFile::store(std::size_t offset, std::size_t bytes) const {
   static const std::array<char, kZeros> zeros{};
   for (std::size_t done = 0; done < bytes;) {
     const ssize_t wrote = ::pwrite(descriptor_, zeros.data(), std::min(kZeros, bytes - done),
                                    static_cast<off_t>(offset + done));
-    if (wrote <= 0) {
-      ::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
-                  static_cast<off_t>(offset), static_cast<off_t>(done));
-      return false;
-    }
+    if (wrote <= 0) return false;
     done += static_cast<std::size_t>(wrote);
   }
   return true;
 }
 
 // The smallest gap that it fits in.
-std::optional<std::size_t> ScratchFile::from_gap(std::size_t bytes) {
+std::optional<ScratchFile::Place> ScratchFile::from_gap(std::size_t bytes) {
   auto best = gaps_.end();
   for (auto one = gaps_.begin(); one != gaps_.end(); ++one) {
     const bool fits = one->second.bytes >= bytes;
@@ -88,30 +84,40 @@ std::optional<std::size_t> ScratchFile::from_gap(std::size_t bytes) {
   }
   if (best == gaps_.end()) return std::nullopt;
   const auto [offset, gap] = *best;
-  if (!gap.stored && !store(offset, bytes)) return std::nullopt;
   gaps_.erase(best);
   if (gap.bytes > bytes) gaps_.emplace(offset + bytes, Gap{gap.bytes - bytes, gap.stored});
   if (gap.stored) stored_gaps_ -= bytes;
-  return offset;
+  return Place{offset, gap.stored};
 }
 
-std::optional<std::size_t> ScratchFile::from_end(std::size_t bytes) {
-  if (bytes > reserved_ - end_ || !store(end_, bytes)) return std::nullopt;
+std::optional<ScratchFile::Place> ScratchFile::from_end(std::size_t bytes) {
+  if (bytes > reserved_ - end_) return std::nullopt;
   void* const at = ::mmap(address(end_), bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED,
                           descriptor_, static_cast<off_t>(end_));
   if (at == MAP_FAILED) return std::nullopt;
   end_ += bytes;
-  return end_ - bytes;
+  return Place{end_ - bytes, false};
+}
+
+std::optional<ScratchFile::Place> ScratchFile::find_place(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  std::optional<Place> out = from_gap(bytes);
+  if (!out) out = from_end(bytes);
+  if (out) taken_.emplace(out->offset, Piece{bytes, ++count_});
+  return out;
 }
 
 void* ScratchFile::take(std::size_t bytes) {
   const std::size_t wanted = rounded(bytes);
+  const std::optional<Place> place = find_place(wanted);
+  if (!place) return nullptr;
+  // Without the lock: a busy disk takes its time, and shrink() must not wait for it.
+  if (place->stored || store(place->offset, wanted)) return address(place->offset);
   const std::lock_guard lock(mutex_);
-  std::optional<std::size_t> offset = from_gap(wanted);
-  if (!offset) offset = from_end(wanted);
-  if (!offset) return nullptr;
-  taken_.emplace(*offset, Piece{wanted, ++count_});
-  return address(*offset);
+  taken_.erase(place->offset);
+  ::madvise(address(place->offset), wanted, MADV_REMOVE);
+  add_gap(place->offset, {wanted, false});
+  return nullptr;
 }
 
 void ScratchFile::give_back(void* piece) {

@@ -53,9 +53,15 @@ class ScratchFile {
     return reinterpret_cast<std::uintptr_t>(piece) - begin_;
   }
   void* address(std::size_t offset) const;
-  std::optional<std::size_t> from_gap(std::size_t bytes);
-  std::optional<std::size_t> from_end(std::size_t bytes);
-  bool store(std::size_t offset, std::size_t bytes);
+  // A place for so many bytes, by its offset.
+  struct Place {
+    std::size_t offset = 0;
+    bool stored = false;
+  };
+  std::optional<Place> find_place(std::size_t bytes);
+  std::optional<Place> from_gap(std::size_t bytes);
+  std::optional<Place> from_end(std::size_t bytes);
+  bool store(std::size_t offset, std::size_t bytes) const;
   void add_gap(std::size_t offset, Gap gap);
 
   int descriptor_;
