@@ -113,26 +113,36 @@ void* ScratchFile::take(std::size_t bytes) {
   if (!place) return nullptr;
   // Without the lock: a busy disk takes its time, and shrink() must not wait for it.
   if (place->stored || store(place->offset, wanted)) return address(place->offset);
-  const std::lock_guard lock(mutex_);
-  taken_.erase(place->offset);
-  ::madvise(address(place->offset), wanted, MADV_REMOVE);
-  add_gap(place->offset, {wanted, false});
+  {
+    const std::lock_guard lock(mutex_);
+    taken_.erase(place->offset);
+  }
+  give_up(place->offset, wanted);
   return nullptr;
 }
 
 void ScratchFile::give_back(void* piece) {
-  const std::lock_guard lock(mutex_);
-  const auto found = taken_.find(offset_of(piece));
-  assert(found != taken_.end());
-  const auto [offset, taken] = *found;
-  taken_.erase(found);
-  const bool stored = stored_gaps_ + taken.bytes <= kMostGaps;
-  if (stored) {
-    stored_gaps_ += taken.bytes;
-  } else {
-    ::madvise(address(offset), taken.bytes, MADV_REMOVE);  // nor is it written to the disk
+  const std::size_t offset = offset_of(piece);
+  Gap gap;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = taken_.find(offset);
+    assert(found != taken_.end());
+    gap = {found->second.bytes, stored_gaps_ + found->second.bytes <= kMostGaps};
+    taken_.erase(found);
+    if (gap.stored) {
+      stored_gaps_ += gap.bytes;
+      return add_gap(offset, gap);
+    }
   }
-  add_gap(offset, {taken.bytes, stored});
+  give_up(offset, gap.bytes);
+}
+
+// Room on the disk. Nor are its pages written any more.
+void ScratchFile::give_up(std::size_t offset, std::size_t bytes) {
+  ::madvise(address(offset), bytes, MADV_REMOVE);
+  const std::lock_guard lock(mutex_);
+  add_gap(offset, {bytes, false});
 }
 
 void ScratchFile::add_gap(std::size_t offset, Gap gap) {

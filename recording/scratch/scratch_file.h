@@ -63,6 +63,7 @@ class ScratchFile {
   std::optional<Place> from_end(std::size_t bytes);
   bool store(std::size_t offset, std::size_t bytes) const;
   void add_gap(std::size_t offset, Gap gap);
+  void give_up(std::size_t offset, std::size_t bytes);
 
   int descriptor_;
   std::uintptr_t begin_ = 0;
