@@ -75,12 +75,15 @@ bool ScratchFile::store(std::size_t offset, std::size_t bytes) const {
   return true;
 }
 
-// The smallest gap that it fits in.
+// The smallest gap that it fits in, of those with room on the disk if there is one.
 std::optional<ScratchFile::Place> ScratchFile::from_gap(std::size_t bytes) {
+  const auto better = [](const Gap& one, const Gap& other) {
+    return one.stored != other.stored ? one.stored : one.bytes < other.bytes;
+  };
   auto best = gaps_.end();
   for (auto one = gaps_.begin(); one != gaps_.end(); ++one) {
-    const bool fits = one->second.bytes >= bytes;
-    if (fits && (best == gaps_.end() || one->second.bytes < best->second.bytes)) best = one;
+    if (one->second.bytes < bytes) continue;
+    if (best == gaps_.end() || better(one->second, best->second)) best = one;
   }
   if (best == gaps_.end()) return std::nullopt;
   const auto [offset, gap] = *best;
