@@ -70,21 +70,26 @@ std::size_t mapped_now(int statm) {
   return pages[2] * page;
 }
 
-[[noreturn]] void watch(ScratchFile& file, std::size_t most) {
+[[noreturn]] void watch(ScratchFile& file, const LargeArrays& how) {
+  constexpr std::size_t kTogether = 8;  // arrays, of two transforms at a time
   const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   for (;;) {
     std::this_thread::sleep_for(kLook);
-    if (mapped_now(statm) > most) file.shrink(most / 2);
+    const std::size_t now = mapped_now(statm);
+    if (now <= how.mapped) continue;
+    const std::size_t at_work = std::min(kTogether * file.largest_of_late(), how.mapped_by_large);
+    const std::size_t most = std::max(how.mapped, at_work);
+    if (now > most) file.shrink(most / 2);
   }
 }
 
 // On a thread that takes no signals, which are for others.
-void start_watch(ScratchFile& file, std::size_t most) {
+void start_watch(ScratchFile& file, const LargeArrays& how) {
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread([&file, most] { watch(file, most); }).detach();
+  std::thread([&file, &how] { watch(file, how); }).detach();
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
@@ -103,7 +108,7 @@ ScratchFile* opened() {
   auto* const file = new ScratchFile(*descriptor, most);
   pthread_atfork(nullptr, nullptr, [] { forked = true; });
   scratch.store(file, std::memory_order_release);
-  start_watch(*file, state->how.mapped);
+  start_watch(*file, state->how);
   return file;
 }
 

@@ -165,6 +165,16 @@ void ScratchFile::add_gap(std::size_t offset, Gap gap) {
   gaps_.emplace(offset, gap);
 }
 
+std::size_t ScratchFile::largest_of_late() const {
+  constexpr std::uint64_t kLate = 16;  // pieces
+  const std::lock_guard lock(mutex_);
+  std::size_t out = 0;
+  for (const auto& [offset, piece] : taken_) {
+    if (piece.number + kLate > count_) out = std::max(out, piece.bytes);
+  }
+  return out;
+}
+
 void ScratchFile::shrink(std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   std::vector<std::pair<std::uint64_t, std::size_t>> latest;  // number and offset

@@ -35,6 +35,9 @@ class ScratchFile {
   /// Size of a piece that was taken.
   std::size_t size_of(const void* piece) const;
 
+  /// Size of the largest of the pieces that were taken last: what work is done on now.
+  std::size_t largest_of_late() const;
+
   /// Takes all out of this process's memory but the pieces that were taken last, up to so many
   /// bytes: those are most likely in use.
   void shrink(std::size_t bytes);

@@ -155,8 +155,9 @@ TEST_F(MemoryTest, FitOfEightHundredMegabytes) {
 TEST_F(MemoryTest, DiagnosisOfThirtyMillionNumbers) {
   constexpr std::size_t kRows = 10'000'000;
   write_npy("long.npy", kRows, 3);
-  const std::vector<std::string> arguments = {"diagnose",  "long.npy", "--rate",  "100",
-                                              "--channel", "col1",     "--model", "WN"};
+  const std::vector<std::string> arguments = {"diagnose",     "long.npy", "--rate",  "100",
+                                              "--channel",    "col1",     "--model", "WN",
+                                              "--split-into", "6"};
   const std::size_t most = bound(arguments);
   ASSERT_LT(most, 3 * 3 * kRows * sizeof(double));  // samples, their copies and their transforms
   const Peak peak = peak_of(arguments);

@@ -43,7 +43,7 @@ class LargeArraysTest : public testing::Test {
 #ifdef IMUNOISE_SANITIZED
     GTEST_SKIP() << "sanitizers have their own malloc";
 #endif
-    keep_large_arrays({std::filesystem::temp_directory_path(), kInMemory, kMapped});
+    keep_large_arrays({std::filesystem::temp_directory_path(), kInMemory, kMapped, kMapped});
   }
 };
 
