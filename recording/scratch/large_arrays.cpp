@@ -77,7 +77,9 @@ std::size_t mapped_now(int statm) {
     std::this_thread::sleep_for(kLook);
     const std::size_t now = mapped_now(statm);
     if (now <= how.mapped) continue;
-    const std::size_t at_work = std::min(kTogether * file.largest_of_late(), how.mapped_by_large);
+    // Of arrays that are larger still, too few would stay to be of use.
+    const std::size_t largest = file.largest_of_late(2 * how.mapped_by_large / kTogether);
+    const std::size_t at_work = std::min(kTogether * largest, how.mapped_by_large);
     const std::size_t most = std::max(how.mapped, at_work);
     if (now > most) file.shrink(most / 2);
   }

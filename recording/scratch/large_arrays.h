@@ -19,8 +19,8 @@ struct LargeArrays {
   /// Bytes of mapped files, programs among them, of which more leave the process's memory within
   /// some ms. They come back when they are used.
   std::size_t mapped = std::size_t{128} << 20U;
-  /// The same while arrays are so large that a transform of a few would not fit: up to eight of
-  /// them.
+  /// The same while arrays come and go of which a few, for a transform, would not fit: up to eight
+  /// of them.
   std::size_t mapped_by_large = std::size_t{1} << 30U;
 };
 

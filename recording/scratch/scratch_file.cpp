@@ -133,6 +133,7 @@ void ScratchFile::give_back(void* piece) {
     assert(found != taken_.end());
     gap = {found->second.bytes, stored_gaps_ + found->second.bytes <= kMostGaps};
     taken_.erase(found);
+    late_.at(given_back_++ % late_.size()) = gap.bytes;
     if (gap.stored) {
       stored_gaps_ += gap.bytes;
       return add_gap(offset, gap);
@@ -165,12 +166,11 @@ void ScratchFile::add_gap(std::size_t offset, Gap gap) {
   gaps_.emplace(offset, gap);
 }
 
-std::size_t ScratchFile::largest_of_late() const {
-  constexpr std::uint64_t kLate = 16;  // pieces
+std::size_t ScratchFile::largest_of_late(std::size_t most) const {
   const std::lock_guard lock(mutex_);
   std::size_t out = 0;
-  for (const auto& [offset, piece] : taken_) {
-    if (piece.number + kLate > count_) out = std::max(out, piece.bytes);
+  for (const std::size_t one : late_) {
+    if (one <= most) out = std::max(out, one);
   }
   return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -35,8 +35,9 @@ class ScratchFile {
   /// Size of a piece that was taken.
   std::size_t size_of(const void* piece) const;
 
-  /// Size of the largest of the pieces that were taken last: what work is done on now.
-  std::size_t largest_of_late() const;
+  /// Size of the largest of the pieces that were given back last, of those of at most so many
+  /// bytes: what work is done on now, unlike what lies here for long.
+  std::size_t largest_of_late(std::size_t most) const;
 
   /// Takes all out of this process's memory but the pieces that were taken last, up to so many
   /// bytes: those are most likely in use.
@@ -77,6 +78,8 @@ class ScratchFile {
   std::map<std::size_t, Piece> taken_;  // by offset
   std::map<std::size_t, Gap> gaps_;     // between them, by offset; neighbours alike are joined
   std::size_t stored_gaps_ = 0;         // bytes
+  std::array<std::size_t, 16> late_{};  // sizes of pieces that were given back last
+  std::size_t given_back_ = 0;          // pieces
 };
 
 }  // namespace imunoise::recording
