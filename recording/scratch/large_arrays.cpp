@@ -78,7 +78,7 @@ std::size_t mapped_now(int statm) {
     const std::size_t now = mapped_now(statm);
     if (now <= how.mapped) continue;
     // Of arrays that are larger still, too few would stay to be of use.
-    const std::size_t largest = file.largest_of_late(2 * how.mapped_by_large / kTogether);
+    const std::size_t largest = file.largest_given_back(2 * how.mapped_by_large / kTogether);
     const std::size_t at_work = std::min(kTogether * largest, how.mapped_by_large);
     const std::size_t most = std::max(how.mapped, at_work);
     if (now > most) file.shrink(most / 2);

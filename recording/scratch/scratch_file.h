@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 
 namespace imunoise::recording {
 
@@ -35,9 +35,9 @@ class ScratchFile {
   /// Size of a piece that was taken.
   std::size_t size_of(const void* piece) const;
 
-  /// Size of the largest of the pieces that were given back last, of those of at most so many
-  /// bytes: what work is done on now, unlike what lies here for long.
-  std::size_t largest_of_late(std::size_t most) const;
+  /// Size of the largest piece of at most so many bytes that was given back: what work is done on,
+  /// unlike what lies here for long.
+  std::size_t largest_given_back(std::size_t most) const;
 
   /// Takes all out of this process's memory but the pieces that were taken last, up to so many
   /// bytes: those are most likely in use.
@@ -78,8 +78,7 @@ class ScratchFile {
   std::map<std::size_t, Piece> taken_;  // by offset
   std::map<std::size_t, Gap> gaps_;     // between them, by offset; neighbours alike are joined
   std::size_t stored_gaps_ = 0;         // bytes
-  std::array<std::size_t, 16> late_{};  // sizes of pieces that were given back last
-  std::size_t given_back_ = 0;          // pieces
+  std::set<std::size_t> given_back_;    // sizes
 };
 
 }  // namespace imunoise::recording
