@@ -26,9 +26,9 @@ std::string unit_of(const Witness& witness) {
 }
 
 const Witness* Subject::find(const std::string& name) const {
-  const auto place = std::find_if(witnesses.begin(), witnesses.end(),
-                                  [&](const Witness& one) { return one.name == name; });
-  return place == witnesses.end() ? nullptr : &*place;
+  const auto called = std::find_if(witnesses.begin(), witnesses.end(),
+                                   [&](const Witness& one) { return one.name == name; });
+  return called == witnesses.end() ? nullptr : &*called;
 }
 
 std::optional<std::size_t> Subject::around(std::size_t recorded, Eigen::Index sample) const {

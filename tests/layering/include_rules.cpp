@@ -67,6 +67,7 @@ const std::vector<Room>& rooms() {
        {"core/support", "core/signal", "core/wavelet", "core/process", "core/model"}},
       {"proto", {}},
       {"recording/hdf5", {"core/support"}},
+      {"recording/scratch", {"core/support"}},
       {"recording/export", {"core/support", "proto", "recording/hdf5"}},
       {"recording/import/table", {"core/support", "core/signal", "proto"}},
       {"recording/import/preflight", {"core/support", "core/stillness", "recording/import/table"}},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -171,6 +173,42 @@ TEST_F(Hdf5, DatasetsOfTheWrongKind) {
                  EXPECT_TRUE(write_attribute(x.get(), "units", 3.0));
                }),
                {"a.h5: dataset x", "units must be a string"});
+}
+
+// Read in pieces of a million numbers, or of whole chunks.
+TEST_F(Hdf5, DatasetsOfSeveralPieces) {
+  constexpr std::size_t kMany = 2'500'001;
+  std::vector<std::int32_t> numbers(kMany);
+  std::iota(numbers.begin(), numbers.end(), -7);
+  std::vector<double> pairs(2 * kMany);
+  std::iota(pairs.begin(), pairs.end(), 0.25);
+  {
+    Hdf5File file(path("long.h5"));
+    ASSERT_TRUE(write_attribute(file.id(), "rate_hz", 100.0));
+    file.dataset("a", numbers, H5T_STD_I32LE, H5T_NATIVE_INT32);
+    const auto b = file.dataset("b", numbers, H5T_STD_I32LE, H5T_NATIVE_INT32);
+    ASSERT_TRUE(write_attribute(b.get(), "_FillValue", static_cast<double>(kMany - 8)));  // last
+    file.dataset("c", pairs, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {kMany, 2});
+    file.dataset("d", pairs, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {2, kMany});
+  }
+  const auto got = import_one(path("long.h5"));
+  ASSERT_TRUE(got) << got.error().message;
+  const std::vector<Channel>& channels = got->front().channels;
+  ASSERT_EQ(channels.size(), 6U);
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(*channels[0].samples), numbers);
+  const auto& missing = std::get<std::vector<double>>(*channels[1].samples);
+  ASSERT_EQ(missing.size(), kMany);
+  EXPECT_TRUE(std::equal(missing.begin(), missing.end() - 1, numbers.begin()));
+  EXPECT_TRUE(std::isnan(missing.back()));
+  for (std::size_t i = 0; i < kMany; i += 99'991) {
+    const auto at = [&](std::size_t c) {
+      return std::get<std::vector<double>>(*channels[c].samples)[i];
+    };
+    ASSERT_EQ(at(2), pairs[2 * i]);
+    ASSERT_EQ(at(3), pairs[2 * i + 1]);
+    ASSERT_EQ(at(4), pairs[i]);
+    ASSERT_EQ(at(5), pairs[kMany + i]);
+  }
 }
 
 TEST_F(Hdf5, NoRateAnywhere) {

@@ -5,11 +5,28 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "recording/hdf5/attributes.h"
 #include "recording/hdf5/dataset.h"
 
 namespace imunoise::recording {
+namespace {
+
+// Of a dataset with so many numbers along its dimension `time`: about a million, and whole chunks,
+// each of which is unpacked as a whole.
+hsize_t numbers_in_piece(hid_t dataset, int time, hsize_t count) {
+  constexpr hsize_t kMany = hsize_t{1} << 20U;
+  const Hdf5Handle how(H5Dget_create_plist(dataset), H5Pclose);
+  std::array<hsize_t, 2> chunk = {1, 1};
+  if (how && H5Pget_layout(how.get()) == H5D_CHUNKED)
+    H5Pget_chunk(how.get(), static_cast<int>(chunk.size()), chunk.data());
+  const hsize_t whole = std::clamp<hsize_t>(chunk.at(static_cast<std::size_t>(time)), 1, count);
+  return whole * std::max<hsize_t>(1, kMany / whole);
+}
+
+}  // namespace
 
 Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
   Result<OpenDataset> opened = open_dataset(file, name, 2);
@@ -31,45 +48,70 @@ Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
 }
 
 template <class Number>
-Result<Samples> Hdf5Dataset::read_as(hid_t memory_type, std::uint64_t column, bool across) const {
-  const hsize_t count = across ? shape_.columns : shape_.rows;
-  std::vector<Number> values(count);
-  const Hdf5Handle space(H5Dget_space(id()), H5Sclose);
-  const Hdf5Handle room(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const bool plane = space && H5Sget_simple_extent_ndims(space.get()) == 2;
-  const std::array<hsize_t, 2> begin = {across ? column : 0, across ? 0 : column};
-  const std::array<hsize_t, 2> extent = {across ? 1 : count, across ? count : 1};
-  if (!space || !room ||
-      (plane && H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr,
-                                    extent.data(), nullptr) < 0) ||
-      H5Dread(id(), memory_type, room.get(), space.get(), H5P_DEFAULT, values.data()) < 0) {
+Result<void> Hdf5Dataset::each_piece(
+    hid_t memory_type, std::uint64_t column, bool across,
+    const std::function<bool(std::vector<Number>& piece)>& take) const {
+  const auto trouble = [&] {
     return fail(
         fmt::format("dataset {}: cannot be read: a chunk is damaged, or needs a filter that "
                     "is not installed; copy the file again or h5repack it",
                     name_));
+  };
+  const hsize_t count = across ? shape_.columns : shape_.rows;
+  const Hdf5Handle space(H5Dget_space(id()), H5Sclose);
+  if (!space) return trouble();
+  const bool plane = H5Sget_simple_extent_ndims(space.get()) == 2;
+  const hsize_t most = numbers_in_piece(id(), across && plane ? 1 : 0, count);
+  std::vector<Number> piece;
+  for (hsize_t first = 0; first < count; first += most) {
+    const hsize_t size = std::min(most, count - first);
+    const Hdf5Handle room(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const std::array<hsize_t, 2> begin = {across ? column : first, across ? first : column};
+    const std::array<hsize_t, 2> extent = {across ? 1 : size, across ? size : 1};
+    piece.resize(size);
+    if (!room ||
+        H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr, extent.data(),
+                            nullptr) < 0 ||
+        H5Dread(id(), memory_type, room.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
+      return trouble();
+    if (!take(piece)) return {};
   }
-  const Result<std::optional<double>> fill = read_number_attribute(id(), "_FillValue");
-  if (!fill) return fail(fmt::format("dataset {}: {}", name_, fill.error().message));
-  if (!*fill) return Samples(std::move(values));
-  const auto missing = [&](Number value) { return static_cast<double>(value) == **fill; };
-  if (std::none_of(values.begin(), values.end(), missing)) return Samples(std::move(values));
-  std::vector<double> out(values.begin(), values.end());
-  for (double& value : out) {
-    if (value == **fill) value = std::numeric_limits<double>::quiet_NaN();
-  }
-  return Samples(std::move(out));
+  return {};
 }
 
-Result<Samples> Hdf5Dataset::read(std::uint64_t column, bool across) const {
-  switch (kind_) {
-    case Kind::kInt16:
-      return read_as<std::int16_t>(H5T_NATIVE_INT16, column, across);
-    case Kind::kInt32:
-      return read_as<std::int32_t>(H5T_NATIVE_INT32, column, across);
-    case Kind::kOther:
-      break;
+Result<bool> Hdf5Dataset::misses(double fill, std::uint64_t column, bool across) const {
+  bool out = false;
+  const auto read = each_piece<std::int32_t>(
+      H5T_NATIVE_INT32, column, across, [&](const std::vector<std::int32_t>& piece) {
+        out = std::any_of(piece.begin(), piece.end(),
+                          [&](std::int32_t value) { return static_cast<double>(value) == fill; });
+        return !out;
+      });
+  if (!read) return tl::make_unexpected(read.error());
+  return out;
+}
+
+Result<void> Hdf5Dataset::read(std::uint64_t column, bool across,
+                               const std::function<bool(Samples piece)>& take) const {
+  const Result<std::optional<double>> fill = read_number_attribute(id(), "_FillValue");
+  if (!fill) return fail(fmt::format("dataset {}: {}", name_, fill.error().message));
+  Kind kind = kind_;
+  if (*fill && kind != Kind::kOther) {
+    const Result<bool> missing = misses(**fill, column, across);
+    if (!missing) return tl::make_unexpected(missing.error());
+    if (*missing) kind = Kind::kOther;
   }
-  return read_as<double>(H5T_NATIVE_DOUBLE, column, across);
+  const auto as_it_is = [&](auto& piece) { return take(Samples(std::move(piece))); };
+  if (kind == Kind::kInt16)
+    return each_piece<std::int16_t>(H5T_NATIVE_INT16, column, across, as_it_is);
+  if (kind == Kind::kInt32)
+    return each_piece<std::int32_t>(H5T_NATIVE_INT32, column, across, as_it_is);
+  return each_piece<double>(H5T_NATIVE_DOUBLE, column, across, [&](std::vector<double>& piece) {
+    for (double& value : piece) {
+      if (*fill && value == **fill) value = std::numeric_limits<double>::quiet_NaN();
+    }
+    return as_it_is(piece);
+  });
 }
 
 }  // namespace imunoise::recording

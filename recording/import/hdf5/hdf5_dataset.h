@@ -2,7 +2,9 @@
 
 // Numbers of one HDF5 dataset as columns.
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "core/support/result.h"
 #include "recording/hdf5/handle.h"
@@ -23,16 +25,23 @@ class Hdf5Dataset {
   hid_t id() const { return dataset_.get(); }
   /// Column `column`; `across`: row `column`, where time is the second dimension. int16 and int32
   /// keep their type, all others become doubles. A number that equals the attribute _FillValue (CF:
-  /// a missing sample) is a NaN, integers are then doubles. Error: a chunk that cannot be read.
-  Result<Samples> read(std::uint64_t column, bool across) const;
+  /// a missing sample) is a NaN, integers are then doubles. In pieces of whole chunks, about a
+  /// million numbers each, all of one type, until `take` says false. Error: a chunk that cannot be
+  /// read.
+  Result<void> read(std::uint64_t column, bool across,
+                    const std::function<bool(Samples piece)>& take) const;
 
  private:
   enum class Kind { kInt16, kInt32, kOther };
 
   Hdf5Dataset(std::string name, Hdf5Handle dataset, Shape shape, Kind kind)
       : name_(std::move(name)), dataset_(std::move(dataset)), shape_(shape), kind_(kind) {}
+  // Numbers of a column, or a row, as they are stored; `take` is given a piece of them.
   template <class Number>
-  Result<Samples> read_as(hid_t memory_type, std::uint64_t column, bool across) const;
+  Result<void> each_piece(hid_t memory_type, std::uint64_t column, bool across,
+                          const std::function<bool(std::vector<Number>& piece)>& take) const;
+  // Whether integers equal `fill`.
+  Result<bool> misses(double fill, std::uint64_t column, bool across) const;
 
   std::string name_;
   Hdf5Handle dataset_;

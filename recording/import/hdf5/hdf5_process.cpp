@@ -162,15 +162,15 @@ void limit(std::uint64_t file_bytes, std::uint64_t number_bytes) {
   limit_computing(computing_limit(file_bytes, number_bytes));
 }
 
-// Message: "", index of the type in Samples, count; then the numbers. Or what went wrong.
-bool answer(const Line& line, const Result<Samples>& samples) {
+// Message: what went wrong, or "", index of the type in Samples, count; then so many numbers.
+bool answer(const Line& line, const Result<Samples>& piece) {
   Packer head;
-  head.put(samples ? std::string() : samples.error().message);
-  if (!samples) return head.send(line);
-  head.put(std::uint64_t{samples->index()});
-  head.put(std::uint64_t{size(*samples)});
+  head.put(piece ? std::string() : piece.error().message);
+  if (!piece) return head.send(line);
+  head.put(std::uint64_t{piece->index()});
+  head.put(std::uint64_t{size(*piece)});
   return head.send(line) &&
-         std::visit([&](const auto& numbers) { return line.send(bytes_of(numbers)); }, *samples);
+         std::visit([&](const auto& numbers) { return line.send(bytes_of(numbers)); }, *piece);
 }
 
 void serve(const Line& line, const std::filesystem::path& path, std::uint64_t bytes) {
@@ -183,9 +183,11 @@ void serve(const Line& line, const std::filesystem::path& path, std::uint64_t by
   std::array<std::uint64_t, 1> wanted = {};
   while (line.receive(room_of(wanted))) {
     limit(bytes, (*source)->facts().columns.at(wanted[0]).size * sizeof(double));
-    bool sent = false;
+    bool sent = true;
     try {
-      sent = answer(line, (*source)->read(wanted[0]));
+      const auto read = (*source)->read(
+          wanted[0], [&](Samples piece) { return sent = answer(line, std::move(piece)); });
+      if (!read) sent = answer(line, tl::make_unexpected(read.error()));
     } catch (const std::bad_alloc&) {
       sent = answer(line, fail("it needs more memory than available"));
     }
@@ -213,26 +215,18 @@ class Hdf5Process : public Hdf5Reader {
   Result<Samples> read(std::size_t column) override {
     const std::array wanted = {std::uint64_t{column}};
     if (!child_.line().send(bytes_of(wanted))) return broken_off();
-    const auto message = receive_message();
-    if (!message) return tl::make_unexpected(message.error());
-    Unpacker in(*message);
-    std::string trouble;
-    std::uint64_t type = 0;
-    std::uint64_t count = 0;
-    in.take(trouble);
-    if (!trouble.empty()) return fail(std::move(trouble));
-    in.take(type);
-    in.take(count);
-    if (!in.good() || type > 2 || count != facts_.columns.at(column).size) return nonsense();
-    read_ += count * (type == 1 ? sizeof(std::int16_t) : sizeof(float));
+    const std::uint64_t all = facts_.columns.at(column).size;
+    const auto first = receive_head(all);
+    if (!first) return tl::make_unexpected(first.error());
+    read_ += all * (first->type == 1 ? sizeof(std::int16_t) : sizeof(float));
     if (read_ / kBestCompression > bytes_) {
       return fail(
           "its datasets claim more numbers than the file can hold; it is damaged, or several names "
           "stand for one dataset: choose with --channel");
     }
-    if (type == 0) return receive_numbers<double>(count);
-    if (type == 1) return receive_numbers<std::int16_t>(count);
-    return receive_numbers<std::int32_t>(count);
+    if (first->type == 0) return receive_numbers<double>(all, *first);
+    if (first->type == 1) return receive_numbers<std::int16_t>(all, *first);
+    return receive_numbers<std::int32_t>(all, *first);
   }
 
  private:
@@ -261,11 +255,38 @@ class Hdf5Process : public Hdf5Reader {
     if (!child_.line().receive(out, stopped_, silence())) return broken_off();
     return out;
   }
+  // Of a piece.
+  struct Head {
+    std::uint64_t type = 0;
+    std::uint64_t count = 0;
+  };
+  Result<Head> receive_head(std::uint64_t most) {
+    const auto message = receive_message();
+    if (!message) return tl::make_unexpected(message.error());
+    Unpacker in(*message);
+    std::string trouble;
+    Head out;
+    in.take(trouble);
+    if (!trouble.empty()) return fail(std::move(trouble));
+    in.take(out.type);
+    in.take(out.count);
+    if (!in.good() || out.type > 2 || out.count == 0 || out.count > most) return nonsense();
+    return out;
+  }
+  // Piece by piece, the first of which was announced.
   template <class Number>
-  Result<Samples> receive_numbers(std::size_t count) {
-    std::vector<Number> out(count);
-    if (!child_.line().receive(room_of(out), stopped_, silence())) return broken_off();
-    return Samples(std::move(out));
+  Result<Samples> receive_numbers(std::uint64_t all, Head head) {
+    std::vector<Number> out(all);
+    for (std::uint64_t got = 0;;) {
+      const std::span<Number> room = std::span(out).subspan(got, head.count);
+      if (!child_.line().receive(room_of(room), stopped_, silence())) return broken_off();
+      got += head.count;
+      if (got == all) return Samples(std::move(out));
+      const auto next = receive_head(all - got);
+      if (!next) return tl::make_unexpected(next.error());
+      if (next->type != head.type) return nonsense();
+      head = *next;
+    }
   }
 
   LimitedChild child_;

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "recording/hdf5/attributes.h"
@@ -89,9 +91,11 @@ FoundDataset describe(hid_t file, const std::string& path) {
   out.about.offset = read_number_attribute(dataset->id(), "add_offset");
   out.about.unit = read_string_attribute(dataset->id(), "units");
   if (!out.shape.is_single()) return out;
-  const Result<Samples> number = dataset->read(0, false);
-  if (number)
-    std::visit([&](const auto& values) { out.number = static_cast<double>(values[0]); }, *number);
+  // What cannot be read is told once the dataset is wanted.
+  (void)dataset->read(0, false, [&](const Samples& number) {
+    std::visit([&](const auto& values) { out.number = static_cast<double>(values[0]); }, number);
+    return false;
+  });
   return out;
 }
 
@@ -161,12 +165,31 @@ Result<std::unique_ptr<Hdf5Source>> Hdf5Source::open(const std::filesystem::path
   return out;
 }
 
-Result<Samples> Hdf5Source::read(std::size_t column) {
+Result<void> Hdf5Source::read(std::size_t column, const std::function<bool(Samples piece)>& take) {
   const QuietHdf5 quiet;
   const Hdf5Column& wanted = facts_.columns.at(column);
   const auto opened = Hdf5Dataset::open(file_.get(), wanted.dataset);
   if (!opened) return tl::make_unexpected(opened.error());
-  return opened->read(wanted.place, wanted.across);
+  return opened->read(wanted.place, wanted.across, take);
+}
+
+Result<Samples> Hdf5Source::read(std::size_t column) {
+  std::optional<Samples> out;
+  const auto done = read(column, [&](Samples piece) {
+    if (!out) {
+      out = std::move(piece);
+      return true;
+    }
+    std::visit(
+        [&](auto& values) {
+          const auto& more = std::get<std::decay_t<decltype(values)>>(piece);
+          values.insert(values.end(), more.begin(), more.end());
+        },
+        *out);
+    return true;
+  });
+  if (!done) return tl::make_unexpected(done.error());
+  return std::move(*out);
 }
 
 }  // namespace imunoise::recording

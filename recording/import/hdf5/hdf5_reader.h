@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ class Hdf5Source : public Hdf5Reader {
  public:
   static Result<std::unique_ptr<Hdf5Source>> open(const std::filesystem::path& path);
   Result<Samples> read(std::size_t column) override;
+  /// The same piece by piece, see Hdf5Dataset::read.
+  Result<void> read(std::size_t column, const std::function<bool(Samples piece)>& take);
 
  private:
   Hdf5Handle file_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "recording/import/preflight/gravity.h"
@@ -267,12 +268,21 @@ class Judge {
   // What moves one channel alone may be its own noise: it is told, and used.
   void find_motion() {
     sort_cuts();
-    std::vector<bool> broken(rows_ + 1, false);
+    std::vector<Cut> broken;  // cuts, joined where they meet
     for (const Cut& cut : cuts_) {
-      for (std::size_t i = cut.begin; i <= std::min(cut.end, rows_); ++i) broken[i] = true;
+      if (broken.empty() || cut.begin > broken.back().end) {
+        broken.push_back(cut);
+      } else {
+        broken.back().end = std::max(broken.back().end, cut.end);
+      }
     }
-    const std::vector<Motion> all = motion_in(table_.columns, out_.units, out_.rate,
-                                              [&](std::size_t row) { return broken[row]; });
+    const auto is_broken = [&](std::size_t row) {
+      const auto after =
+          std::upper_bound(broken.begin(), broken.end(), row,
+                           [](std::size_t at, const Cut& cut) { return at < cut.begin; });
+      return after != broken.begin() && row <= std::prev(after)->end;
+    };
+    const std::vector<Motion> all = motion_in(table_.columns, out_.units, out_.rate, is_broken);
     std::size_t rows = 0;
     for (const Motion& one : all) rows += one.several ? one.end - one.begin : 0;
     const bool moves = 2 * rows > rows_;
