@@ -124,7 +124,7 @@ std::string on_terminal(const std::filesystem::path& folder, std::vector<std::st
 
 TEST_F(PlainFiles, ProgressMovesOnATerminal) {
   ASSERT_EQ(run("simulate --model 'WN(sigma2=1e-6) + AR1(sigma2=1e-8, phi=0.99) + "
-                "RW(gamma2=1e-12)' --rate 100 --samples 300000 --unit rad/s --seed 2 "
+                "RW(gamma2=1e-12)' --rate 100 --samples 1500000 --unit rad/s --seed 2 "
                 "--channel gyro_x --out long.h5")
                 .status,
             0);
