@@ -93,19 +93,45 @@ Result<std::vector<recording::Replicate>> read_with_witnesses(
 }
 
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments) {
-  ProgressLine line("reading");
   if (is_recording(arguments)) {
     const recording::ImportOptions& options = arguments.import;
     if (options.time_unit || options.from || options.until || !options.exclude.empty() ||
         options.use_disturbed || options.strict)
       return fail(
           "--time-unit, --from, --until, --exclude and --strict are for files, not for folders");
+    ProgressLine line("reading");
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
                                        arguments.import, line.progress());
   }
-  auto replicates = recording::import_files(arguments.files, arguments.import, line.progress());
+  auto replicates = [&] {
+    ProgressLine line("reading");
+    return recording::import_files(arguments.files, arguments.import, line.progress());
+  }();
   if (replicates) tell_preflight(*replicates);
   return replicates;
+}
+
+Result<std::vector<std::vector<recording::Replicate>>> read_streams(
+    const InputArguments& arguments) {
+  std::vector<std::vector<recording::Replicate>> out;
+  auto first = read_input(arguments);
+  if (!first) return tl::unexpected(first.error());
+  const auto preflight = first->front().preflight;
+  out.push_back(std::move(*first));
+  const bool chosen = !arguments.import.topic.empty() || !arguments.import.channels.empty();
+  if (chosen || preflight == nullptr) return out;
+  for (const recording::OtherStream& one : preflight->others) {
+    InputArguments alone = arguments;
+    if (one.is_topic) {
+      alone.import.topic = one.name;
+    } else {
+      alone.import.channels = recording::split_names(one.name);
+    }
+    auto read = read_input(alone);
+    if (!read) return tl::unexpected(read.error());
+    out.push_back(std::move(*read));
+  }
+  return out;
 }
 
 Result<Subjects> read_subjects(const InputArguments& arguments,

@@ -13,8 +13,13 @@ bool is_recording(const InputArguments& arguments);
 /// The replicates of the user's files; series borrow from them.
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments);
 
-/// The same with every channel that was recorded beside those that are named; with `witnesses` only
-/// those of them.
+/// The same as a stream of its own for each sensor of another rate, unless the user names what to
+/// read: a camera of two topics gives rates, then accelerations.
+Result<std::vector<std::vector<recording::Replicate>>> read_streams(
+    const InputArguments& arguments);
+
+/// read_input() with every channel that was recorded beside those that are named; with `witnesses`
+/// only those of them.
 Result<std::vector<recording::Replicate>> read_with_witnesses(
     InputArguments arguments, const std::vector<std::string>& witnesses);
 

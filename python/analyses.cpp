@@ -69,7 +69,9 @@ std::string wavelet_variance(const Recording& recording, std::size_t channel,
   const study::MeasureOptions options = options_of(measuring);
   const auto measured =
       run([&](const Progress& told) { return study::measure(of, options, told); }, progress);
-  return report::to_json(study::wavelet_report(of, measured));
+  v1::WaveletVarianceReport out = study::wavelet_report(of, measured);
+  study::add_preflight(recording.replicates, out);
+  return report::to_json(out);
 }
 
 std::string fit(const Recording& recording, std::size_t channel, const Text& model,
@@ -89,7 +91,7 @@ std::string fit(const Recording& recording, std::size_t channel, const Text& mod
   options.confidence = std::exchange(options.measure.confidence, 0.95);
   v1::FitReport out =
       run([&](const Progress& told) { return study::fit_series(of, options, told); }, progress);
-  *out.mutable_preflight() = study::preflights(recording.replicates);
+  study::add_preflight(recording.replicates, out);
   return report::to_json(out);
 }
 
@@ -107,7 +109,7 @@ std::string diagnose(const Recording& recording, std::size_t channel, const Text
         return study::diagnose_series(recording.replicates, channel, options, told);
       },
       progress);
-  *out.mutable_preflight() = study::preflights(recording.replicates);
+  study::add_preflight(recording.replicates, out);
   return report::to_json(out);
 }
 
@@ -127,8 +129,10 @@ std::string array(const Recording& recording, const std::vector<std::size_t>& ch
                                     {{"unit-gain", WeightRule::kUnitGain},
                                      {"nonnegative", WeightRule::kNonnegative},
                                      {"unit-length", WeightRule::kUnitLength}});
-  return report::to_json(run(
-      [&](const Progress& told) { return study::array_series(sensors, options, told); }, progress));
+  v1::ArrayReport out = run(
+      [&](const Progress& told) { return study::array_series(sensors, options, told); }, progress);
+  study::add_preflight(recording.replicates, out);
+  return report::to_json(out);
 }
 
 std::string study(const Recording& recording, const std::string& study, const std::string& request,

@@ -13,6 +13,7 @@
 #include "python/job.h"
 #include "python/recording.h"
 #include "recording/import/import.h"
+#include "recording/import/pieces.h"
 #include "recording/import/table/options.h"
 #include "recording/store/disk/file_system.h"
 #include "recording/store/reading/replicates.h"
@@ -49,7 +50,8 @@ Recording read(const std::vector<std::filesystem::path>& files, const Words& cha
   if (split_into == 0) throw Failure("split_into: expected at least 1");
   if (files.empty()) throw Failure("there are no files to read");
   const auto import = [&](const Progress& told) -> Result<std::vector<recording::Replicate>> {
-    if (files.size() == 1 && std::filesystem::is_directory(files.front()))
+    if (files.size() == 1 && std::filesystem::is_directory(files.front()) &&
+        recording::pieces_of(files.front()).empty())
       return recording::import_recording(recording::posix_file_system(), files.front(), options,
                                          told);
     return recording::import_files(files, options, told);

@@ -16,11 +16,11 @@ namespace {
 int calibrate_plain_files(const CalibrateArguments& arguments,
                           const study::CalibrateOptions& options) {
   const Interrupt interrupt;
-  const auto replicates = read_input(arguments.input);
-  if (!replicates) return print_error(replicates.error());
+  const auto streams = read_streams(arguments.input);
+  if (!streams) return print_error(streams.error());
   const auto done = [&] {
     ProgressLine line("calibrating");
-    return study::calibrate_files(*replicates, options, line.progress(interrupt.token()));
+    return study::calibrate_files(*streams, options, line.progress(interrupt.token()));
   }();
   return done ? show(*done, arguments.show) : print_error(done.error());
 }

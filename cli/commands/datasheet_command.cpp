@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/show.h"
+#include "study/analysis/preflights.h"
 #include "study/deviation/compare.h"
 #include "study/figure/svg.h"
 #include "study/report/documents/datasheet_document.h"
@@ -25,6 +26,7 @@ Result<v1::DatasheetReports> compare(const DatasheetArguments& arguments) {
       if (!*printed || (*printed)->quantity != series.replicates.front().quantity()) continue;
       auto done = study::compare_with_datasheet(series, **printed, arguments.confidence);
       if (!done) return tl::unexpected(done.error());
+      study::add_preflight(*replicates, *done->mutable_measured());
       *out.add_channels() = std::move(*done);
     }
   }

@@ -33,6 +33,21 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
   return out;
 }
 
+Result<v1::DiagnosisReports> reports_of(const std::vector<recording::Replicate>& replicates,
+                                        const std::vector<std::size_t>& channels,
+                                        const DiagnoseArguments& arguments) {
+  v1::DiagnosisReports out;
+  ProgressLine line("diagnosing");
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const auto done = study::diagnose_series(
+        replicates, channels[i], arguments.diagnose,
+        line.part(i, channels.size(), replicates.front().channels[channels[i]].name));
+    if (!done) return tl::unexpected(done.error());
+    *out.add_channels() = *done;
+  }
+  return out;
+}
+
 Result<void> write_pictures(const v1::DiagnosisReports& reports,
                             const std::filesystem::path& path) {
   for (const v1::DiagnosisReport& one : reports.channels()) {
@@ -53,19 +68,13 @@ int run(const DiagnoseArguments& arguments) {
   if (!replicates) return print_error(replicates.error());
   const auto channels = subjects(replicates->front(), arguments.channels);
   if (!channels) return print_error(channels.error());
-  v1::DiagnosisReports reports;
-  for (const std::size_t channel : *channels) {
-    ProgressLine line(replicates->front().channels[channel].name);
-    const auto done =
-        study::diagnose_series(*replicates, channel, arguments.diagnose, line.progress());
-    if (!done) return print_error(done.error());
-    v1::DiagnosisReport& report = *reports.add_channels();
-    report = *done;
-    *report.mutable_preflight() = study::preflights(*replicates);
-  }
+  auto done = reports_of(*replicates, *channels, arguments);
+  if (!done) return print_error(done.error());
+  v1::DiagnosisReports& reports = *done;
+  study::add_preflight(*replicates, reports);
   if (arguments.svg) {
-    if (auto done = write_pictures(reports, *arguments.svg); !done)
-      return print_error(done.error());
+    if (auto written = write_pictures(reports, *arguments.svg); !written)
+      return print_error(written.error());
   }
   return show(reports, arguments.show);
 }

@@ -1,12 +1,17 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <future>
+#include <iterator>
+#include <stop_token>
 
 #include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
+#include "recording/import/pieces.h"
 #include "recording/import/table/file.h"
 #include "study/calibration/calibrate.h"
 #include "study/calibration/calibration_file.h"
@@ -34,13 +39,15 @@ bool is_json(const std::filesystem::path& path) {
   return at != std::string_view::npos && text[at] == '{';
 }
 
-Result<std::string> hash_of(const std::vector<std::filesystem::path>& paths) {
+// Ends early, without a hash, when it is told to stop.
+Result<std::string> hash_of(const std::vector<std::filesystem::path>& paths,
+                            const std::stop_token& stop = {}) {
   study::Sha256 hash;
   std::vector<char> block(std::size_t{1} << 20U);
   for (const std::filesystem::path& path : paths) {
     const auto file = recording::File::open(path);
     if (!file) return tl::unexpected(file.error());
-    for (std::uint64_t at = 0; at < file->size();) {
+    for (std::uint64_t at = 0; at < file->size() && !stop.stop_requested();) {
       const auto count = file->read_at(at, block);
       if (!count) return tl::unexpected(count.error());
       if (*count == 0) break;
@@ -49,6 +56,26 @@ Result<std::string> hash_of(const std::vector<std::filesystem::path>& paths) {
     }
   }
   return hash.hex();
+}
+
+// A bag in a folder is its pieces.
+std::vector<std::filesystem::path> with_pieces(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::path> out;
+  for (const std::filesystem::path& one : files) {
+    const auto pieces = recording::pieces_of(one);
+    out.insert(out.end(), pieces.begin(), pieces.end());
+    if (pieces.empty()) out.push_back(one);
+  }
+  return out;
+}
+
+std::string names_of(const std::vector<std::filesystem::path>& files) {
+  std::string out;
+  for (const std::filesystem::path& one : files) {
+    const auto name = one.has_filename() ? one.filename() : one.parent_path().filename();
+    out += (out.empty() ? "" : ", ") + name.string();
+  }
+  return out;
 }
 
 study::CalibrateOptions calibrate_options(const ExportArguments& arguments) {
@@ -63,17 +90,24 @@ study::CalibrateOptions calibrate_options(const ExportArguments& arguments) {
 Result<Fits> fits_of_files(const ExportArguments& arguments) {
   const auto& files = arguments.input.files;
   const Interrupt interrupt;
-  const auto replicates = read_input(arguments.input);
-  if (!replicates) return tl::unexpected(replicates.error());
-  ProgressLine line("fitting");
-  const auto done = study::calibrate_files(*replicates, calibrate_options(arguments),
-                                           line.progress(interrupt.token()));
-  if (!done) return tl::unexpected(done.error());
-  auto hash = hash_of(files);
+  // A long file is hashed while it is read and fitted.
+  std::stop_source enough;
+  auto hashing = std::async(std::launch::async, hash_of, with_pieces(files), enough.get_token());
+  const auto give_up = [&](const Error& error) {
+    enough.request_stop();
+    return tl::unexpected(error);
+  };
+  const auto streams = read_streams(arguments.input);
+  if (!streams) return give_up(streams.error());
+  const auto done = [&] {
+    ProgressLine line("fitting");
+    return study::calibrate_files(*streams, calibrate_options(arguments),
+                                  line.progress(interrupt.token()));
+  }();
+  if (!done) return give_up(done.error());
+  auto hash = hashing.get();
   if (!hash) return tl::unexpected(hash.error());
-  std::string names;
-  for (const auto& one : files) names += (names.empty() ? "" : ", ") + one.filename().string();
-  return Fits{study::fits_of(*done), {names, *hash}};
+  return Fits{study::fits_of(*done), {names_of(files), *hash}};
 }
 
 Result<Fits> fits_of_recording(const ExportArguments& arguments) {
@@ -87,26 +121,35 @@ Result<Fits> fits_of_recording(const ExportArguments& arguments) {
     return Fits{study::fits_of(**known), {(folder / study::kCalibrationName).string(), *hash}};
   }
   const Interrupt interrupt;
-  ProgressLine line("fitting");
-  const auto done = study::calibrate(files, folder, calibrate_options(arguments),
-                                     line.progress(interrupt.token()));
+  const auto done = [&] {
+    ProgressLine line("fitting");
+    return study::calibrate(files, folder, calibrate_options(arguments),
+                            line.progress(interrupt.token()));
+  }();
   if (!done) return tl::unexpected(done.error());
   return Fits{study::fits_of(*done), {folder.string(), done->fingerprint()}};
 }
 
-Result<Fits> fits_of_json(const std::filesystem::path& path) {
-  const auto text = recording::posix_file_system().read(path);
-  if (!text) return tl::unexpected(text.error());
-  auto fits = study::parse_fits(*text);
-  if (!fits) return fail(path.string() + ": " + fits.error().message);
-  return Fits{std::move(*fits), {path.filename().string(), study::sha256(*text)}};
+// Several files: gyroscope and accelerometer were fitted one after the other.
+Result<Fits> fits_of_json(const std::vector<std::filesystem::path>& paths) {
+  Fits out;
+  std::string all;
+  for (const std::filesystem::path& path : paths) {
+    const auto text = recording::posix_file_system().read(path);
+    if (!text) return tl::unexpected(text.error());
+    auto fits = study::parse_fits(*text);
+    if (!fits) return fail(path.string() + ": " + fits.error().message);
+    std::move(fits->begin(), fits->end(), std::back_inserter(out.fits));
+    all += *text;
+  }
+  out.source = {names_of(paths), study::sha256(all)};
+  return out;
 }
 
 Result<Fits> read_fits(const ExportArguments& arguments) {
   const auto& files = arguments.input.files;
-  if (files.size() == 1 && std::filesystem::is_directory(files.front()))
-    return fits_of_recording(arguments);
-  if (files.size() == 1 && is_json(files.front())) return fits_of_json(files.front());
+  if (is_recording(arguments.input)) return fits_of_recording(arguments);
+  if (std::all_of(files.begin(), files.end(), is_json)) return fits_of_json(files);
   return fits_of_files(arguments);
 }
 

@@ -2,6 +2,7 @@
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "study/analysis/preflights.h"
 
 namespace imunoise::cli {
 
@@ -14,11 +15,14 @@ int run(const FaultsArguments& arguments) {
     if (!read) return print_error(read.error());
     good = std::move(*read);
   }
-  ProgressLine line("faults");
-  const auto done = study::fault_series(
-      all_series(*replicates), good.empty() ? std::vector<study::Series>{} : all_series(good),
-      arguments.faults, line.progress());
+  auto done = [&] {
+    ProgressLine line("searching");
+    return study::fault_series(all_series(*replicates),
+                               good.empty() ? std::vector<study::Series>{} : all_series(good),
+                               arguments.faults, line.progress());
+  }();
   if (!done) return print_error(done.error());
+  study::add_preflight(*replicates, *done);
   return show(*done, arguments.show);
 }
 

@@ -26,6 +26,19 @@ Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem
   return {};
 }
 
+Result<v1::FitReports> reports_of(const Subjects& subjects, const FitArguments& arguments) {
+  v1::FitReports out;
+  ProgressLine line("fitting");
+  for (std::size_t i = 0; i < subjects.series.size(); ++i) {
+    const study::Series& series = subjects.series[i];
+    const auto done = study::fit_series(series, arguments.fit,
+                                        line.part(i, subjects.series.size(), series.channel));
+    if (!done) return tl::unexpected(done.error());
+    *out.add_channels() = *done;
+  }
+  return out;
+}
+
 int status_of(const v1::FitReports& reports, const FitArguments& arguments) {
   constexpr int kMisfit = 3;
   const bool misfit =
@@ -39,31 +52,25 @@ int status_of(const v1::FitReports& reports, const FitArguments& arguments) {
 int run(const FitArguments& arguments) {
   const auto subjects = read_subjects(arguments.input, named_model(arguments.fit.model));
   if (!subjects) return print_error(subjects.error());
-  v1::FitReports reports;
-  for (const study::Series& series : subjects->series) {
-    ProgressLine line(series.channel);
-    const auto fitted = study::fit_series(series, arguments.fit, line.progress());
-    if (!fitted) return print_error(fitted.error());
-    v1::FitReport& report = *reports.add_channels();
-    report = *fitted;
-    *report.mutable_preflight() = study::preflights(subjects->replicates);
-  }
+  auto reports = reports_of(*subjects, arguments);
+  if (!reports) return print_error(reports.error());
+  study::add_preflight(subjects->replicates, *reports);
   if (arguments.report) {
-    if (auto done = write_report(*arguments.report, report::html_page(reports)); !done)
+    if (auto done = write_report(*arguments.report, report::html_page(*reports)); !done)
       return print_error(done.error());
   }
   if (arguments.svg) {
-    if (auto done = write_pictures(reports, *arguments.svg); !done)
+    if (auto done = write_pictures(*reports, *arguments.svg); !done)
       return print_error(done.error());
   }
   if (arguments.json) {
-    const bool single = reports.channels_size() == 1;
-    print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));
-    return status_of(reports, arguments);
+    const bool single = reports->channels_size() == 1;
+    print(single ? report::to_json(reports->channels(0)) : report::to_json(*reports));
+    return status_of(*reports, arguments);
   }
-  for (const v1::FitReport& one : reports.channels())
+  for (const v1::FitReport& one : reports->channels())
     print(report::fit_text(one, terminal_style()));
-  return status_of(reports, arguments);
+  return status_of(*reports, arguments);
 }
 
 }  // namespace imunoise::cli

@@ -5,6 +5,7 @@
 #include "cli/progress_line.h"
 #include "cli/show.h"
 #include "study/analysis/arrays/regressors.h"
+#include "study/analysis/preflights.h"
 
 namespace imunoise::cli {
 
@@ -18,9 +19,12 @@ int run(const MixedArguments& arguments) {
   }
   const auto replicates = read_together(input);
   if (!replicates) return print_error(replicates.error());
-  ProgressLine line("mixed");
-  const auto done = study::mixed_series(all_series(*replicates), arguments.mixed, line.progress());
+  auto done = [&] {
+    ProgressLine line("fitting");
+    return study::mixed_series(all_series(*replicates), arguments.mixed, line.progress());
+  }();
   if (!done) return print_error(done.error());
+  study::add_preflight(*replicates, *done);
   return show(*done, arguments.show);
 }
 

@@ -68,6 +68,19 @@ Result<Made> made_from(const SimulateArguments& arguments) {
   return Made{text, std::move(*simulation), std::move(*witnesses)};
 }
 
+Result<void> write_replicates(const Made& made, const SimulateArguments& arguments,
+                              v1::SimulationReport& report) {
+  ProgressLine line("simulating");
+  const Progress progress = line.progress();
+  for (std::uint32_t k = 0; k < arguments.replicates; ++k) {
+    const auto path = write_replicate(made.simulation, k, arguments, made.witnesses, made.model);
+    if (!path) return tl::unexpected(path.error());
+    report.add_files(path->string());
+    progress.report(static_cast<double>(k + 1) / arguments.replicates);
+  }
+  return {};
+}
+
 }  // namespace
 
 int run(const SimulateArguments& arguments) {
@@ -79,14 +92,8 @@ int run(const SimulateArguments& arguments) {
   report.set_samples(static_cast<std::uint32_t>(arguments.samples));
   report.set_seed(arguments.seed);
   report.set_unit(arguments.unit.symbol);
-  ProgressLine line("simulating");
-  const Progress progress = line.progress();
-  for (std::uint32_t k = 0; k < arguments.replicates; ++k) {
-    const auto path = write_replicate(made->simulation, k, arguments, made->witnesses, made->model);
-    if (!path) return print_error(path.error());
-    report.add_files(path->string());
-    progress.report(static_cast<double>(k + 1) / arguments.replicates);
-  }
+  if (auto done = write_replicates(*made, arguments, report); !done)
+    return print_error(done.error());
   if (arguments.json) {
     print(report::to_json(report));
     return 0;

@@ -31,9 +31,11 @@ int run(const StudyArguments& arguments) {
     const auto read_them = [&](const v1::StudyInput& input, const std::string& channel) {
       return read_study_input(input, channel, witnesses);
     };
-    ProgressLine line("study");
-    auto done = study::apply(study, arguments.request, read_them, line.progress(),
-                             study::CachePlace{study::user_cache_folder()});
+    auto done = [&] {
+      ProgressLine line("study");
+      return study::apply(study, arguments.request, read_them, line.progress(),
+                          study::CachePlace{study::user_cache_folder()});
+    }();
     if (!done) return print_error(done.error());
     if (!opens && changed_since(study, arguments.file))
       return print_error(

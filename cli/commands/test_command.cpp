@@ -2,20 +2,34 @@
 #include "cli/input.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "study/analysis/preflights.h"
 
 namespace imunoise::cli {
+namespace {
+
+Result<v1::StationarityReports> reports_of(const Subjects& subjects,
+                                           const TestArguments& arguments) {
+  v1::StationarityReports out;
+  ProgressLine line("testing");
+  for (std::size_t i = 0; i < subjects.series.size(); ++i) {
+    const study::Series& series = subjects.series[i];
+    const auto done = study::test_series(series, arguments.test,
+                                         line.part(i, subjects.series.size(), series.channel));
+    if (!done) return tl::unexpected(done.error());
+    *out.add_channels() = *done;
+  }
+  return out;
+}
+
+}  // namespace
 
 int run(const TestArguments& arguments) {
   const auto subjects = read_subjects(arguments.input, named_model(arguments.test.model));
   if (!subjects) return print_error(subjects.error());
-  v1::StationarityReports reports;
-  for (const study::Series& series : subjects->series) {
-    ProgressLine line(series.channel);
-    const auto done = study::test_series(series, arguments.test, line.progress());
-    if (!done) return print_error(done.error());
-    *reports.add_channels() = *done;
-  }
-  return show(reports, arguments.show);
+  auto reports = reports_of(*subjects, arguments);
+  if (!reports) return print_error(reports.error());
+  study::add_preflight(subjects->replicates, *reports);
+  return show(*reports, arguments.show);
 }
 
 }  // namespace imunoise::cli

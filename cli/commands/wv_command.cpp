@@ -3,6 +3,7 @@
 #include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
+#include "study/analysis/preflights.h"
 #include "study/deviation/deviations.h"
 #include "study/figure/svg.h"
 #include "study/report/figures/deviation_figure.h"
@@ -11,20 +12,46 @@
 namespace imunoise::cli {
 namespace {
 
+Result<v1::DeviationReports> deviations_of(const std::vector<study::Series>& all,
+                                           const WvArguments& arguments) {
+  v1::DeviationReports out;
+  ProgressLine line("measuring");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    line.part(i, all.size(), all[i].channel).report(0.0);
+    const auto done = study::deviations(all[i], *arguments.deviation, arguments.measure.confidence);
+    if (!done) return tl::unexpected(done.error());
+    *out.add_channels() = *done;
+  }
+  return out;
+}
+
+Result<v1::WaveletVarianceReports> variances_of(const std::vector<study::Series>& all,
+                                                const WvArguments& arguments) {
+  v1::WaveletVarianceReports out;
+  ProgressLine line("measuring");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto measured =
+        study::measure(all[i], arguments.measure, line.part(i, all.size(), all[i].channel));
+    if (!measured) return tl::unexpected(measured.error());
+    *out.add_channels() = study::wavelet_report(all[i], *measured);
+  }
+  return out;
+}
+
 int show_deviations(const std::vector<recording::Replicate>& replicates,
                     const WvArguments& arguments) {
-  v1::DeviationReports reports;
-  const std::vector<study::Series> all = all_series(replicates);
-  for (const study::Series& series : all) {
-    const auto done = study::deviations(series, *arguments.deviation, arguments.measure.confidence);
-    if (!done) return print_error(done.error());
-    *reports.add_channels() = *done;
-    if (!arguments.svg) continue;
-    const auto out = all.size() > 1 ? with_word(*arguments.svg, series.channel) : *arguments.svg;
-    if (auto written = write_file(out, figure::svg(report::deviation_figure(*done))); !written)
+  auto done = deviations_of(all_series(replicates), arguments);
+  if (!done) return print_error(done.error());
+  v1::DeviationReports& reports = *done;
+  for (int i = 0; i < reports.channels_size() && arguments.svg; ++i) {
+    const v1::DeviationReport& one = reports.channels(i);
+    const auto out =
+        reports.channels_size() > 1 ? with_word(*arguments.svg, one.channel()) : *arguments.svg;
+    if (auto written = write_file(out, figure::svg(report::deviation_figure(one))); !written)
       return print_error(written.error());
     tell("wrote " + out.string() + "\n");
   }
+  study::add_preflight(replicates, reports);
   return show(reports, arguments.show);
 }
 
@@ -34,13 +61,10 @@ int run(const WvArguments& arguments) {
   const auto replicates = read_input(arguments.input);
   if (!replicates) return print_error(replicates.error());
   if (arguments.deviation) return show_deviations(*replicates, arguments);
-  v1::WaveletVarianceReports reports;
-  for (const study::Series& series : all_series(*replicates)) {
-    ProgressLine line(series.channel);
-    const auto measured = study::measure(series, arguments.measure, line.progress());
-    if (!measured) return print_error(measured.error());
-    *reports.add_channels() = study::wavelet_report(series, *measured);
-  }
+  auto done = variances_of(all_series(*replicates), arguments);
+  if (!done) return print_error(done.error());
+  v1::WaveletVarianceReports& reports = *done;
+  study::add_preflight(*replicates, reports);
   if (arguments.show.json) {
     const bool single = reports.channels_size() == 1;
     print(single ? report::to_json(reports.channels(0)) : report::to_json(reports));

@@ -17,7 +17,7 @@ Examples:
   imunoise calibrate imu.csv --json > imu.json
   imunoise export imu.json --to openvins --conservative --horizon 0.1..10
 
-FILES are recordings, which are fitted first; or one JSON file of imunoise calibrate, fit or array; or the
+FILES are recordings, which are fitted first; or JSON files of imunoise calibrate or fit, or one of array; or the
 folder of one recording, whose calibration.json is used if there is one.
 
 Each file states its source with its SHA-256, the model of each axis, the formula and the unit of each value, and what

@@ -38,6 +38,20 @@ std::string unknown(const char* what, const std::string& word,
   return fmt::format("unknown {} '{}'{}{}", what, word, meant.empty() ? "" : "; ", meant);
 }
 
+// "--to: kalibrr not in {kalibr,openvins}" with what was meant.
+std::string with_nearest_choice(std::string text) {
+  constexpr std::string_view between = " not in {";
+  const std::size_t at = text.find(between);
+  const std::size_t begin = text.find(": ");
+  if (at == std::string::npos || begin > at || !text.ends_with('}')) return text;
+  std::string_view list = std::string_view(text).substr(at + between.size());
+  list.remove_suffix(1);
+  const std::vector<std::string> choices = CLI::detail::split(std::string(list), ',');
+  const std::string meant = did_you_mean(text.substr(begin + 2, at - begin - 2), choices);
+  if (!meant.empty()) text += "; " + meant;
+  return text;
+}
+
 std::string sentence(const CLI::App& program, const CLI::Error& error) {
   const CLI::App& at = *recognised(&program);
   const bool wants_command = at.get_require_subcommand_min() > 0;
@@ -46,7 +60,7 @@ std::string sentence(const CLI::App& program, const CLI::Error& error) {
     if (option) return unknown("option", word.substr(0, word.find('=')), options_of(at, program));
     if (wants_command) return unknown("command", word, commands_of(at));
   }
-  return error.what();
+  return with_nearest_choice(error.what());
 }
 
 }  // namespace

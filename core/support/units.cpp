@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace imunoise {
 namespace {
@@ -72,10 +75,32 @@ std::string normalise(std::string_view text) {
   return out;
 }
 
+// "0.0076 deg/s", "1/131 deg/s"
+std::optional<Unit> parse_multiple(std::string_view text) {
+  const char* const end = text.data() + text.size();
+  double factor = 0.0;
+  auto [at, error] = std::from_chars(text.data(), end, factor);
+  if (error != std::errc()) return std::nullopt;
+  if (at != end && *at == '/') {
+    double divisor = 0.0;
+    const auto [stop, wrong] = std::from_chars(at + 1, end, divisor);
+    if (wrong != std::errc()) return std::nullopt;
+    factor /= divisor;
+    at = stop;
+  }
+  if (at == end || *at != ' ' || !(factor > 0.0) || !std::isfinite(factor)) return std::nullopt;
+  auto unit = parse_unit(std::string_view(at + 1, static_cast<std::size_t>(end - at - 1)));
+  if (!unit || unit->si_offset != 0.0) return std::nullopt;
+  unit->to_si *= factor;
+  unit->symbol = std::string(text);
+  return *unit;
+}
+
 }  // namespace
 
 Result<Unit> parse_unit(std::string_view text) {
   const std::string wanted = normalise(text);
+  if (const auto multiple = parse_multiple(text)) return *multiple;
   for (const NamedUnit& unit : kUnits) {
     if (unit.symbol == wanted) {
       return Unit{std::string(unit.symbol), unit.quantity, unit.to_si, unit.si_offset};

@@ -37,8 +37,8 @@ struct Unit {
   double si_offset = 0.0;  ///< SI; 273.15 K for degC, else 0. Invisible to the wavelet variance.
 };
 
-/// The unit that `text` names ("deg/s", "°/h", "mg", "m/s^2", ...). Error: unknown unit, with the
-/// known ones listed.
+/// The unit that `text` names ("deg/s", "°/h", "mg", "m/s^2", ...), also as a multiple of one, as
+/// counts have it ("0.0076 deg/s"). Error: unknown unit, with the known ones listed.
 Result<Unit> parse_unit(std::string_view text);
 
 /// Symbol of the SI unit of a quantity, e.g. "rad/s"; "1" when the quantity is unknown.

@@ -15,6 +15,9 @@ enum class DeviationKind {
   kHadamard,  ///< third differences: ⅙⟨(ȳ₃ - 2ȳ₂ + ȳ₁)²⟩, blind to a ramp
 };
 
+/// Allan deviation of the floor of flicker noise over its coefficient B: √(2 ln2/π).
+inline constexpr double kFlickerFloor = 0.664;
+
 /// Averaging factors that tables print: 1, 2, 4, 10, 20, 40, 100, ... samples, as long as the
 /// deviation has at least one value.
 std::vector<std::size_t> customary_factors(DeviationKind kind, std::size_t samples);

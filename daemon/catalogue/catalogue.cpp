@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -34,6 +35,85 @@ v1::HistoryPoint point_of(const Row& row) {
   if (std::holds_alternative<double>(row[12])) out.set_lower(real(row[12]));
   if (std::holds_alternative<double>(row[13])) out.set_upper(real(row[13]));
   out.set_model(text(row[14]));
+  return out;
+}
+
+// Columns title, symbol, unit, datasheet_unit, to_datasheet and value of a row, from `at` on.
+v1::Coefficient coefficient_of(const Row& row, std::size_t at) {
+  v1::Coefficient out;
+  out.set_title(text(row[at]));
+  out.set_symbol(text(row[at + 1]));
+  out.set_unit(text(row[at + 2]));
+  out.set_value(real(row[at + 5]));
+  if (text(row[at + 3]).empty()) return out;
+  out.set_datasheet_unit(text(row[at + 3]));
+  out.set_datasheet_value(out.value() * real(row[at + 4]));
+  return out;
+}
+
+// Columns lower_end and upper_end.
+void add_interval(const Row& row, std::size_t at, double to_datasheet, v1::Coefficient& to) {
+  const bool sheet = !to.datasheet_unit().empty();
+  if (std::holds_alternative<double>(row[at])) {
+    to.set_lower(real(row[at]));
+    if (sheet) to.set_datasheet_lower(to.lower() * to_datasheet);
+  }
+  if (std::holds_alternative<double>(row[at + 1])) {
+    to.set_upper(real(row[at + 1]));
+    if (sheet) to.set_datasheet_upper(to.upper() * to_datasheet);
+  }
+}
+
+using LargestNoise = std::map<Key, std::vector<v1::Coefficient>>;
+
+Result<LargestNoise> largest_noise(Database& database) {
+  LargestNoise out;
+  for (const char* const symbol : {"N", "B", "K"}) {  // in the order in which people know them
+    const auto rows = database.query(
+        "select bench, folder, title, parameter, unit, datasheet_unit, to_datasheet, value "
+        "from parameters where parameter = :symbol order by bench, folder, title",
+        {std::string(symbol)});
+    if (!rows) return tl::unexpected(rows.error());
+    for (const Row& row : *rows) {
+      std::vector<v1::Coefficient>& all = out[{text(row[0]), text(row[1])}];
+      v1::Coefficient one = coefficient_of(row, 2);
+      const auto same = std::find_if(all.begin(), all.end(), [&](const v1::Coefficient& other) {
+        return other.symbol() == one.symbol() && other.unit() == one.unit();
+      });
+      if (same == all.end()) {
+        all.push_back(std::move(one));
+      } else if (one.value() > same->value()) {
+        *same = std::move(one);
+      }
+    }
+  }
+  return out;
+}
+
+using ChannelsNoise = std::map<Key, std::vector<v1::ChannelNoise>>;
+
+Result<ChannelsNoise> noise_of_channels(Database& database) {
+  const auto rows = database.query(
+      "select bench, folder, device, stream, channel, model, title, parameter, unit, "
+      "datasheet_unit, to_datasheet, value, lower_end, upper_end from parameters "
+      "order by bench, folder, device, stream, channel, term, parameter");
+  if (!rows) return tl::unexpected(rows.error());
+  ChannelsNoise out;
+  const Row* before = nullptr;
+  for (const Row& row : *rows) {
+    std::vector<v1::ChannelNoise>& all = out[{text(row[0]), text(row[1])}];
+    if (before == nullptr || !std::equal(row.begin(), row.begin() + 5, before->begin())) {
+      v1::ChannelNoise& one = all.emplace_back();
+      one.set_device(text(row[2]));
+      one.set_stream(text(row[3]));
+      one.set_channel(text(row[4]));
+      one.set_model(text(row[5]));
+    }
+    before = &row;
+    v1::Coefficient& to = *all.back().add_coefficients();
+    to = coefficient_of(row, 6);
+    add_interval(row, 12, real(row[10]), to);
+  }
   return out;
 }
 
@@ -125,6 +205,8 @@ Result<v1::RecordingList> Catalogue::recordings() {
   if (!devices) return tl::unexpected(devices.error());
   std::map<Key, std::vector<v1::CataloguedDevice>> of;
   for (const Row& row : *devices) of[{text(row[4]), text(row[5])}].push_back(device_of(row));
+  auto noise = largest_noise(*database_);
+  if (!noise) return tl::unexpected(noise.error());
   const auto rows = database_->query(
       "select r.bench, r.folder, r.campaign, r.started_ns, r.closed, r.replicates, r.samples, "
       "r.bytes, r.trouble, c.folder from recordings r left join calibrations c "
@@ -145,6 +227,8 @@ Result<v1::RecordingList> Catalogue::recordings() {
     one.set_calibrated(std::holds_alternative<std::string>(row[9]));
     for (const v1::CataloguedDevice& device : of[{one.bench(), one.folder()}])
       *one.add_devices() = device;
+    const auto& largest = (*noise)[{one.bench(), one.folder()}];
+    *one.mutable_noise() = {largest.begin(), largest.end()};
   }
   return out;
 }
@@ -156,6 +240,8 @@ Result<v1::CalibrationList> Catalogue::calibrations() {
       "join recordings r on r.bench = c.bench and r.folder = c.folder "
       "order by r.started_ns, c.bench, c.folder");
   if (!rows) return tl::unexpected(rows.error());
+  auto noise = noise_of_channels(*database_);
+  if (!noise) return tl::unexpected(noise.error());
   v1::CalibrationList out;
   for (const Row& row : *rows) {
     v1::CataloguedCalibration& one = *out.add_calibrations();
@@ -170,6 +256,8 @@ Result<v1::CalibrationList> Catalogue::calibrations() {
     one.set_summary(text(row[10]));
     one.set_trouble(text(row[11]));
     one.set_outdated(one.trouble().empty() && text(row[8]) != text(row[9]));
+    const auto& of = (*noise)[{one.bench(), one.folder()}];
+    *one.mutable_noise() = {of.begin(), of.end()};
   }
   return out;
 }

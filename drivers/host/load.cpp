@@ -8,6 +8,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/support/nearest_word.h"
 #include "drivers/host/check.h"
 #include "drivers/host/services.h"
 
@@ -114,8 +115,10 @@ Drivers load_drivers(std::vector<fs::path> folders) {
 
 Result<const Driver*> Drivers::find(std::string_view name) const {
   std::string known;
+  std::vector<std::string> names;
   for (const Driver& driver : found) {
     if (driver.info.name == name) return &driver;
+    names.push_back(driver.info.name);
     known += (known.empty() ? "" : ", ") + driver.info.name;
   }
   for (const RefusedPlugin& plugin : refused) {
@@ -124,8 +127,9 @@ Result<const Driver*> Drivers::find(std::string_view name) const {
                               plugin.reason));
     }
   }
-  return fail(fmt::format("no driver '{}'; there are: {} (see imunoise drivers)", name,
-                          known.empty() ? "none" : known));
+  const std::string meant = did_you_mean(name, names);
+  return fail(fmt::format("no driver '{}'; there are: {} (see imunoise drivers){}", name,
+                          known.empty() ? "none" : known, meant.empty() ? "" : "; " + meant));
 }
 
 }  // namespace imunoise::drivers

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/support/nearest_word.h"
 #include "core/support/utf8.h"
 
 namespace imunoise::drivers {
@@ -116,7 +117,11 @@ Result<OptionValues> OptionValues::make(const std::vector<Option>& options,
   for (const OptionText& choice : chosen) {
     const auto same = [&](const Option& option) { return option.name == choice.name; };
     if (std::none_of(options.begin(), options.end(), same)) {
-      return fail(fmt::format("no option {}; it has: {}", choice.name, names(options)));
+      std::vector<std::string> known;
+      for (const Option& one : options) known.push_back(one.name);
+      const std::string meant = did_you_mean(choice.name, known);
+      return fail(fmt::format("no option {}; it has: {}{}", choice.name, names(options),
+                              meant.empty() ? "" : "; " + meant));
     }
   }
   OptionValues out;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/support/distributions.h"
+#include "core/wavelet/deviation.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
@@ -95,6 +96,59 @@ void add_replicates(const Fit& fit, const Series& series,
   }
 }
 
+void add_flicker(const v1::FitReport& report, v1::BiasInstability& to) {
+  to.set_kind("flicker");
+  for (const v1::Term& term : report.terms()) {
+    for (const v1::Coefficient& one : term.coefficients())
+      if (one.symbol() == "B") *to.mutable_value() = one;
+  }
+}
+
+void add_minimum(const v1::NoiseBudget& budget, Quantity measures, v1::BiasInstability& to) {
+  to.set_kind("minimum");
+  int lowest = -1;
+  int last = -1;
+  for (int i = 0; i < std::min(budget.measured_size(), budget.scales_s_size()); ++i) {
+    if (!(budget.measured(i) > 0.0)) continue;
+    last = i;
+    if (lowest < 0 || budget.measured(i) < budget.measured(lowest)) lowest = i;
+  }
+  if (lowest < 0) return;
+  // The Allan variance is twice the wavelet variance, at half its averaging time.
+  const double deviation = std::sqrt(2.0 * budget.measured(lowest));
+  *to.mutable_value() =
+      coefficient_message(Coefficient::kBiasInstability, deviation / kFlickerFloor, "", measures);
+  v1::Coefficient& time = *to.mutable_time();
+  time.set_symbol("τ");
+  time.set_title("averaging time of the minimum");
+  time.set_value(0.5 * budget.scales_s(lowest));
+  time.set_unit("s");
+  to.set_at_edge(lowest == last);
+}
+
+void add_markov(const v1::FitReport& report, v1::BiasInstability& to) {
+  to.set_kind("markov");
+  for (const v1::Term& term : report.terms()) {
+    const v1::Coefficient* sigma = nullptr;
+    const v1::Coefficient* time = nullptr;
+    for (const v1::Coefficient& one : term.coefficients()) {
+      if (one.symbol() == "σ") sigma = &one;
+      if (one.symbol() == "T") time = &one;
+    }
+    if (sigma == nullptr || time == nullptr || !(time->value() > to.time().value())) continue;
+    *to.mutable_value() = *sigma;
+    *to.mutable_time() = *time;
+  }
+}
+
+// The three quantities that are called bias instability; IEEE Std 952 defines the second.
+void add_bias_instabilities(Quantity measures, v1::FitReport& report) {
+  if (report.terms().empty()) return;
+  add_flicker(report, *report.add_bias_instability());
+  add_minimum(report.budget(), measures, *report.add_bias_instability());
+  add_markov(report, *report.add_bias_instability());
+}
+
 std::string value_and_unit(const v1::Coefficient& c) {
   const bool datasheet = !c.datasheet_unit().empty();
   return fmt::format("{:.3g} {}", datasheet ? c.datasheet_value() : c.value(),
@@ -152,6 +206,7 @@ v1::FitReport fit_report(const Fit& fit, const Series& series,
   *out.mutable_budget() =
       noise_budget(fit.estimate.model, measured, fit.covariances, fit.tested, fit.confidence);
   add_replicates(fit, series, measured, out);
+  add_bias_instabilities(total.quantity, out);
   out.set_summary(summary_of(out));
   if (total.quantity == Quantity::kUnknown) {
     out.add_notes(

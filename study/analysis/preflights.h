@@ -14,4 +14,14 @@ namespace imunoise::study {
 google::protobuf::RepeatedPtrField<v1::Preflight> preflights(
     std::span<const recording::Replicate> replicates);
 
+/// Puts them into a report; into each channel's report, where it is a list of them.
+template <class Report>
+void add_preflight(std::span<const recording::Replicate> replicates, Report& to) {
+  if constexpr (requires { to.mutable_preflight(); }) {
+    *to.mutable_preflight() = preflights(replicates);
+  } else {
+    for (auto& one : *to.mutable_channels()) add_preflight(replicates, one);
+  }
+}
+
 }  // namespace imunoise::study

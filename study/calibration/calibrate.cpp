@@ -219,25 +219,40 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
   return out;
 }
 
-Result<v1::Calibration> calibrate_files(const std::vector<Replicate>& replicates,
+Result<v1::Calibration> calibrate_files(const std::vector<std::vector<Replicate>>& streams,
                                         const CalibrateOptions& options, const Progress& progress) {
   if (auto readable = check_models(options); !readable) return tl::unexpected(readable.error());
-  Task task;
-  for (const recording::Channel& one : replicates.front().channels) {
-    if (!options.channels.empty() || of_inertia(one.unit.symbol))
-      task.channels.push_back({one.name, one.unit.symbol});
+  std::vector<Task> tasks;
+  std::size_t channels = 0;
+  for (const std::vector<Replicate>& replicates : streams) {
+    Task& task = tasks.emplace_back();
+    for (const recording::Channel& one : replicates.front().channels) {
+      if (!options.channels.empty() || of_inertia(one.unit.symbol))
+        task.channels.push_back({one.name, one.unit.symbol});
+    }
+    channels += task.channels.size();
   }
-  if (task.channels.empty()) {
-    return fail(
-        "no channel is known to be an angular rate or an acceleration; give units with --unit "
-        "'gyro_*=deg/s,acc_*=g', or name channels with --channel");
+  if (channels == 0) {
+    std::string names;
+    for (const recording::Channel& one : streams.front().front().channels)
+      names += (names.empty() ? "" : ", ") + one.name;
+    return fail(fmt::format(
+        "no channel is known to be an angular rate or an acceleration; give units, such "
+        "as --unit '{}=deg/s', or name channels with --channel (it has: {})",
+        streams.front().front().channels.front().name, names));
   }
   v1::Calibration out;
   out.set_version(kCalibrationVersion);
   out.set_made_ns(options.made_ns);
   *out.mutable_settings() = settings_of(options);
-  *out.mutable_preflight() = preflights(replicates);
-  calibrate_stream(task, replicates, options, progress, out);
+  double begin = 0.0;
+  for (std::size_t s = 0; s < streams.size() && !progress.stopped(); ++s) {
+    out.mutable_preflight()->MergeFrom(preflights(streams[s]));
+    const double end =
+        begin + static_cast<double>(tasks[s].channels.size()) / static_cast<double>(channels);
+    calibrate_stream(tasks[s], streams[s], options, progress.part(begin, end), out);
+    begin = end;
+  }
   if (progress.stopped()) return fail("stopped");
   out.set_summary(summary_of(out));
   return out;

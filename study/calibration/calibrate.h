@@ -40,10 +40,11 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
                                   const std::filesystem::path& folder,
                                   const CalibrateOptions& options, const Progress& progress = {});
 
-/// The same for replicates of plain files: all angular rates and accelerations, or
-/// options.channels. Error: none of them, a model that cannot be read, or the caller stopped it.
-Result<v1::Calibration> calibrate_files(const std::vector<recording::Replicate>& replicates,
-                                        const CalibrateOptions& options,
-                                        const Progress& progress = {});
+/// The same for replicates of plain files, one stream after the other: all angular rates and
+/// accelerations, or options.channels. Error: none of them, a model that cannot be read, or the
+/// caller stopped it.
+Result<v1::Calibration> calibrate_files(
+    const std::vector<std::vector<recording::Replicate>>& streams, const CalibrateOptions& options,
+    const Progress& progress = {});
 
 }  // namespace imunoise::study

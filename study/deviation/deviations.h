@@ -7,9 +7,6 @@
 
 namespace imunoise::study {
 
-/// Allan deviation of the floor of flicker noise over its coefficient B: √(2 ln2/π).
-inline constexpr double kFlickerFloor = 0.664;
-
 /// Overlapping Allan or Hadamard deviation at the customary averaging times, all replicates
 /// together: variances weighted by the number of differences, degrees of freedom added. Error: no
 /// replicate is long enough.

@@ -77,13 +77,30 @@ TEST_F(CatalogueCommands, ListsRecordingsAndCalibrations) {
   EXPECT_FALSE(recordings["recordings"][0]["calibrated"].get<bool>());
   EXPECT_TRUE(recordings["recordings"][1]["calibrated"].get<bool>());
   EXPECT_EQ(recordings["recordings"][1]["replicates"], 2);
+  // WN(sigma2=4e-6) at 100 Hz.
+  ASSERT_EQ(recordings["recordings"][1]["noise"].size(), 1U);
+  const json& n = recordings["recordings"][1]["noise"][0];
+  EXPECT_EQ(n["symbol"], "N");
+  EXPECT_NEAR(n["value"].get<double>(), 2e-4, 1e-5);
+  EXPECT_EQ(n["datasheet_unit"], "°/√h");
+  EXPECT_TRUE(recordings["recordings"][0]["noise"].empty());
+  EXPECT_NE(run("recordings bench").out.find("N 0.6"), std::string::npos)
+      << run("recordings bench").out;
   EXPECT_EQ(recordings["recordings"][1]["samples"], "4096");
   EXPECT_EQ(recordings["recordings"][1]["devices"][0]["id"], "simulated:0042");
   const Outcome table = run("recordings bench");
   EXPECT_NE(table.out.find("2023-11-21 22:13"), std::string::npos) << table.out;
   EXPECT_NE(table.out.find("imu0 (0042)"), std::string::npos) << table.out;
 
-  EXPECT_FALSE(json_of("calibrations bench")["calibrations"][0]["outdated"].get<bool>());
+  const json calibration = json_of("calibrations bench")["calibrations"][0];
+  EXPECT_FALSE(calibration["outdated"].get<bool>());
+  ASSERT_EQ(calibration["noise"].size(), 1U);
+  EXPECT_EQ(calibration["noise"][0]["channel"], "gyro_x");
+  EXPECT_EQ(calibration["noise"][0]["device"], "simulated:0042");
+  EXPECT_EQ(calibration["noise"][0]["model"], "WN");
+  EXPECT_EQ(calibration["noise"][0]["coefficients"][0]["value"], n["value"]);
+  EXPECT_LT(calibration["noise"][0]["coefficients"][0]["lower"], n["value"]);
+  EXPECT_NE(run("calibrations bench").out.find("N 0.6"), std::string::npos);
   record_week(1, "4e-6", 3);
   const Outcome outdated = run("calibrations bench");
   EXPECT_NE(outdated.out.find("outdated"), std::string::npos) << outdated.out;

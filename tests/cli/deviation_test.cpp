@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
@@ -62,6 +63,30 @@ TEST_F(WvDeviation, AFitNamesThreeBiasInstabilities) {
   // Cells wrap: words that stay together.
   for (const char* const part : {"bias instability", "flicker", "minimum of the Allan", "slowest"})
     EXPECT_NE(fit.out.find(part), std::string::npos) << part << "\n" << fit.out;
+  const auto named = nlohmann::json::parse(run("fit g.h5 --model 'WN + GM + FN' --json").out);
+  const auto& three = named["bias_instability"];
+  ASSERT_EQ(three.size(), 3U);
+  EXPECT_EQ(three[0]["kind"], "flicker");
+  EXPECT_EQ(three[0]["value"]["symbol"], "B");
+  EXPECT_EQ(three[1]["kind"], "minimum");
+  // Allan deviation of the budget's lowest scale: √2 of the wavelet deviation, at half its time.
+  double lowest = 1e300;
+  double tau = 0.0;
+  for (std::size_t i = 0; i < named["budget"]["measured"].size(); ++i) {
+    const double one = named["budget"]["measured"][i];
+    if (one >= lowest) continue;
+    lowest = one;
+    tau = 0.5 * named["budget"]["scales_s"][i].get<double>();
+  }
+  EXPECT_NEAR(three[1]["value"]["value"].get<double>(), std::sqrt(2.0 * lowest) / 0.664,
+              1e-9 * std::sqrt(lowest));
+  EXPECT_DOUBLE_EQ(three[1]["time"]["value"].get<double>(), tau);
+  EXPECT_EQ(three[2]["kind"], "markov");
+  for (const auto& term : named["terms"]) {
+    if (term["name"] != "GM") continue;
+    EXPECT_EQ(three[2]["value"], term["coefficients"][0]);
+    EXPECT_EQ(three[2]["time"], term["coefficients"][1]);
+  }
   const Outcome plain = run("fit g.h5 --model 'WN + RW'");
   EXPECT_NE(plain.out.find("the model has no"), std::string::npos) << plain.out;
 }

@@ -18,10 +18,10 @@ TEST_F(Refused, FlawsInRowsOfText) {
     return error_of(write("run3.csv", kRows + row + "\n" + repeated("1,2\n")), options);
   };
   expect_parts(flaw("1,abc"), {"run3.csv: --strict", "row 22: 'abc' is not a number in column y"});
-  expect_parts(flaw("nan,1"), {"channel x misses 1 values", "row 22"});
-  expect_parts(flaw("1,-inf"), {"channel y misses 1 values", "row 22"});
+  expect_parts(flaw("nan,1"), {"channel x misses 1 value", "row 22"});
+  expect_parts(flaw("1,-inf"), {"channel y misses 1 value", "row 22"});
   expect_parts(flaw("1,1e999"), {"row 22: '1e999' is not a finite number"});
-  expect_parts(flaw("1,"), {"channel y misses 1 values", "row 22"});
+  expect_parts(flaw("1,"), {"channel y misses 1 value", "row 22"});
   expect_parts(flaw("1"), {"row 22: 1 values where the table has 2 columns"});
   expect_parts(flaw("1,2,3"), {"row 22: 3 values where the table has 2 columns"});
   expect_parts(flaw("1,2x"), {"row 22: '2x' is not a number"});
@@ -31,13 +31,9 @@ TEST_F(Refused, FlawsInRowsOfText) {
                                     "?' is not a number"});
 }
 
-TEST_F(Refused, DecimalCommas) {
-  const std::string header = "t;x [deg/s]\n";
-  expect_parts(error_of(write("a.csv", header + repeated("0,1;1,5\n")), at_rate(10)),
+TEST_F(Refused, DecimalCommasBetweenCommas) {
+  expect_parts(error_of(write("a.csv", "t,x [deg/s]\n" + repeated("0,\"1,5\"\n")), at_rate(10)),
                {"a.csv: row 2", "'1,5' has a decimal comma", "column x", "decimal point"});
-  expect_parts(error_of(write("a.csv", repeated("0,1;1,5\n")), at_rate(10)),
-               {"a.csv: row 1", "'0,1' has a decimal comma"});
-  expect_parts(error_of(write("a.tsv", repeated("0,1\t1,5\n")), at_rate(10)), {"decimal comma"});
 }
 
 TEST_F(Refused, HeadersThatSayTooLittle) {
@@ -50,7 +46,7 @@ TEST_F(Refused, HeadersThatSayTooLittle) {
                {"a.csv: row 2", "'stone'", "column y"});
   expect_parts(error_of(write("a.csv", "1,abc\n" + repeated("1,2\n")), at_rate(1)),
                {"a.csv: row 1", "'abc' is not a number", "--header"});
-  expect_parts(error_of(write("a.csv", "x,x\n" + repeated("1,2\n")), at_rate(1)),
+  expect_parts(error_of(write("a.csv", "x,x,x_1\n" + repeated("1,2,3\n")), at_rate(1)),
                {"a.csv", "two columns are named 'x'"});
   expect_parts(error_of(write("a.csv", "t\n" + repeated("1\n")), at_rate(1)), {"no channel"});
   expect_parts(error_of(write("a.csv", "# rate_hz: -5\n" + kRows)), {"a.csv", "-5 Hz", "--rate"});

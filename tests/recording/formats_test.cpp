@@ -166,7 +166,7 @@ TEST_F(Binary, NumbersThatAreNone) {
   numbers[13] = std::numeric_limits<double>::quiet_NaN();
   expect_parts(
       error_of(write("a.npy", npy(dictionary("<f8", "20, 2"), bytes_of(numbers))), at_rate(1)),
-      {"a.npy: 13 samples", "col2 misses 1 values", "sample 6"});
+      {"a.npy: 13 samples", "col2 misses 1 value", "sample 6"});
   std::vector<float> floats(20, 1.0F);
   floats[19] = std::numeric_limits<float>::infinity();
   ImportOptions strict = at_rate(1);

@@ -71,6 +71,34 @@ TEST_F(Hdf5, CountsStayCountsAndFloatsBecomeDoubles) {
   EXPECT_EQ(channels[3].unit.quantity, Quantity::kUnknown);
 }
 
+// As h5py users write them: times in the root, sensors in groups; or a rate and a unit by their
+// shorter names.
+TEST_F(Hdf5, SensorsInGroupsAndOtherNamesOfAttributes) {
+  std::vector<double> times(20);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.01 * static_cast<double>(i);
+  {
+    Hdf5File file(path("a.h5"));
+    file.dataset("time", times, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+    const Hdf5Handle group(H5Gcreate2(file.id(), "imu", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Gclose);
+    file.dataset("imu/gyro_x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+  }
+  const auto got = import_one(path("a.h5"));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->front().channels.at(0).name, "imu.gyro_x");
+  EXPECT_EQ(got->front().rate.value, 100.0);
+  {
+    Hdf5File file(path("b.h5"));
+    ASSERT_TRUE(write_attribute(file.id(), "fs", 50.0));
+    const auto x = file.dataset("gyro_x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+    ASSERT_TRUE(write_attribute(x.get(), "unit", std::string_view("deg/s")));
+  }
+  const auto named = import_one(path("b.h5"));
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_EQ(named->front().rate.value, 50.0);
+  EXPECT_EQ(named->front().channels.at(0).unit.symbol, "deg/s");
+}
+
 TEST_F(Hdf5, WhatStandsBesideIsReadButNoTicks) {
   {
     Hdf5File file(path("a.h5"));
@@ -140,14 +168,14 @@ TEST_F(Hdf5, DatasetsOfTheWrongKind) {
                  values[11] = std::numeric_limits<double>::quiet_NaN();
                  f.dataset("x", values, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
                }),
-               {"a.h5: ", "channel x misses 1 values", "sample 11"});
+               {"a.h5: ", "channel x misses 1 value", "sample 11"});
   expect_parts(message([&](Hdf5File& f) {
                  std::vector<std::int16_t> counts = counts_;
                  counts[8] = -32768;
                  const auto x = f.dataset("x", counts, H5T_STD_I16LE, H5T_NATIVE_INT16);
                  EXPECT_TRUE(write_attribute(x.get(), "_FillValue", -32768.0));
                }),
-               {"a.h5: 11 samples", "channel x misses 1 values", "sample 8"});
+               {"a.h5: 11 samples", "channel x misses 1 value", "sample 8"});
   expect_parts(message([&](Hdf5File& f) {
                  f.dataset("x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
                  f.dataset("y", std::vector<std::int16_t>(17), H5T_STD_I16LE, H5T_NATIVE_INT16);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -48,6 +49,11 @@ std::string utf16(const std::string& text) {
   std::string out = "\xff\xfe";
   for (const char c : text) out += {c, '\0'};
   return out;
+}
+
+std::string with_cr(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  return text;
 }
 
 // Six axes at rest, with a knock of all of them at 100 s.
@@ -107,6 +113,32 @@ std::vector<OddFile> odd_files() {
                    return fmt::format("2026-11-24T12:00:{:02}.{:02}Z,{}", i / 100, i % 100, x(i));
                  }),
        "dates and times");
+  good("dates as 24.11.2026 or 11/24/2026", "100 Hz",
+       odd_table("time,x\n",
+                 [](int i) {
+                   return fmt::format("11/24/2026 23:59:{:02}.{:02},{}", 56 + i / 100, i % 100,
+                                      x(i));
+                 }),
+       "dates and times");
+  good("times of day that pass midnight", "100 Hz, one stretch",
+       odd_table("time,x\n",
+                 [](int i) {
+                   return fmt::format("{}:{:02}.{:02},{}", i < 200 ? "23:59" : "00:00",
+                                      (58 + i / 100) % 60, i % 100, x(i));
+                 }),
+       "dates and times");
+  good("seconds and nanoseconds in two columns", "100 Hz, no digit is lost",
+       odd_table("header.stamp.sec,header.stamp.nanosec,x\n",
+                 [](int i) {
+                   return fmt::format("{},{},{}", 1'700'000'000 + i / 100, i % 100 * 10'000'000,
+                                      x(i));
+                 }),
+       "header.stamp.sec and header.stamp.nanosec, nanoseconds");
+  good("a first column that rises steadily, whatever its name", "it is the time",
+       odd_table("Zeit,x\n", [](int i) { return t(i) + "," + x(i); }), "Zeit rises steadily");
+  good("`millis()` of Arduino", "100 Hz",
+       odd_table("millis,x\n", [](int i) { return fmt::format("{},{}", 10 * i, x(i)); }),
+       "milliseconds");
   good("one late stamp", "all rows",
        odd_table(
            "t [s],x\n",
@@ -225,10 +257,34 @@ std::vector<OddFile> odd_files() {
                         odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); }) + "4.0", "");
     one.used = kOddRows;
   }
-  refused("decimal commas", "refused: write decimal points",
-          odd_table("t;x\n",
-                    [](int i) { return fmt::format("{},{:02};0,{}", i / 100, i % 100, i % 7); }),
+  good("decimal commas between semicolons", "100 Hz",
+       odd_table("t;x\n",
+                 [](int i) { return fmt::format("{},{:02};0,{}", i / 100, i % 100, i % 7); }),
+       "");
+  refused("decimal commas in quotes between commas", "refused: write decimal points",
+          odd_table("t,x\n", [](int i) { return fmt::format("{},\"0,{}\"", 0.01 * i, i % 7); }),
           "decimal");
+  good("vertical bars", "100 Hz", odd_table("t|x\n", [](int i) { return t(i) + "|" + x(i); }), "");
+  good("line ends of old Macs (CR)", "100 Hz",
+       with_cr(odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); })), "");
+  good("a header in Latin-1", "100 Hz, the unit too",
+       odd_table("t;gyro_x (\xb0/s)\n", [](int i) { return t(i) + ";" + x(i); }), "");
+  good("lines about the device before the table", "left out",
+       odd_table("Device: MTi-30\nRate, 100 Hz\n\nt,x,y\n",
+                 [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),
+       "rows 1 to 2 come before the table")
+      .channels = 2;
+  good("rows, but not names, with a trailing comma", "100 Hz",
+       odd_table("t,x\n", [](int i) { return t(i) + "," + x(i) + ","; }), "");
+  good("three columns of one name", "`gyro_x`, `gyro_y`, `gyro_z`",
+       odd_table("t,gyro,gyro,gyro\n",
+                 [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + "," + x(i + 2); }),
+       "gyro_x to gyro_z")
+      .channels = 3;
+  good("a packet counter", "left out",
+       odd_table("PacketCounter,t,x\n",
+                 [](int i) { return fmt::format("{},{},{}", i % 256, t(i), x(i)); }),
+       "PacketCounter counts");
 
   // Units.
   refused("an unknown unit", "refused: `--unit`",
@@ -256,6 +312,12 @@ std::vector<OddFile> odd_files() {
     one.channels = 1;
   }
   {
+    OddFile& one = good(
+        "counts, with `--unit 'gx_raw=0.0076 deg/s'`", "the unit times the factor",
+        odd_table("t,gx_raw\n", [](int i) { return fmt::format("{},{}", t(i), i * i % 17); }), "");
+    one.options.units = {{"gx_raw", parse_unit("0.0076 deg/s").value()}};
+  }
+  {
     OddFile& one = good("increments Δθ, Δv", "divided by the period",
                         odd_table("t,dtheta_x [rad],dvz [m/s]\n",
                                   [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),
@@ -263,7 +325,34 @@ std::vector<OddFile> odd_files() {
     one.channels = 2;
   }
 
+  {
+    OddFile& one = good(
+        "angular rates in deg/s that are called rad/s", "used, with a warning",
+        odd_table("t,wx [rad/s]\n", [](int i) { return t(i) + fmt::format(",{}", 2 + i % 3); }),
+        "is rad/s the wrong unit?");
+    one.told = "wrong unit";
+  }
+  {
+    OddFile& one = good(
+        "Δv in columns called ax, ay, az, beside rates that state no unit",
+        "all divided by the period",
+        odd_table(
+            "t,wx,ax,ay,az\n",
+            [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + "," + x(i + 2) + ",0.0981"; }),
+        "increments: ax, ay, az, wx");
+    one.channels = 4;
+  }
+
   // Sensors.
+  {
+    OddFile& one = good("an axis that never changes", "used, with a warning",
+                        odd_table(
+                            "t,gyro_x [deg/s],gyro_y [deg/s]\n",
+                            [](int i) { return t(i) + "," + x(i) + ",0.5"; }, 2000),
+                        "gyro_y of the angular rates never changes");
+    one.channels = 2;
+    one.used = 2000;
+  }
   good("two sensors of different rates in one table", "that of the rates; the other is named",
        odd_table("t,wx [rad/s],ax [m/s^2]\n",
                  [](int i) { return t(i) + "," + x(i) + "," + (i % 4 == 0 ? x(i) : ""); }),

@@ -142,10 +142,10 @@ TEST_F(Odd, GapsAndMissingValuesCutTheRecording) {
   EXPECT_EQ((*got)[2].channels[0].count, 100U);
   EXPECT_EQ((*got)[0].rate.value, 100.0);
   expect_parts(findings(got->front()), {"gap of 0.5 s at 0.99 s (row 102)", "50 samples",
-                                        "misses 1 values, the first at 0.5 s (row 52)"});
+                                        "misses 1 value, the first at 0.5 s (row 52)"});
   ImportOptions strict;
   strict.strict = true;
-  expect_parts(error_of(path("odd.csv"), strict), {"--strict", "gap of 0.5 s", "misses 1 values"});
+  expect_parts(error_of(path("odd.csv"), strict), {"--strict", "gap of 0.5 s", "misses 1 value"});
 }
 
 TEST_F(Odd, RowsThatRepeatOrCannotBeReadAreLeftOut) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 
 #include "core/support/units.h"
@@ -103,6 +104,50 @@ TEST_F(Text, HeaderInAComment) {
   EXPECT_EQ(got->front().channels[1].unit.symbol, "m/s^2");
 }
 
+TEST_F(Text, DecimalCommas) {
+  const auto got =
+      import_one(write("a.csv", "t;x [deg/s]\n" + repeated("0,1;-1,5\n", 20)), at_rate(10));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(stored_doubles(got->front().channels[0]), std::vector<double>(20, -1.5));
+  const auto bare = import_one(write("a.tsv", repeated("0,1\t1,5e2\n")), at_rate(10));
+  ASSERT_TRUE(bare) << bare.error().message;
+  EXPECT_EQ(stored_doubles(bare->front().channels[1]), std::vector<double>(20, 150.0));
+}
+
+TEST_F(Text, SecondsAndNanosecondsMakeOneTime) {
+  std::string text = "stamp.sec,stamp.nanosec,x\n";
+  for (int i = 0; i < 300; ++i)
+    text += std::to_string(1'700'000'000 + i / 100) + "," +
+            std::to_string(i % 100 * 10'000'000 + 7) + ",1\n";
+  ImportOptions options;
+  write("a.csv", text);
+  std::atomic<double> done = 0.0;
+  const Progress progress;
+  FileProgress own(progress, done, 1);
+  const auto table = read_text_table(path("a.csv"), options, own);
+  ASSERT_TRUE(table) << table.error().message;
+  const auto& stamps = std::get<std::vector<std::int64_t>>(table->time->stamps);
+  EXPECT_EQ(stamps[101], 1'700'000'001'010'000'007LL);
+  EXPECT_EQ(table->columns.size(), 1U);
+}
+
+// A first column that does not rise is a channel; so is one that counts, where the rate is given.
+TEST_F(Text, OnlyWhatRisesIsTakenForTheTime) {
+  std::string text = "a,b\n";
+  for (int i = 0; i < 40; ++i) text += std::to_string(i % 7) + "," + std::to_string(i) + "\n";
+  expect_parts(error_of(write("a.csv", text)), {"--rate HZ"});
+  const auto got = import_one(write("a.csv", text), at_rate(10));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->front().channels.size(), 2U);
+}
+
+// Rows of another length than the names are no preamble.
+TEST_F(Text, AHeaderThatDoesNotSuitTheRowsIsNotSkipped) {
+  std::string text = "t,x,y\n";
+  for (int i = 0; i < 40; ++i) text += std::to_string(0.01 * i) + ",1\n";
+  expect_parts(error_of(write("a.csv", text)), {"2 values where the table has 3 columns"});
+}
+
 TEST_F(Text, UnwantedColumnsMayHoldAnything) {
   const auto file = write("a.csv", ",state,x,y,\n" + repeated("0,\"on, ok\",1,nan,\n"));
   ImportOptions options = at_rate(10);
@@ -149,6 +194,30 @@ TEST_F(Text, ChannelsComeInTheOrderWantedAndOnce) {
   ASSERT_EQ(got->front().channels.size(), 2U);
   EXPECT_EQ(stored_doubles(got->front().channels[0])[0], 3.0);
   EXPECT_EQ(stored_doubles(got->front().channels[1])[0], 1.0);
+}
+
+TEST_F(Text, AnAxisHasManyNames) {
+  const auto file = write("a.csv", "gyro_x [deg/s],gyro_y [deg/s]\n" + repeated("1,2\n"));
+  ImportOptions options = at_rate(10);
+  for (const char* const name : {"gyr_y", "wy", "angular_velocity.y"}) {
+    options.channels = {name};
+    const auto got = import_one(file, options);
+    ASSERT_TRUE(got) << got.error().message;
+    ASSERT_EQ(got->front().channels.size(), 1U);
+    EXPECT_EQ(got->front().channels[0].name, "gyro_y");
+  }
+  options.channels = {"gyrox"};
+  EXPECT_TRUE(import_one(file, options));
+  options.channels = {"gryo_x"};
+  expect_parts(error_of(file, options), {"no channel 'gryo_x'", "did you mean 'gyro_x'?"});
+}
+
+TEST_F(Text, APatternThatMatchesNothingIsTold) {
+  ImportOptions options = at_rate(10);
+  options.units = {{"gryo_*", *parse_unit("deg/s")}};
+  options.strict = true;
+  expect_parts(error_of(write("a.csv", "gyro_x,y\n" + repeated("1,2\n")), options),
+               {"--unit gryo_*=deg/s: no channel has this name (there are gyro_x, y)"});
 }
 
 TEST_F(Text, TheUsersWordWinsOverTheFiles) {

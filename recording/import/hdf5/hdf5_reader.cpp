@@ -10,6 +10,7 @@
 #include "recording/hdf5/attributes.h"
 #include "recording/import/hdf5/hdf5_dataset.h"
 #include "recording/import/table/array_columns.h"
+#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
 
 namespace imunoise::recording {
@@ -47,12 +48,20 @@ Found found_in(hid_t file, const std::string& group) {
   return out;
 }
 
-// Paths of the datasets in the root; of those in groups (structs of MATLAB) where the root has
-// none.
+// Times and rates are of no use alone.
+bool is_channel(const std::string& path) {
+  const std::string_view name = last_part(path);
+  return !is_time_name(name) && rate_called(name, 1.0) == 0.0;
+}
+
+// Paths of the datasets in the root; and of those in groups (structs of MATLAB) where the root has
+// no channel.
 std::vector<std::string> dataset_paths(hid_t file) {
   std::vector<std::string> out;
   std::vector<std::string> groups = {"/"};
-  for (int depth = 0; depth < kDeepest && out.empty() && !groups.empty(); ++depth) {
+  for (int depth = 0;
+       depth < kDeepest && std::none_of(out.begin(), out.end(), is_channel) && !groups.empty();
+       ++depth) {
     std::vector<std::string> deeper;
     for (const std::string& group : groups) {
       Found found = found_in(file, group);
@@ -90,6 +99,8 @@ FoundDataset describe(hid_t file, const std::string& path) {
   out.about.scale = read_number_attribute(dataset->id(), "scale_factor");
   out.about.offset = read_number_attribute(dataset->id(), "add_offset");
   out.about.unit = read_string_attribute(dataset->id(), "units");
+  if (out.about.unit && !*out.about.unit)
+    out.about.unit = read_string_attribute(dataset->id(), "unit");
   if (!out.shape.is_single()) return out;
   // What cannot be read is told once the dataset is wanted.
   (void)dataset->read(0, false, [&](const Samples& number) {
@@ -159,8 +170,11 @@ Result<std::unique_ptr<Hdf5Source>> Hdf5Source::open(const std::filesystem::path
   if (!out->file_) {
     return fail("HDF5 cannot open it: truncated, damaged or still being written; copy it again");
   }
-  out->facts_.rate = read_number_attribute(out->file_.get(), "rate_hz");
-  out->facts_.rate_from = "the root attribute rate_hz";
+  for (const char* const name : {"rate_hz", "fs", "sample_rate", "sampling_rate"}) {
+    out->facts_.rate = read_number_attribute(out->file_.get(), name);
+    out->facts_.rate_from = fmt::format("the root attribute {}", name);
+    if (!out->facts_.rate || *out->facts_.rate) break;
+  }
   learn_columns(out->file_.get(), out->facts_);
   return out;
 }

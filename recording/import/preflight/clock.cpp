@@ -24,6 +24,7 @@ constexpr double kLatest = 4e9;       // 2096
 constexpr double kUsualRate = 200.0;  // Hz, of inertial sensors
 
 std::string_view name_of(double seconds) {
+  if (seconds == 1e-4) return "tenths of milliseconds";
   const auto* const found =
       std::find_if(kTimeUnits.begin(), kTimeUnits.end(),
                    [&](const TimeUnit& one) { return one.seconds == seconds; });
@@ -128,6 +129,7 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
   out.said_ =
       fmt::format("column {}, {}{}", column.name,
                   column.calendar ? "dates and times" : name_of(judged.seconds), judged.how);
+  if (!column.said.empty()) out.said_ = column.said;
   return out;
 }
 

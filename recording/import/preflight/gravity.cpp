@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "recording/import/table/names.h"
 
@@ -13,9 +15,15 @@ namespace {
 constexpr double kGravity = 9.80665;  // m/s^2
 constexpr double kTolerance = 0.2;    // of scale errors and biases
 
-// Mean of some samples of a column, as stored in its unit.
-double mean_of(const Column& column) {
+struct Moments {
+  double mean = 0.0;
+  double deviation = 0.0;  // standard
+};
+
+// Of some samples of a column, in its unit.
+Moments moments_of(const Column& column) {
   double sum = 0.0;
+  double squares = 0.0;
   std::size_t count = 0;
   std::visit(
       [&](const auto& values) {
@@ -24,14 +32,49 @@ double mean_of(const Column& column) {
           const auto value = static_cast<double>(values[i]);
           if (!std::isfinite(value)) continue;
           sum += value;
+          squares += value * value;
           ++count;
         }
       },
       column.samples);
-  return count == 0 ? 0.0 : column.offset + column.scale * sum / static_cast<double>(count);
+  if (count == 0) return {};
+  const double mean = sum / static_cast<double>(count);
+  const double variance = squares / static_cast<double>(count) - mean * mean;
+  return {column.offset + column.scale * mean,
+          std::abs(column.scale) * std::sqrt(std::max(0.0, variance))};
 }
 
+double mean_of(const Column& column) { return moments_of(column).mean; }
+
 bool near(double value, double wanted) { return std::abs(value / wanted - 1.0) < kTolerance; }
+
+// The unit in which gravity is that number.
+std::optional<std::string_view> unit_of_gravity(double norm) {
+  if (near(norm, 1.0)) return "g";
+  if (near(norm, kGravity)) return "m/s^2";
+  if (near(norm, 1000.0)) return "mg";
+  return std::nullopt;
+}
+
+// A rate of this mean or scatter is no bias: the sensor turns, or the unit is wrong (rad/s).
+constexpr double kFastest = 0.5;
+
+void judge_rates(const std::vector<Column>& columns, const std::vector<Unit>& units,
+                 std::vector<Finding>& findings) {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (units[c].quantity != Quantity::kAngularRate) continue;
+    const Moments found = moments_of(columns[c]);
+    const double mean = found.mean * units[c].to_si;
+    const double scatter = found.deviation * units[c].to_si;
+    if (std::abs(mean) < kFastest && scatter < kFastest) continue;
+    findings.push_back(
+        {Severity::kDoubt,
+         fmt::format("{} has a mean of {:.3g} and a scatter of {:.3g} rad/s at rest: does the "
+                     "sensor turn, or is {} the wrong unit?",
+                     columns[c].name, mean, scatter, units[c].symbol)});
+    return;  // the other axes would say the same
+  }
+}
 
 }  // namespace
 
@@ -51,6 +94,7 @@ std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
     findings.push_back(
         {Severity::kDoubt,
          fmt::format("{}: no unit is stated; give --unit 'gyro_*=deg/s' or rad/s", silent)});
+  judge_rates(columns, units, findings);
   std::vector<std::string> said;
   if (axes.size() != 3) return said;
   double squares = 0.0;
@@ -61,26 +105,23 @@ std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
   }
   const double norm = std::sqrt(squares);
   if (units[axes[0]].quantity == Quantity::kUnknown) {
-    const char* const symbol = near(norm, 1.0)        ? "g"
-                               : near(norm, kGravity) ? "m/s^2"
-                               : near(norm, 1000.0)   ? "mg"
-                                                      : nullptr;
-    if (symbol == nullptr) {
+    const auto symbol = unit_of_gravity(norm);
+    if (!symbol) {
       findings.push_back(
           {Severity::kDoubt,
            fmt::format("accelerations: no unit is stated and their norm is {:.4g}, neither 1 g nor "
-                       "9.81 m/s^2; give --unit 'acc_*=UNIT'",
+                       "9.81 m/s^2; give --unit 'acc_*=UNIT', such as 'acc_*=1/16384 g' for counts",
                        norm)});
       return said;
     }
-    for (const std::size_t c : axes) units[c] = *parse_unit(symbol);
-    said.push_back(fmt::format("accelerations: {} (their norm is {:.4g})", symbol, norm));
+    for (const std::size_t c : axes) units[c] = *parse_unit(*symbol);
+    said.push_back(fmt::format("accelerations: {} (their norm is {:.4g})", *symbol, norm));
   } else if (!near(norm * to_si, kGravity)) {
     findings.push_back(
         {Severity::kDoubt,
          fmt::format("accelerations are stated in {}, but their norm at rest is {:.4g} m/s^2, not "
-                     "9.81; correct the unit with --unit 'acc_*=UNIT'",
-                     units[axes[0]].symbol, norm * to_si)});
+                     "9.81; correct the unit with --unit 'acc_*={}'",
+                     units[axes[0]].symbol, norm * to_si, unit_of_gravity(norm).value_or("UNIT"))});
   }
   return said;
 }
@@ -88,6 +129,7 @@ std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
 std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz rate) {
   std::string made;
   std::vector<std::size_t> silent;  // accelerations without a unit
+  std::vector<std::size_t> rates;   // angular rates without one: what the accelerations are
   double squares = 0.0;
   const auto make = [&](Column& column, const char* unit) {
     column.scale *= rate.value;
@@ -109,6 +151,9 @@ std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz
                role.axis != ' ') {
       silent.push_back(c);
       squares += std::pow(mean_of(column), 2);
+    } else if (none && role.unit.empty() && role.quantity == Quantity::kAngularRate &&
+               role.axis != ' ') {
+      rates.push_back(c);
     }
   }
   // The norm of accelerations in g or m/s^2 tells them from increments.
@@ -116,6 +161,7 @@ std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz
   if (silent.size() == 3 && near(norm * rate.value, kGravity) && !near(norm, 1.0) &&
       !near(norm, kGravity) && !near(norm, 1000.0)) {
     for (const std::size_t c : silent) make(columns[c], "m/s^2");
+    for (const std::size_t c : rates) make(columns[c], "rad/s");
   }
   if (made.empty()) return {};
   return {fmt::format("increments: {}, divided by {:.6g} s", made, 1.0 / rate.value)};

@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "recording/import/preflight/gravity.h"
+#include "recording/import/preflight/holes.h"
 #include "recording/import/preflight/motion.h"
 #include "recording/import/preflight/pace.h"
 #include "recording/import/preflight/streams_apart.h"
 #include "recording/import/preflight/suspect.h"
+#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
 
 namespace imunoise::recording {
@@ -24,11 +26,6 @@ double shortest(double value, double relative) {
     if (std::abs(candidate / value - 1.0) <= relative) return candidate;
   }
   return value;
-}
-
-bool missing(const Column& column, std::size_t row) {
-  const auto* const numbers = std::get_if<std::vector<double>>(&column.samples);
-  return numbers != nullptr && !std::isfinite((*numbers)[row]);
 }
 
 template <class Value>
@@ -50,10 +47,12 @@ class Judge {
     report_.file = file_;
     report_.samples = rows_;
     report_.recognised = table_.notes;
+    report_.others = std::move(table_.others);
     if (table_.truncated)
       find(Severity::kLeftOut, "the file is truncated: what comes before its end is used");
     const auto readable = check_readable();
     if (!readable) return tl::make_unexpected(readable.error());
+    if (rows_ < kMinimumSamples) return too_few(rows_, "");
     const auto paced = table_.time ? follow_time() : take_rate();
     if (!paced) return tl::make_unexpected(paced.error());
     for (std::string& said : rates_of_increments(table_.columns, out_.rate))
@@ -89,6 +88,12 @@ class Judge {
     return fail(std::move(text));
   }
 
+  tl::unexpected<Error> too_few(std::size_t samples, const char* where) const {
+    return refuse(
+        fmt::format("{} samples{} are too few: a replicate needs at least {}; record longer",
+                    samples, where, kMinimumSamples));
+  }
+
   // The row as the file counts it: rows before it may have been dropped.
   std::string row(std::size_t i) const {
     std::size_t before = 0;
@@ -119,8 +124,10 @@ class Judge {
     find(Severity::kLeftOut, fmt::format("{} rows cannot be read: left out; the first is {}",
                                          table_.unreadable, table_.first_unreadable));
     if (2 * table_.unreadable <= rows_) return {};
-    return fail(fmt::format("{}: {}; delete the row, or leave the column out with --channel", file_,
-                            table_.first_unreadable));
+    return fail(
+        fmt::format("{}: {} rows cannot be read; the first is {}; give names and rows the same "
+                    "columns, or leave columns out with --channel",
+                    file_, table_.unreadable, table_.first_unreadable));
   }
 
   // All that are wrong are told at once.
@@ -132,7 +139,23 @@ class Judge {
       if (unit) out_.units.push_back(std::move(*unit));
     }
     if (!wrong.empty()) return fail(std::move(wrong));
+    tell_unused_rules();
     return {};
+  }
+
+  // A mistyped pattern; where some of the columns are read, it may be of the others.
+  void tell_unused_rules() {
+    if (!options_.channels.empty() || !options_.topic.empty() || !report_.others.empty()) return;
+    std::string names;
+    for (const Column& column : table_.columns) names += (names.empty() ? "" : ", ") + column.name;
+    for (const UnitRule& rule : options_.units) {
+      const bool used =
+          std::any_of(table_.columns.begin(), table_.columns.end(),
+                      [&](const Column& column) { return matches(rule.pattern, column.name); });
+      if (!used)
+        find(Severity::kDoubt, fmt::format("--unit {}={}: no channel has this name (there are {})",
+                                           rule.pattern, rule.unit.symbol, names));
+    }
   }
 
   Result<void> take_rate() {
@@ -222,21 +245,18 @@ class Judge {
 
   void find_missing() {
     for (const Column& column : table_.columns) {
-      std::size_t count = 0;
-      std::size_t first = 0;
       for (std::size_t i = 0; i < rows_; ++i) {
         if (!missing(column, i)) continue;
-        if (count++ == 0) first = i;
         if (cuts_.empty() || cuts_.back().end != i || cuts_.back().begin == i)
           cuts_.push_back({i, i + 1});
         else
           cuts_.back().end = i + 1;
       }
-      if (count == 0) continue;
-      std::string text =
-          fmt::format("channel {} misses {} values, the first at {:.6g} s ({}): left out",
-                      column.name, count, time_of(first), row(first));
-      if (10 * count > rows_)
+    }
+    for (const Hole& one : holes_in(table_.columns)) {
+      std::string text = fmt::format("{}, the first at {:.6g} s ({}): left out", one.said(),
+                                     time_of(one.first), row(one.first));
+      if (10 * one.count > rows_)
         text += "; if the file mixes sensors of two rates, read each with --channel";
       find(Severity::kLeftOut, std::move(text));
     }
@@ -335,9 +355,7 @@ class Judge {
     }
     report_.stretches = out_.stretches.size();
     if (!out_.stretches.empty()) return {};
-    return refuse(
-        fmt::format("{} samples{} are too few: a replicate needs at least {}; record longer",
-                    longest, all.size() > 1 ? " in the longest stretch" : "", kMinimumSamples));
+    return too_few(longest, all.size() > 1 ? " in the longest stretch" : "");
   }
 
   struct Cut {

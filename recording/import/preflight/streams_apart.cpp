@@ -101,7 +101,8 @@ Result<Table> take_apart(const std::string& file, Table table, const ImportOptio
   Result<Table> out = join_streams(file, std::move(streams), table.time->name, all, "channel");
   if (!out) return out;
   out->notes.insert(out->notes.begin(), table.notes.begin(), table.notes.end());
-  out->notes.push_back(fmt::format("rows hold different sensors: time is {}", clock->said()));
+  out->notes.emplace_back("rows hold different sensors");
+  if (out->time) out->time->said = clock->said();
   out->unreadable = table.unreadable;
   out->first_unreadable = table.first_unreadable;
   out->truncated = table.truncated;

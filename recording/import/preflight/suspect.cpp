@@ -6,7 +6,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
+
+#include "recording/import/table/names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -117,6 +120,11 @@ double cut_off(const std::vector<double>& axis) {
   return static_cast<double>(k) / static_cast<double>(kSegment);
 }
 
+// What a channel measures, by its unit, else by its name.
+Quantity quantity_of(const Column& column, const Unit& unit) {
+  return unit.quantity == Quantity::kUnknown ? role_of(column.name).quantity : unit.quantity;
+}
+
 void suspect(const Axes& axes, std::string_view sensor, Hertz rate,
              std::vector<Finding>& findings) {
   const double repeats = agreeing(axes, 1);
@@ -148,6 +156,26 @@ void suspect(const Axes& axes, std::string_view sensor, Hertz rate,
                    sensor, lowest * rate.value)});
 }
 
+// Tells of axes that never change, and takes them out. True: no other is left.
+bool leave_out_constant(const std::vector<std::string>& names, std::string_view sensor, Axes& axes,
+                        std::vector<Finding>& findings) {
+  Axes moving;
+  std::string still;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const auto& values = axes[a];
+    if (std::all_of(values.begin(), values.end(), [&](double one) { return one == values[0]; }))
+      still += (still.empty() ? "" : ", ") + names[a];
+    else
+      moving.push_back(std::move(axes[a]));
+  }
+  if (!still.empty())
+    findings.push_back(
+        {Severity::kDoubt,
+         fmt::format("{} of the {} never changes: is the axis connected?", still, sensor)});
+  axes = std::move(moving);
+  return axes.empty();
+}
+
 }  // namespace
 
 void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& units, Hertz rate,
@@ -157,8 +185,10 @@ void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& 
   for (const auto& [quantity, sensor] : {std::pair{Quantity::kAngularRate, "angular rates"},
                                          {Quantity::kAcceleration, "accelerations"}}) {
     Axes axes;
+    std::vector<std::string> names;
     for (std::size_t c = 0; c < columns.size() && axes.size() < 3; ++c) {
-      if (units[c].quantity != quantity) continue;
+      if (quantity_of(columns[c], units[c]) != quantity) continue;
+      names.push_back(columns[c].name);
       std::visit(
           [&](const auto& values) {
             const auto from = values.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -166,7 +196,8 @@ void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& 
           },
           columns[c].samples);
     }
-    if (!axes.empty()) suspect(axes, sensor, rate, findings);
+    const bool still = leave_out_constant(names, sensor, axes, findings);
+    if (!axes.empty() && !still) suspect(axes, sensor, rate, findings);
   }
 }
 

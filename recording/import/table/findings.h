@@ -19,6 +19,12 @@ struct Finding {
   std::string text;
 };
 
+/// A stream of a sensor that was left out because its rate is another; by itself it can be read.
+struct OtherStream {
+  std::string name;       ///< a topic, or names of channels separated by commas
+  bool is_topic = false;  ///< what the name is: for options.topic, else for options.channels
+};
+
 /// The preflight of one file.
 struct Preflight {
   std::string file;
@@ -27,6 +33,7 @@ struct Preflight {
   std::size_t samples = 0;  ///< rows of the file
   std::size_t used = 0;     ///< rows of all stretches
   std::size_t stretches = 0;
+  std::vector<OtherStream> others;  ///< that hold angular rates or accelerations
 };
 
 }  // namespace imunoise::recording

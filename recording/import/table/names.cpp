@@ -68,9 +68,23 @@ constexpr std::array kTimeSuffixes = {
     Suffix{"ms", 1e-3}, Suffix{"msec", 1e-3}, Suffix{"us", 1e-6},    Suffix{"usec", 1e-6},
     Suffix{"ns", 1e-9}, Suffix{"nsec", 1e-9}, Suffix{"nsecs", 1e-9}, Suffix{"nanosec", 1e-9}};
 
-constexpr std::array<std::string_view, 20> kTimeNames = {"t",
+// Times whose name is their unit: those of Arduino, and of Xsens devices.
+constexpr std::array kTimesOfOneUnit = {Suffix{"millis", 1e-3}, Suffix{"micros", 1e-6},
+                                        Suffix{"sampletimefine", 1e-4}};
+
+// They say how a number was made, not what it is.
+constexpr std::array<std::string_view, 6> kAttributes = {"raw", "imu",          "lsb",
+                                                         "cal", "uncalibrated", "calibrated"};
+
+constexpr std::array<std::string_view, 17> kCounterNames = {
+    "packetcounter", "packetcount", "packet",      "counter",   "count",        "cnt",
+    "seq",           "sequence",    "headerseq",   "index",     "idx",          "fieldheaderseq",
+    "samplenumber",  "samplecount", "framenumber", "rownumber", "samplecounter"};
+
+constexpr std::array<std::string_view, 24> kTimeNames = {"t",
                                                          "time",
                                                          "timestamp",
+                                                         "timestamps",
                                                          "stamp",
                                                          "headerstamp",
                                                          "fieldheaderstamp",
@@ -87,7 +101,10 @@ constexpr std::array<std::string_view, 20> kTimeNames = {"t",
                                                          "hosttime",
                                                          "elapsed",
                                                          "elapsedtime",
-                                                         "secondselapsed"};
+                                                         "secondselapsed",
+                                                         "tow",
+                                                         "gpstow",
+                                                         "towgps"};
 
 bool is_alnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
@@ -115,6 +132,29 @@ std::string joined(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += word;
   return out;
+}
+
+template <class Names>
+bool is_one_of(const Names& names, std::string_view text) {
+  return std::find(names.begin(), names.end(), text) != names.end();
+}
+
+const Suffix* time_of_one_unit(std::string_view text) {
+  const auto* const found = std::find_if(kTimesOfOneUnit.begin(), kTimesOfOneUnit.end(),
+                                         [&](const Suffix& one) { return one.text == text; });
+  return found == kTimesOfOneUnit.end() ? nullptr : found;
+}
+
+// The name without its last word, if that is a unit of time of this length.
+std::string stem_without(std::string_view name, double seconds) {
+  std::vector<std::string> words = words_of(name);
+  if (words.size() < 2) return {};
+  const std::string last = std::move(words.back());
+  words.pop_back();
+  const bool unit = std::any_of(kTimeSuffixes.begin(), kTimeSuffixes.end(), [&](const auto& one) {
+    return one.text == last && one.seconds == seconds;
+  });
+  return unit ? joined(words) : std::string();
 }
 
 const Stem* stem_of(std::string_view text) {
@@ -151,8 +191,18 @@ bool glob(std::string_view pattern, std::string_view text) {
 
 }  // namespace
 
+bool is_counter_name(std::string_view name) {
+  return is_one_of(kCounterNames, joined(words_of(name)));
+}
+
+std::string stem_of_seconds(std::string_view name) { return stem_without(name, 1.0); }
+std::string stem_of_nanoseconds(std::string_view name) { return stem_without(name, 1e-9); }
+
 Role role_of(std::string_view name) {
-  const std::string text = joined(words_of(name));
+  std::vector<std::string> words = words_of(name);
+  if (words.size() > 1)
+    std::erase_if(words, [](const std::string& word) { return is_one_of(kAttributes, word); });
+  const std::string text = joined(words);
   if (text.size() > 1 && is_axis(text.back())) {
     const Stem* const stem = stem_of(std::string_view(text).substr(0, text.size() - 1));
     if (stem != nullptr && stem->quantity != Quantity::kTemperature)
@@ -191,10 +241,21 @@ bool matches(std::string_view pattern, std::string_view name) {
   return !common.empty() && glob(pattern, common);
 }
 
+std::vector<std::string> split_names(std::string_view names) {
+  std::vector<std::string> out;
+  while (!names.empty()) {
+    const std::size_t comma = names.find(',');
+    out.emplace_back(names.substr(0, comma));
+    names.remove_prefix(comma == std::string_view::npos ? names.size() : comma + 1);
+  }
+  return out;
+}
+
 bool is_time_name(std::string_view name) {
   std::vector<std::string> words = words_of(name);
   const auto known = [&] {
-    return std::find(kTimeNames.begin(), kTimeNames.end(), joined(words)) != kTimeNames.end();
+    const std::string text = joined(words);
+    return is_one_of(kTimeNames, text) || time_of_one_unit(text) != nullptr;
   };
   if (words.empty()) return false;
   if (known()) return true;
@@ -213,6 +274,8 @@ Result<std::optional<double>> time_unit(std::string_view name, std::string_view 
   };
   if (unit.empty()) {
     const std::vector<std::string> words = words_of(name);
+    if (const Suffix* const known = time_of_one_unit(joined(words)))
+      return std::optional(known->seconds);
     if (words.empty() || words.size() == 1) return std::optional<double>();
     return seconds(words.back() == "elapsed" ? words.front() : words.back());
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/support/result.h"
 #include "core/support/units.h"
@@ -19,6 +20,14 @@ struct Role {
   std::string_view unit;   ///< that the name implies by a convention (REP 103 of ROS); else empty
 };
 
+/// "PacketCounter", "seq", "index": a column that counts rows.
+bool is_counter_name(std::string_view name);
+
+/// The name of a time in seconds without that word ("header.stamp" of "header.stamp.sec"), and of
+/// one in nanoseconds ("header.stamp.nanosec"); empty for any other name.
+std::string stem_of_seconds(std::string_view name);
+std::string stem_of_nanoseconds(std::string_view name);
+
 /// "wx", "gyr_x", "angular_velocity.x", "accelX", "linear_acceleration.z", "imu_temp", ...
 Role role_of(std::string_view name);
 
@@ -28,6 +37,9 @@ std::string common_name(const Role& role);
 /// Whether `pattern` ('*' stands for any text, '?' for one character) matches the name or its
 /// common name.
 bool matches(std::string_view pattern, std::string_view name);
+
+/// "ax,ay,az" taken apart.
+std::vector<std::string> split_names(std::string_view names);
 
 /// True for the names of time columns: t, time, timestamp, header.stamp, ... (any case), also with
 /// _s, _ms, _us, _ns.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/support/nearest_word.h"
 #include "recording/import/table/names.h"
 
 namespace imunoise::recording {
@@ -29,7 +30,20 @@ std::vector<std::size_t> called(const std::string& name, const std::vector<Offer
     if (offers[i].name == name) return {i};
     if (matches(name, offers[i].name)) matching.push_back(i);
   }
+  // Another common name of the same axis: gyr_x, wx and gyro_x are one.
+  const std::string common = common_name(role_of(name));
+  for (std::size_t i = 0; i < offers.size() && matching.empty() && !common.empty(); ++i) {
+    if (common_name(role_of(offers[i].name)) == common) return {i};
+  }
   return matching;
+}
+
+// "did you mean 'gyro_x'? "
+std::string nearest_of(const std::string& name, const std::vector<Offer>& offers) {
+  std::vector<std::string> names;
+  for (const Offer& one : offers) names.push_back(one.name);
+  const std::string meant = did_you_mean(name, names);
+  return meant.empty() ? "" : "; " + meant;
 }
 
 // What the file says of the unit, or the name.
@@ -56,8 +70,8 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
   for (const std::string& name : named) {
     const std::vector<std::size_t> found = called(name, offers);
     if (found.empty()) {
-      return fail(fmt::format("{}: no channel '{}' (it has: {}); choose with --channel", file, name,
-                              listed(offers)));
+      return fail(fmt::format("{}: no channel '{}' (it has: {}); choose with --channel{}", file,
+                              name, listed(offers), nearest_of(name, offers)));
     }
     for (const std::size_t index : found) {
       if (std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -44,6 +45,13 @@ bool has_rates(const TimedStream& one) {
   });
 }
 
+bool is_inertial(const TimedStream& one) {
+  return std::any_of(one.columns.begin(), one.columns.end(), [](const Column& column) {
+    const Quantity quantity = role_of(column.name).quantity;
+    return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
+  });
+}
+
 bool has_channel(const TimedStream& one, const std::string& wanted) {
   return std::any_of(one.columns.begin(), one.columns.end(), [&](const Column& column) {
     return column.name == wanted || matches(wanted, column.name);
@@ -68,15 +76,17 @@ double usual_delay(const std::vector<std::int64_t>& first, const std::vector<std
   return step * std::atan2(sine, cosine) / (2.0 * std::numbers::pi);
 }
 
-constexpr std::size_t kAlone = std::numeric_limits<std::size_t>::max();
+using Row = std::uint32_t;
+constexpr Row kAlone = std::numeric_limits<Row>::max();
 
 // For each row of `first` the sample of `second` that belongs to it.
-std::vector<std::size_t> partners(const std::vector<std::int64_t>& first,
-                                  const std::vector<std::int64_t>& second, double step) {
+std::vector<Row> partners(const std::vector<std::int64_t>& first,
+                          const std::vector<std::int64_t>& second, double step) {
   const double delay = usual_delay(first, second, step);
-  std::vector<std::size_t> out(first.size(), kAlone);
-  std::size_t at = 0;
-  const auto away = [&](std::size_t i, std::size_t j) {
+  std::vector<Row> out(first.size(), kAlone);
+  if (second.size() >= kAlone) return out;
+  Row at = 0;
+  const auto away = [&](std::size_t i, Row j) {
     return std::abs(static_cast<double>(second[j] - first[i]) - delay);
   };
   for (std::size_t i = 0; i < first.size() && at < second.size(); ++i) {
@@ -116,22 +126,35 @@ Result<std::size_t> main_stream(const std::string& file, const std::vector<Timed
                                   streams.begin());
 }
 
+// Values by the rows that they belong to; in place where none has to go to a later row, as of two
+// topics that began together.
+void put_at_partners(const std::vector<Row>& partner, std::vector<double>& values) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  bool in_place = partner.size() <= values.size();
+  for (std::size_t i = 0; i < partner.size() && in_place; ++i)
+    in_place = partner[i] == kAlone || partner[i] >= i;
+  std::vector<double> apart(in_place ? 0 : partner.size());
+  std::vector<double>& out = in_place ? values : apart;
+  for (std::size_t i = 0; i < partner.size(); ++i)
+    out[i] = partner[i] == kAlone ? none : values[partner[i]];
+  if (in_place)
+    values.resize(partner.size());
+  else
+    values = std::move(apart);
+}
+
 // Adds the columns of `other` to `to`. False: it has another rate.
 bool joined(TimedStream& to, TimedStream& other) {
   const double step = usual_step(to);
   const double other_step = usual_step(other);
   if (!(step > 0.0) || !(std::abs(other_step / step - 1.0) < kSameRate)) return false;
-  const std::vector<std::size_t> partner = partners(to.times, other.times, step);
+  const std::vector<Row> partner = partners(to.times, other.times, step);
+  other.times = {};
   const auto there =
       partner.size() - static_cast<std::size_t>(std::count(partner.begin(), partner.end(), kAlone));
   if (static_cast<double>(there) < kEnough * static_cast<double>(partner.size())) return false;
   for (Column& column : other.columns) {
-    const auto& from = std::get<std::vector<double>>(column.samples);
-    std::vector<double> values(partner.size(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < partner.size(); ++i) {
-      if (partner[i] != kAlone) values[i] = from[partner[i]];
-    }
-    column.samples = std::move(values);
+    put_at_partners(partner, std::get<std::vector<double>>(column.samples));
     to.columns.push_back(std::move(column));
   }
   return true;
@@ -158,6 +181,8 @@ Result<Table> join_streams(const std::string& file, std::vector<TimedStream> str
     } else {
       table.notes.push_back(fmt::format("{} {} ({:.4g} Hz) is left out: read it with --{} {}", kind,
                                         other.name, rate, kind, other.name));
+      if (options.topic.empty() && is_inertial(other))
+        table.others.push_back({other.name, kind == "topic"});
     }
   }
   table.notes.insert(table.notes.begin(), fmt::format("{} {}", kind, names));

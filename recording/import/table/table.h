@@ -43,6 +43,8 @@ struct Table {
   std::function<std::string(std::size_t)> row = {};
   /// What the reader left out or chose, a sentence each: "column frame_id holds text: left out".
   std::vector<std::string> notes;
+  /// Streams that are left out.
+  std::vector<OtherStream> others = {};
   /// Rows that could not be read; their values are missing.
   std::size_t unreadable = 0;
   std::string first_unreadable;  ///< "row 22: 'abc' is not a number in column y"

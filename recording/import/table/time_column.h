@@ -18,6 +18,7 @@ struct TimeColumn {
   std::string unit;       ///< As the file writes it; empty: it does not say.
   Stamps stamps;          ///< One a row, finite.
   bool calendar = false;  ///< Dates and times of day: ns since 1970 UTC (or since midnight).
+  std::string said{};     ///< How it was recognised, if its stamps were converted; else empty.
 };
 
 inline std::size_t size(const Stamps& stamps) {

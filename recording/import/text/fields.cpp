@@ -1,5 +1,6 @@
 #include "recording/import/text/fields.h"
 
+#include "core/support/utf8.h"
 #include "recording/import/text/number.h"
 
 namespace imunoise::recording {
@@ -63,6 +64,21 @@ std::vector<std::string> split_header(std::string_view line, char delimiter) {
       out.push_back(std::move(field));
     }
     open = opens;
+  }
+  return out;
+}
+
+std::string as_utf8(std::string_view text) {
+  if (is_utf8(text)) return std::string(text);
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xc0U | byte >> 6U);
+      out += static_cast<char>(0x80U | (byte & 0x3fU));
+    }
   }
   return out;
 }

@@ -16,8 +16,10 @@ constexpr std::size_t kMaximumLine = std::size_t{1} << 20U;
 bool LineReader::load_more() {
   const std::size_t kept = end_ - begin_;
   if (kept > kMaximumLine) {
-    error_ = Error{fmt::format("{}: row {}: a line of more than {} bytes; is this a text file?",
-                               file_.name(), line_number_ + 1, kMaximumLine)};
+    error_ = Error{fmt::format(
+        "{}: row {}: a line of more than {} bytes; is this a text file, or a table whose rows are "
+        "channels?",
+        file_.name(), line_number_ + 1, kMaximumLine)};
     return false;
   }
   if (begin_ > 0 && kept > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, kept);
@@ -30,6 +32,11 @@ bool LineReader::load_more() {
     error_ = got.error();
     return false;
   }
+  const std::string_view read(buffer_.data() + kept, *got);
+  if (loaded_ == 0 && read.find('\n') == std::string_view::npos &&
+      read.substr(0, read.size() - std::min<std::size_t>(1, read.size())).find('\r') !=
+          std::string_view::npos)
+    ending_ = '\r';
   loaded_ += *got;
   end_ += *got;
   return *got > 0;
@@ -41,7 +48,7 @@ std::optional<std::string_view> LineReader::next() {
     const char* const start = buffer_.data() + begin_;
     const std::size_t held = end_ - begin_;
     const void* const found =
-        held > searched ? std::memchr(start + searched, '\n', held - searched) : nullptr;
+        held > searched ? std::memchr(start + searched, ending_, held - searched) : nullptr;
     std::string_view line(start, held);
     if (found != nullptr) {
       line = line.substr(0, static_cast<std::size_t>(static_cast<const char*>(found) - start));

@@ -23,8 +23,8 @@ class LineReader {
   LineReader(const File& file, std::size_t block_bytes)
       : file_(file), block_bytes_(std::min<std::uint64_t>(block_bytes, file.size() + 1)) {}
 
-  /// The next line without its ending (LF or CRLF) and without the byte order mark of UTF-8; valid
-  /// until the next call. Nothing at the end of the file or after an error: ask error().
+  /// The next line without its ending (LF, CRLF or CR) and without the byte order mark of UTF-8;
+  /// valid until the next call. Nothing at the end of the file or after an error: ask error().
   std::optional<std::string_view> next();
 
   /// Number of the line that next() gave last, 1 for the first.
@@ -43,6 +43,7 @@ class LineReader {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uint64_t loaded_ = 0;
+  char ending_ = '\n';
   std::size_t line_number_ = 0;
   std::optional<Error> error_;
 };

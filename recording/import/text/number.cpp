@@ -10,15 +10,6 @@
 namespace imunoise::recording {
 namespace {
 
-// "1,5": one comma, and a number once it is a point.
-bool has_decimal_comma(std::string_view text) {
-  if (std::count(text.begin(), text.end(), ',') != 1) return false;
-  std::string pointed(text);
-  std::replace(pointed.begin(), pointed.end(), ',', '.');
-  double value = 0.0;
-  return is_number(pointed, value);
-}
-
 // What the text shows of itself in a message: printable, and not a page of it.
 std::string quoted(std::string_view text) {
   constexpr std::size_t shown = 40;
@@ -65,17 +56,46 @@ std::int64_t take_fraction(std::string_view& text) {
   return out;
 }
 
+struct Date {
+  int year;
+  int month;
+  int day;
+};
+
+// "2026-11-24", "2026/11/24"
+std::optional<Date> take_year_first(std::string_view& text) {
+  const auto year = take_digits(text, 4);
+  const auto month = year ? take_part(text, "-/") : std::nullopt;
+  const auto day = month ? take_part(text, "-/") : std::nullopt;
+  if (!day) return std::nullopt;
+  return Date{*year, *month, *day};
+}
+
+// "24.11.2026"; "11/24/2026", where the month comes first if it can.
+std::optional<Date> take_year_last(std::string_view& text) {
+  const auto first = take_digits(text, 2);
+  if (!first || text.empty()) return std::nullopt;
+  const bool slash = text.front() == '/';
+  const auto second = take_part(text, slash ? "/" : ".");
+  if (!second || !take_char(text, slash ? "/" : ".")) return std::nullopt;
+  const auto year = take_digits(text, 4);
+  if (!year) return std::nullopt;
+  return slash && *first <= 12 ? Date{*year, *first, *second} : Date{*year, *second, *first};
+}
+
 // Days since 1970; nothing where the text does not begin with a date.
 std::optional<std::int64_t> take_date(std::string_view& text) {
   std::string_view rest = text;
-  const auto year = take_digits(rest, 4);
-  const auto month = year ? take_part(rest, "-/") : std::nullopt;
-  const auto day = month ? take_part(rest, "-/") : std::nullopt;
-  if (!day || !take_char(rest, "T ")) return std::nullopt;
-  const std::chrono::year_month_day date{std::chrono::year(*year),
-                                         std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day))};
-  if (!date.ok() || *year < 1700 || *year > 2200) return std::nullopt;
+  std::optional<Date> known = take_year_first(rest);
+  if (!known) {
+    rest = text;
+    known = take_year_last(rest);
+  }
+  if (!known || !take_char(rest, "T ")) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(known->year),
+                                         std::chrono::month(static_cast<unsigned>(known->month)),
+                                         std::chrono::day(static_cast<unsigned>(known->day))};
+  if (!date.ok() || known->year < 1700 || known->year > 2200) return std::nullopt;
   text = rest;
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
@@ -103,6 +123,14 @@ bool is_missing(std::string_view text) {
   std::string small(text.substr(0, 10));
   for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return std::find(kWords.begin(), kWords.end(), small) != kWords.end();
+}
+
+bool has_decimal_comma(std::string_view text) {
+  if (std::count(text.begin(), text.end(), ',') != 1) return false;
+  std::string pointed(text);
+  std::replace(pointed.begin(), pointed.end(), ',', '.');
+  double value = 0.0;
+  return is_number(pointed, value);
 }
 
 std::optional<std::int64_t> read_calendar(std::string_view text) {

@@ -31,9 +31,13 @@ inline bool is_number(std::string_view text, double& value) {
 /// True for the words that stand for no value: "", "nan", "null", "NA", "-", "inf".
 bool is_missing(std::string_view text);
 
-/// "2026-11-24T11:28:00.25Z", "2026-11-24 11:28:00+01:00", "11:28:00.25": ns since 1970 UTC, or
-/// since midnight where there is no date. Nothing for other text.
+/// "2026-11-24T11:28:00.25Z", "2026-11-24 11:28:00+01:00", "24.11.2026 11:28:00", "11/24/2026
+/// 11:28:00", "11:28:00.25": ns since 1970 UTC, or since midnight where there is no date. Nothing
+/// for other text.
 std::optional<std::int64_t> read_calendar(std::string_view text);
+
+/// "1,5": one comma, and a number once it is a point.
+bool has_decimal_comma(std::string_view text);
 
 /// True when `text` was meant as a number, good or bad: "1.5", "nan", "1e999", "1,5".
 bool is_numeric(std::string_view text);

@@ -4,33 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <optional>
 
+#include "recording/import/table/array_columns.h"
 #include "recording/import/table/names.h"
+#include "recording/import/table/select.h"
 #include "recording/import/text/number.h"
 
 namespace imunoise::recording {
 namespace {
 
-constexpr std::array<char, 3> kDelimiters = {';', '\t', ','};
-
-// A delimiter is right when it cuts every row into the same number of fields, two or more.
-char detect_delimiter(const std::vector<TextHead::Row>& rows) {
-  const auto agrees = [&](char delimiter) {
-    const std::size_t fields = split_header(rows.front().text, delimiter).size();
-    return fields >= 2 && std::all_of(rows.begin(), rows.end(), [&](const TextHead::Row& row) {
-             return split_header(row.text, delimiter).size() == fields;
-           });
-  };
-  for (const char delimiter : kDelimiters) {
-    if (agrees(delimiter)) return delimiter;
-  }
-  if (agrees(' ')) return ' ';
-  // The rows disagree: take what cuts the last one, so that the ragged row can be named.
-  for (const char delimiter : {';', '\t', ',', ' '}) {
-    if (split_header(rows.back().text, delimiter).size() >= 2) return delimiter;
-  }
-  return ',';
-}
+constexpr std::array<char, 5> kDelimiters = {';', '\t', ',', '|', ' '};
 
 enum class Kind { kNumbers, kText, kMixed };
 
@@ -44,9 +29,99 @@ Kind kind_of(const std::vector<std::string>& fields) {
   return number && text ? Kind::kMixed : number ? Kind::kNumbers : Kind::kText;
 }
 
-Result<bool> has_header(const TextHead& head, char delimiter, const ImportOptions& options) {
+// Of the first row that has more columns than any table, counted before a line of a megabyte
+// becomes that many texts; 0: there is none.
+std::size_t columns_beyond_all(const std::vector<TextHead::Row>& rows) {
+  for (const TextHead::Row& row : rows) {
+    for (const char delimiter : kDelimiters) {
+      std::size_t columns = 1;
+      for (std::size_t i = 1; i < row.text.size(); ++i) {
+        const bool one_run = delimiter == ' ' && row.text[i - 1] == ' ';
+        columns += row.text[i] == delimiter && !one_run ? 1U : 0U;
+      }
+      if (columns > kMaximumColumns) return columns;
+    }
+  }
+  return 0;
+}
+
+// Fields of each row; one less where all rows but the first end with a delimiter.
+std::size_t fields_of(const std::vector<TextHead::Row>& rows, std::size_t row, char delimiter) {
+  const std::vector<std::string> fields = split_header(rows[row].text, delimiter);
+  const bool ends = row > 0 && delimiter != ' ' && fields.back().empty() &&
+                    split_header(rows[0].text, delimiter).size() + 1 == fields.size();
+  return ends ? fields.size() - 1 : fields.size();
+}
+
+bool agrees(const std::vector<TextHead::Row>& rows, char delimiter) {
+  const std::size_t fields = fields_of(rows, 0, delimiter);
+  for (std::size_t r = 1; r < rows.size() && fields >= 2; ++r) {
+    if (fields_of(rows, r, delimiter) != fields) return false;
+  }
+  return fields >= 2;
+}
+
+// Where the table begins, and what separates its values.
+struct Start {
+  char delimiter = ',';
+  std::size_t row = 0;
+};
+
+// The row of names after a preamble, if nearly all rows after it have as many fields. Numbers that
+// no row names do not show where a preamble ends.
+std::optional<Start> after_preamble(const std::vector<TextHead::Row>& rows, char delimiter) {
+  constexpr double kNearlyAll = 0.9;
+  const std::size_t fields = split_header(rows.back().text, delimiter).size();
+  if (fields < 2) return std::nullopt;
+  const auto is_row = [&](std::size_t r, bool text) {
+    const std::vector<std::string> cut = split_header(rows[r].text, delimiter);
+    return cut.size() == fields && (kind_of(cut) == Kind::kText) == text;
+  };
+  std::size_t first = 0;
+  while (first < rows.size() && !is_row(first, false)) ++first;
+  std::size_t names = first;
+  while (names > 0 && is_row(names - 1, true)) --names;
+  if (names == first || names == 0) return std::nullopt;
+  std::size_t alike = 0;
+  for (std::size_t r = first; r < rows.size(); ++r)
+    alike += split_header(rows[r].text, delimiter).size() == fields ? 1U : 0U;
+  if (static_cast<double>(alike) < kNearlyAll * static_cast<double>(rows.size() - first))
+    return std::nullopt;
+  return Start{delimiter, names};
+}
+
+Start find_start(const std::vector<TextHead::Row>& rows, std::optional<char> stated) {
+  if (stated) {
+    if (agrees(rows, *stated)) return {*stated, 0};
+    return after_preamble(rows, *stated).value_or(Start{*stated, 0});
+  }
+  for (const char delimiter : kDelimiters) {
+    if (agrees(rows, delimiter)) return {delimiter, 0};
+  }
+  for (const char delimiter : kDelimiters) {
+    if (const auto found = after_preamble(rows, delimiter)) return *found;
+  }
+  // The rows disagree: take what cuts the last one, so that the ragged row can be named.
+  for (const char delimiter : kDelimiters) {
+    if (split_header(rows.back().text, delimiter).size() >= 2) return {delimiter, 0};
+  }
+  return {',', 0};
+}
+
+// "1,5" in a table whose values are not separated by commas.
+bool has_decimal_commas(const std::vector<TextHead::Row>& rows, const TextLayout& layout) {
+  if (layout.delimiter == ',') return false;
+  for (std::size_t r = layout.header_rows; r < rows.size(); ++r) {
+    const std::vector<std::string> fields = split_fields(rows[r].text, layout.delimiter);
+    if (std::any_of(fields.begin(), fields.end(), has_decimal_comma)) return true;
+  }
+  return false;
+}
+
+Result<bool> has_header(const TextHead::Row& row, const std::string& file, char delimiter,
+                        const ImportOptions& options) {
   if (options.header) return *options.header;
-  const std::vector<std::string> fields = split_header(head.rows.front().text, delimiter);
+  const std::vector<std::string> fields = split_header(row.text, delimiter);
   switch (kind_of(fields)) {
     case Kind::kNumbers:
       return false;
@@ -61,7 +136,23 @@ Result<bool> has_header(const TextHead& head, char delimiter, const ImportOption
   return fail(
       fmt::format("{}: row {}: {} while other values are numbers; correct the row, or say "
                   "with --header or --no-header whether it names the columns",
-                  head.file, head.rows.front().line, explain_no_number(*text)));
+                  file, row.line, explain_no_number(*text)));
+}
+
+// Several columns of one name are told apart: gyro, gyro, gyro are gyro_x, gyro_y, gyro_z.
+void number_equal_names(TextLayout& layout) {
+  std::map<std::string, std::vector<std::size_t>> columns;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c)
+    columns[layout.columns[c].name].push_back(c);
+  for (const auto& [name, equal] : columns) {
+    const std::vector<std::string> names = column_names(name, equal.size());
+    const bool taken = std::any_of(names.begin(), names.end(),
+                                   [&](const auto& one) { return columns.contains(one); });
+    if (equal.size() < 2 || taken || equal.size() > kMaximumColumns) continue;
+    for (std::size_t i = 0; i < equal.size(); ++i) layout.columns[equal[i]].name = names[i];
+    layout.notes.push_back(fmt::format("{} columns are named {}: {} to {} here", equal.size(), name,
+                                       names.front(), names.back()));
+  }
 }
 
 void take_names(TextLayout& layout, const std::vector<std::string>& fields) {
@@ -71,6 +162,20 @@ void take_names(TextLayout& layout, const std::vector<std::string>& fields) {
     if (field.name.empty()) field.name = fmt::format("col{}", i + 1);
     layout.columns.push_back(std::move(field));
   }
+  number_equal_names(layout);
+}
+
+// Rows that end with a delimiter have one column more than the names.
+void add_last_column(TextLayout& layout, const TextHead& head) {
+  if (head.rows.size() <= layout.header_rows) return;
+  const std::size_t fields =
+      split_fields(head.rows[layout.header_rows].text, layout.delimiter).size();
+  if (fields != layout.columns.size() + 1) return;
+  const std::vector<TextHead::Row> rows(
+      head.rows.begin() + static_cast<std::ptrdiff_t>(layout.header_rows) - 1, head.rows.end());
+  if (!agrees(rows, layout.delimiter)) return;
+  layout.unnamed.push_back(true);
+  layout.columns.push_back({fmt::format("col{}", fields), ""});
 }
 
 // Some loggers write the units into a row of their own, under the names.
@@ -106,26 +211,46 @@ Result<bool> take_units(TextLayout& layout, const TextHead& head) {
 
 }  // namespace
 
+bool have_one_shape(const std::vector<TextHead::Row>& rows) {
+  return rows.empty() || columns_beyond_all(rows) > 0 ||
+         std::any_of(kDelimiters.begin(), kDelimiters.end(),
+                     [&](char delimiter) { return agrees(rows, delimiter); });
+}
+
 Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& options) {
+  if (const std::size_t columns = columns_beyond_all(head.rows); columns > 0) {
+    return fail(fmt::format("{}: {} columns, more than the {} allowed; is the table transposed?",
+                            head.file, columns, kMaximumColumns));
+  }
   if (head.rows.empty()) {
     return fail(
         fmt::format("{}: holds no rows; record again or check how it was exported", head.file));
   }
   TextLayout layout;
-  layout.delimiter = options.delimiter ? *options.delimiter : detect_delimiter(head.rows);
-  const Result<bool> header = has_header(head, layout.delimiter, options);
+  const Start start = find_start(head.rows, options.delimiter);
+  layout.delimiter = start.delimiter;
+  layout.header_rows = start.row;
+  if (start.row > 0) {
+    layout.notes.push_back(fmt::format("rows {} to {} come before the table: left out",
+                                       head.rows.front().line, head.rows[start.row - 1].line));
+  }
+  const TextHead::Row& top = head.rows[start.row];
+  const Result<bool> header = has_header(top, head.file, layout.delimiter, options);
   if (!header) return tl::make_unexpected(header.error());
-  const std::vector<std::string> first = split_header(head.rows.front().text, layout.delimiter);
+  const std::vector<std::string> first = split_header(top.text, layout.delimiter);
   if (*header) {
     take_names(layout, first);
-    layout.header_rows = 1;
-    if (head.rows.size() > 1) {
+    ++layout.header_rows;
+    if (head.rows.size() > layout.header_rows) {
       const Result<bool> units = take_units(layout, head);
       if (!units) return tl::make_unexpected(units.error());
-      if (*units) layout.header_rows = 2;
+      if (*units) ++layout.header_rows;
     }
+    add_last_column(layout, head);
+    layout.decimal_comma = has_decimal_commas(head.rows, layout);
     return layout;
   }
+  layout.decimal_comma = has_decimal_commas(head.rows, layout);
   // "#timestamp [ns],w_x [rad s^-1]": several public data sets comment their header out. Words
   // between blanks could be any sentence, so this is for explicit delimiters only.
   const std::vector<std::string> comment = split_header(head.last_comment, layout.delimiter);

@@ -36,6 +36,11 @@ void RowParser::reserve(std::size_t rows, std::size_t spare) {
 }
 
 std::optional<Error> RowParser::add(std::string_view line, std::size_t line_number) {
+  if (layout_.decimal_comma) {
+    pointed_.assign(line);
+    std::replace(pointed_.begin(), pointed_.end(), ',', '.');
+    line = pointed_;
+  }
   if (!parse_plain(line)) {
     const std::size_t unreadable = unreadable_;
     if (std::optional<Error> error = parse_with_care(line, line_number)) return error;
@@ -75,7 +80,11 @@ bool RowParser::read_stamp_with_care(std::string_view text) {
       calendar && std::holds_alternative<std::vector<std::int64_t>>(stamps_) &&
       (calendar_ || rows_ == 0)) {
     calendar_ = true;
-    whole_stamp_ = *calendar;
+    constexpr std::int64_t day = std::int64_t{86'400} * 1'000'000'000;
+    const bool of_day = *calendar >= 0 && *calendar <= day;  // no date: midnight starts it again
+    if (of_day && last_of_day_ - *calendar > day / 2) midnights_ += day;
+    last_of_day_ = of_day ? *calendar : 0;
+    whole_stamp_ = *calendar + (of_day ? midnights_ : 0);
     return true;
   }
   const char* const end = text.data() + text.size();

@@ -71,10 +71,13 @@ class RowParser {
   std::optional<std::size_t> time_;
   std::vector<std::vector<double>> values_;  // one a column; empty where not wanted
   std::vector<double> row_;                  // the row under way
+  std::string pointed_;                      // its text, where numbers have decimal commas
   Stamps stamps_ = std::vector<std::int64_t>();
   std::int64_t whole_stamp_ = 0;  // of the row under way, while stamps are whole numbers
   double stamp_ = 0.0;            // afterwards
   bool calendar_ = false;
+  std::int64_t last_of_day_ = 0;  // ns, of a time without a date
+  std::int64_t midnights_ = 0;    // ns, of the days before
   std::size_t rows_ = 0;
   std::size_t unreadable_ = 0;
   std::string first_unreadable_;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "recording/import/table/array_columns.h"
 #include "recording/import/table/format.h"
 #include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
@@ -46,19 +48,24 @@ std::optional<double> rate_in_comment(std::string_view comment) {
   return value;
 }
 
-Head read_head(LineReader& lines, const std::string& file) {
-  Head head;
-  head.text.file = file;
-  while (head.text.rows.size() < kHeadRows) {
+void read_up_to(std::size_t rows, LineReader& lines, Head& head) {
+  while (head.text.rows.size() < rows) {
     const std::optional<std::string_view> line = lines.next();
     if (!line) break;
     if (!holds_no_samples(*line)) {
-      head.text.rows.push_back({lines.line_number(), std::string(*line)});
+      head.text.rows.push_back({lines.line_number(), as_utf8(*line)});
     } else if (head.text.rows.empty() && !trim(*line).empty()) {
-      head.text.last_comment = trim(*line).substr(1);
+      head.text.last_comment = as_utf8(trim(*line).substr(1));
       if (!head.rate) head.rate = rate_in_comment(head.text.last_comment);
     }
   }
+}
+
+Head read_head(LineReader& lines, const std::string& file) {
+  Head head;
+  head.text.file = file;
+  read_up_to(kHeadRows, lines, head);
+  if (!have_one_shape(head.text.rows)) read_up_to(kPreambleRows, lines, head);
   return head;
 }
 
@@ -66,7 +73,9 @@ Head read_head(LineReader& lines, const std::string& file) {
 struct Plan {
   std::vector<std::size_t> channels;  // in the order wanted
   std::optional<std::size_t> time;
-  std::vector<bool> wanted;  // one a column
+  std::optional<std::size_t> nanoseconds;  // that are added to times of whole seconds
+  std::optional<std::size_t> may_be_time;  // if it rises steadily
+  std::vector<bool> wanted;                // one a column
   std::vector<std::string> notes;
 };
 
@@ -94,25 +103,46 @@ std::optional<std::size_t> time_of(const TextLayout& layout) {
   return first;
 }
 
-Result<Plan> make_plan(const TextHead& head, const TextLayout& layout,
+// "stamp.nanosec" beside "stamp.sec".
+std::optional<std::size_t> nanoseconds_of(const TextLayout& layout, std::size_t time) {
+  const std::string stem = stem_of_seconds(layout.columns[time].name);
+  for (std::size_t c = 0; c < layout.columns.size() && !stem.empty(); ++c) {
+    if (c != time && stem_of_nanoseconds(layout.columns[c].name) == stem) return c;
+  }
+  return std::nullopt;
+}
+
+Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stated_rate,
                        const ImportOptions& options) {
   Plan plan;
+  plan.notes = layout.notes;
   std::vector<Offer> offers;
   const std::vector<bool> text = columns_of_text(head, layout);
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const HeaderField& column = layout.columns[c];
     const bool channel = !is_time_name(column.name) && !layout.unnamed[c];
-    offers.push_back({column.name, channel && !text[c], column.unit});
+    const bool counts = is_counter_name(column.name);
+    offers.push_back({column.name, channel && !text[c] && !counts, column.unit});
     if (channel && text[c])
       plan.notes.push_back(fmt::format("column {} holds text: left out", column.name));
+    else if (channel && counts)
+      plan.notes.push_back(fmt::format("column {} counts: left out", column.name));
   }
   Result<std::vector<std::size_t>> channels = select_columns(head.file, offers, options);
   if (!channels) return tl::make_unexpected(channels.error());
   plan.channels = std::move(*channels);
   plan.wanted.assign(offers.size(), false);
   for (const std::size_t c : plan.channels) plan.wanted[c] = true;
-  if (!options.rate) plan.time = time_of(layout);
-  if (plan.time) plan.wanted[*plan.time] = false;
+  if (options.rate) return plan;
+  plan.time = time_of(layout);
+  if (plan.time) {
+    plan.wanted[*plan.time] = false;
+    plan.nanoseconds = nanoseconds_of(layout, *plan.time);
+    if (plan.nanoseconds) plan.wanted[*plan.nanoseconds] = true;
+  } else if (!text.front() && !layout.unnamed.front() && !stated_rate) {
+    plan.may_be_time = 0;
+    plan.wanted.front() = true;
+  }
   return plan;
 }
 
@@ -151,6 +181,43 @@ Result<void> read_rows(const File& file, const TextHead& head, std::size_t heade
   return {};
 }
 
+// Times of whole seconds and of nanoseconds, in ns.
+TimeColumn joined_times(const TextLayout& layout, const Plan& plan, RowParser& rows) {
+  const HeaderField& column = layout.columns[*plan.time];
+  TimeColumn out{column.name, column.unit, rows.take_stamps(), rows.calendar()};
+  auto* const seconds = std::get_if<std::vector<std::int64_t>>(&out.stamps);
+  if (!plan.nanoseconds || seconds == nullptr || out.calendar) return out;
+  constexpr std::int64_t most = std::int64_t{1} << 33U;  // s; more is no time since 1970
+  const std::vector<double> parts = rows.take(*plan.nanoseconds);
+  for (std::size_t i = 0; i < seconds->size(); ++i) {
+    const bool whole = parts[i] >= 0.0 && parts[i] < 1e9 && std::abs((*seconds)[i]) < most;
+    if (!whole) return out;
+  }
+  for (std::size_t i = 0; i < seconds->size(); ++i)
+    (*seconds)[i] = (*seconds)[i] * 1'000'000'000 + static_cast<std::int64_t>(parts[i]);
+  out.name += " and " + layout.columns[*plan.nanoseconds].name;
+  out.unit = "ns";
+  return out;
+}
+
+// The column of times; or the first column, if it rises steadily, else a channel like the others.
+void take_time(const TextLayout& layout, const Plan& plan, RowParser& rows, Table& to) {
+  if (plan.time) to.time = joined_times(layout, plan, rows);
+  if (!plan.may_be_time) return;
+  const std::size_t c = *plan.may_be_time;
+  const HeaderField& column = layout.columns[c];
+  std::vector<double> values = rows.take(c);
+  if (rises_steadily(values)) {
+    to.notes.push_back(fmt::format("column {} rises steadily: it is the time", column.name));
+    to.time = TimeColumn{column.name, "", std::move(values)};
+    return;
+  }
+  const auto wanted = std::find(plan.channels.begin(), plan.channels.end(), c);
+  if (wanted == plan.channels.end()) return;
+  to.columns.insert(to.columns.begin() + (wanted - plan.channels.begin()),
+                    {column.name, std::move(values), 1.0, 0.0, column.unit});
+}
+
 }  // namespace
 
 Result<Table> read_text_table(const std::filesystem::path& path, const ImportOptions& options,
@@ -162,7 +229,7 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   if (lines.error()) return tl::make_unexpected(*lines.error());
   const Result<TextLayout> layout = detect_layout(head.text, options);
   if (!layout) return tl::make_unexpected(layout.error());
-  Result<Plan> plan = make_plan(head.text, *layout, options);
+  Result<Plan> plan = make_plan(head.text, *layout, head.rate.has_value(), options);
   if (!plan) return tl::make_unexpected(plan.error());
 
   RowParser rows(file->name(), *layout, plan->wanted, plan->time);
@@ -173,20 +240,17 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   }
 
   Table table;
-  if (plan->time) {
-    const HeaderField& column = layout->columns[*plan->time];
-    table.time = {column.name, column.unit, rows.take_stamps(), rows.calendar()};
-  } else if (!options.rate && head.rate) {
-    table.rate = {*head.rate, "the comment rate_hz"};
-  }
+  if (!options.rate && head.rate && !plan->time) table.rate = {*head.rate, "the comment rate_hz"};
   for (const std::size_t c : plan->channels) {
+    if (c == plan->may_be_time) continue;
     table.columns.push_back(
         {layout->columns[c].name, rows.take(c), 1.0, 0.0, layout->columns[c].unit});
   }
+  take_time(*layout, *plan, rows, table);
   table.row = [map = rows.row_map()](std::size_t i) {
     return fmt::format("row {}", map.line_of(i));
   };
-  table.notes = std::move(plan->notes);
+  table.notes.insert(table.notes.begin(), plan->notes.begin(), plan->notes.end());
   table.unreadable = rows.unreadable();
   table.first_unreadable = rows.first_unreadable();
   return table;

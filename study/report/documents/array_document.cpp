@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/cross_figure.h"
 #include "study/report/figures/virtual_sensor_figures.h"
 #include "study/report/view/verdict.h"
@@ -116,7 +118,9 @@ Document document(const v1::ArrayReport& report, Digits digits) {
     section.tables.push_back(std::move(shown));
   }
   section.notes.assign(report.notes().begin(), report.notes().end());
-  return {"array", {section}};
+  Document out{"array", {std::move(section)}};
+  add_files(report.preflight(), digits, out);
+  return out;
 }
 
 }  // namespace imunoise::report

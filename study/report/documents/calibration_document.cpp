@@ -1,9 +1,14 @@
 #include <fmt/format.h>
 
+#include <map>
+
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/documents/diagnosis_words.h"
 #include "study/report/documents/preflight_section.h"
+#include "study/report/figures/budget_figure.h"
+#include "study/report/view/bias_instability.h"
+#include "study/report/view/coefficient_words.h"
 #include "study/report/view/verdict.h"
 
 namespace imunoise::report {
@@ -37,6 +42,61 @@ Table overview(const v1::Calibration& calibration) {
          fitted ? std::string(verdict_words(verdict(one.fit()))) : "no model", alike_words(one),
          one.has_diagnosis() ? diagnosis_words(one.diagnosis()).badge : "not sought"});
   }
+  return out;
+}
+
+// N, B and K of every channel in units of data sheets, and in SI beneath. Other coefficients share
+// a cell.
+void add_noise(const v1::ChannelCalibration& channel, UnitSystem system, Digits digits, Table& to) {
+  std::map<std::string, std::string> by_symbol;
+  std::string others;
+  for (const v1::Term& term : channel.fit().terms()) {
+    for (const v1::Coefficient& one : term.coefficients()) {
+      const std::string words = short_words(one, digits, system);
+      const bool known = one.symbol() == "N" || one.symbol() == "B" || one.symbol() == "K";
+      if (known && by_symbol[one.symbol()].empty())
+        by_symbol[one.symbol()] = words;
+      else
+        others += fmt::format("{}{} {}", others.empty() ? "" : ", ", one.symbol(), words);
+    }
+  }
+  std::string minimum;
+  for (const v1::BiasInstability& one : channel.fit().bias_instability())
+    if (one.kind() == "minimum" && one.has_value())
+      minimum = (one.at_edge() ? "at most " : "") + short_words(one.value(), digits, system);
+  to.rows.push_back({system == UnitSystem::kDatasheet ? channel.channel() : "", by_symbol["N"],
+                     by_symbol["B"], minimum, by_symbol["K"], others});
+}
+
+Table noise(const v1::Calibration& calibration, Digits digits) {
+  Table out{"Noise of all channels, in units of data sheets and in SI",
+            {"channel", "N", "B", "minimum / 0.664", "K", "others"},
+            {}};
+  for (const v1::ChannelCalibration& one : calibration.channels()) {
+    if (!one.has_fit()) continue;
+    add_noise(one, UnitSystem::kDatasheet, digits, out);
+    add_noise(one, UnitSystem::kSi, digits, out);
+  }
+  return out;
+}
+
+figure::Figure allan_figure(const v1::FitReport& fit) {
+  const Verdict fits = verdict(fit);
+  figure::Figure out =
+      budget_figure(as_allan(budget_view(fit), allan_unit(fit.unit())),
+                    {.channel = fit.channel(),
+                     .unit = allan_unit(fit.unit()).unit,
+                     .confidence = fit.confidence(),
+                     .mark_misfits = fits == Verdict::kFails || fits == Verdict::kDoubtful,
+                     .allan = true});
+  out.title = "Allan deviation";
+  return out;
+}
+
+Table instabilities(const v1::FitReport& fit, Digits digits) {
+  Table out{"Bias instability", {"", "value", ""}, {}};
+  for (const BiasInstability& one : bias_instabilities(fit, digits))
+    out.rows.push_back({one.meaning, one.value, one.remark});
   return out;
 }
 
@@ -88,7 +148,10 @@ Section channel_section(const v1::ChannelCalibration& channel, Digits digits) {
     out.mood = mood_of(fits);
     out.facts = facts(channel.fit());
     out.summary = verdict_sentence(channel.fit());
+    out.figures.push_back(allan_figure(channel.fit()));
     out.tables.push_back(coefficients(channel.fit(), digits));
+    if (Table known = instabilities(channel.fit(), digits); !known.rows.empty())
+      out.tables.push_back(std::move(known));
   } else {
     out.badge = "no model";
     out.mood = Mood::kBad;
@@ -129,10 +192,13 @@ Section array_section(const v1::ArrayCalibration& array, Digits digits) {
 Document document(const v1::Calibration& calibration, Digits digits) {
   Section all;
   all.title = "calibration";
-  all.facts = fmt::format("recorded {} · calibrated {} UTC", minute(calibration.started_ns()),
-                          minute(calibration.made_ns()));
+  if (calibration.started_ns() != 0)
+    all.facts = fmt::format("recorded {} · ", minute(calibration.started_ns()));
+  all.facts += fmt::format("calibrated {} UTC", minute(calibration.made_ns()));
   all.summary = calibration.summary();
   all.tables = {overview(calibration)};
+  if (Table known = noise(calibration, digits); !known.rows.empty())
+    all.tables.push_back(std::move(known));
   Document out{"calibration", {all}};
   for (const v1::ChannelCalibration& one : calibration.channels())
     out.sections.push_back(channel_section(one, digits));

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "study/report/documents/catalogue_documents.h"
+#include "study/report/view/coefficient_words.h"
 
 namespace imunoise::report {
 namespace {
@@ -34,6 +35,35 @@ bool of_benches(const List& list) {
   return benches.size() > 1 || (!benches.empty() && !benches.begin()->empty());
 }
 
+// The name of a channel is enough where one recording has no other of that name.
+std::string name_in(const v1::ChannelNoise& one, const v1::CataloguedCalibration& calibration) {
+  int same = 0;
+  for (const v1::ChannelNoise& other : calibration.noise())
+    same += other.channel() == one.channel() ? 1 : 0;
+  return same > 1 ? fmt::format("{} of {}", one.channel(), one.device()) : one.channel();
+}
+
+Table noise_table(const v1::CalibrationList& list, Digits digits) {
+  Table out{"Coefficients", {"folder", "channel", "model", "coefficients"}, {}};
+  for (const v1::CataloguedCalibration& one : list.calibrations()) {
+    for (const v1::ChannelNoise& of : one.noise()) {
+      out.rows.push_back({one.bench().empty() ? one.folder() : one.bench() + ": " + one.folder(),
+                          name_in(of, one), of.model(), short_words(of.coefficients(), digits)});
+    }
+  }
+  return out;
+}
+
+Table noise_table(const v1::RecordingList& list, Digits digits) {
+  Table out{"Largest coefficients of the calibrated channels", {"folder", "coefficients"}, {}};
+  for (const v1::CataloguedRecording& one : list.recordings()) {
+    if (one.noise().empty()) continue;
+    out.rows.push_back({one.bench().empty() ? one.folder() : one.bench() + ": " + one.folder(),
+                        short_words(one.noise(), digits)});
+  }
+  return out;
+}
+
 void put_bench_first(const std::string& bench, std::vector<std::string>& row) {
   row.insert(row.begin(), bench);
 }
@@ -52,8 +82,8 @@ Document document(const v1::RecordingList& list, Digits digits) {
     calibrated += one.calibrated() ? 1 : 0;
     table.rows.push_back({minute(one.started_ns()), one.folder(), devices_of(one),
                           std::to_string(one.replicates()), count(one.samples(), digits),
-                          number(static_cast<double>(one.bytes()) / 1e6, 3, digits),
-                          state_of(one)});
+                          number(static_cast<double>(one.bytes()) / 1e6, 3, digits), state_of(one),
+                          short_words(one.noise(), digits)});
     if (benches) put_bench_first(one.bench(), table.rows.back());
     if (!one.trouble().empty()) section.notes.push_back(one.trouble());
   }
@@ -63,6 +93,8 @@ Document document(const v1::RecordingList& list, Digits digits) {
                         : fmt::format("{} recordings, {} of them calibrated.",
                                       list.recordings_size(), calibrated);
   section.tables = {std::move(table)};
+  if (Table noise = noise_table(list, digits); !noise.rows.empty())
+    section.tables.push_back(std::move(noise));
   return {"recordings", {section}};
 }
 
@@ -94,6 +126,8 @@ Document document(const v1::CalibrationList& list, Digits digits) {
                           "RECORDING."
                         : fmt::format("{} calibrations.", list.calibrations_size());
   section.tables = {std::move(table)};
+  if (Table noise = noise_table(list, digits); !noise.rows.empty())
+    section.tables.push_back(std::move(noise));
   return {"calibrations", {section}};
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "study/report/documents/inference_documents.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/interval_figure.h"
 #include "study/report/view/verdict.h"
 
@@ -94,6 +95,7 @@ Document document(const v1::ChoiceReports& reports, Digits digits) {
   for (const v1::ChoiceReport& one : reports.channels()) {
     out.sections.push_back(section(one, digits));
   }
+  if (reports.channels_size() > 0) add_files(reports.channels(0).preflight(), digits, out);
   return out;
 }
 

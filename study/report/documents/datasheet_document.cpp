@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/datasheet_figure.h"
 #include "study/report/view/verdict.h"
 
@@ -53,6 +54,8 @@ Document document(const v1::DatasheetReports& reports, Digits digits) {
   Document out{"data sheet", {}};
   for (const v1::DatasheetReport& one : reports.channels())
     out.sections.push_back(section_of(one, digits));
+  if (reports.channels_size() > 0)
+    add_files(reports.channels(0).measured().preflight(), digits, out);
   return out;
 }
 

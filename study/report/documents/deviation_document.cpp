@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/deviation_figure.h"
 #include "study/report/view/budget_view.h"
 #include "study/report/view/verdict.h"
@@ -49,6 +50,7 @@ Document document(const v1::DeviationReports& reports, Digits digits) {
   Document out{"deviations", {}};
   for (const v1::DeviationReport& one : reports.channels())
     out.sections.push_back(section_of(one, digits));
+  if (reports.channels_size() > 0) add_files(reports.channels(0).preflight(), digits, out);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "study/report/figures/diagnosis_pictures.h"
 #include "study/report/figures/error_panel.h"
 #include "study/report/figures/interval_figure.h"
+#include "study/report/view/coefficient_words.h"
 #include "study/report/view/verdict.h"
 
 namespace imunoise::report {
@@ -322,12 +323,12 @@ Document document(const v1::Study& study, Digits digits) {
     out.tables.push_back(consequence_table(report));
     out.tables.push_back(drift_table(report, digits));
   }
-  Table attempts{"All attempts", {"", "model", "unexplained", ""}, {}};
+  Table attempts{"All attempts", {"", "model", "coefficients", "unexplained", ""}, {}};
   for (int i = 0; i < study.attempts_size(); ++i) {
     const v1::StudyAttempt& one = study.attempts(i);
     const bool current = i == static_cast<int>(study.current());
     attempts.rows.push_back(
-        {std::to_string(i), one.rung().model(),
+        {std::to_string(i), one.rung().model(), short_words(one.rung().picture().terms(), digits),
          one.rung().has_unexplained() ? number(one.rung().unexplained(), 3, digits) : "-",
          current        ? "current"
          : one.undone() ? "undone"

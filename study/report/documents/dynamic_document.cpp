@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "study/report/documents/inference_documents.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/covariate_figure.h"
 #include "study/report/view/verdict.h"
 
@@ -152,6 +153,7 @@ Document document(const v1::DynamicReports& reports, Digits digits) {
   for (const v1::DynamicReport& one : reports.channels()) {
     out.sections.push_back(section(one, digits));
   }
+  if (reports.channels_size() > 0) add_files(reports.channels(0).preflight(), digits, out);
   return out;
 }
 

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <utility>
 
 #include "study/report/documents/inference_documents.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/figures/fault_figure.h"
 
 namespace imunoise::report {
@@ -75,7 +77,9 @@ Document document(const v1::FaultReport& report, Digits digits) {
   if (!sound) section.tables.push_back(faults(report, digits));
   section.tables.push_back(rules(report, digits));
   section.notes.assign(report.notes().begin(), report.notes().end());
-  return {"faults", {section}};
+  Document out{"faults", {std::move(section)}};
+  add_files(report.preflight(), digits, out);
+  return out;
 }
 
 }  // namespace imunoise::report

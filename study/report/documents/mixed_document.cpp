@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
+#include "study/report/documents/preflight_section.h"
 #include "study/report/view/verdict.h"
 
 namespace imunoise::report {
@@ -65,7 +68,9 @@ Document document(const v1::MixedReport& report, Digits digits) {
   if (Table shown = array_correlations(report.parameters(), digits); !shown.rows.empty())
     section.tables.push_back(std::move(shown));
   section.notes.assign(report.notes().begin(), report.notes().end());
-  return {"mixed", {section}};
+  Document out{"mixed", {std::move(section)}};
+  add_files(report.preflight(), digits, out);
+  return out;
 }
 
 }  // namespace imunoise::report

@@ -87,11 +87,11 @@ std::string coefficient_table(const v1::FitReport& report) {
 }
 
 std::string bias_instability_table(const v1::FitReport& report) {
-  if (report.terms().empty()) return {};
   std::string rows;
   for (const BiasInstability& one : bias_instabilities(report, kStyle))
     rows += "<tr>" + cell("", one.meaning) + cell("number", one.value) + cell("", one.remark) +
             "</tr>\n";
+  if (rows.empty()) return {};
   return "<h3>Bias instability</h3>\n<div class=\"scroll\"><table>" +
          table_head({"meaning", "value", ""}) + "<tbody>" + rows + "</tbody></table></div>\n";
 }

@@ -56,10 +56,10 @@ std::string coefficients(const v1::FitReport& report, const TerminalStyle& style
 }
 
 std::string instabilities(const v1::FitReport& report, const TerminalStyle& style) {
-  if (report.terms().empty()) return {};
   std::vector<std::vector<std::string>> rows;
   for (const BiasInstability& one : bias_instabilities(report, kPlainDigits))
     rows.push_back({one.meaning, one.value, one.remark});
+  if (rows.empty()) return {};
   return "\n" + terminal_table({"bias instability", "", ""}, rows, style);
 }
 

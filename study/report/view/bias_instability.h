@@ -8,16 +8,14 @@
 
 namespace imunoise::report {
 
-/// One of the quantities that are called bias instability.
+/// One of the quantities that are called bias instability, in words.
 struct BiasInstability {
   std::string meaning;  ///< which of them
   std::string value;    ///< with its unit; "none" where there is none
   std::string remark;   ///< its averaging time, or why there is none
 };
 
-/// The three of a fit: the coefficient of flicker noise; the minimum of the measured Allan
-/// deviation over 0.664 (IEEE Std 952), with its averaging time; standard deviation and correlation
-/// time of the slowest Markov process. In units of data sheets. Thread-safe.
+/// Those of a fit, in units of data sheets. Thread-safe.
 std::vector<BiasInstability> bias_instabilities(const v1::FitReport& report, Digits digits);
 
 }  // namespace imunoise::report

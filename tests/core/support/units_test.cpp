@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace imunoise {
 namespace {
 
@@ -40,6 +42,17 @@ TEST(Units, ArbitraryOnesAreNumbersAsTheyAre) {
     EXPECT_EQ(unit->quantity, Quantity::kUnknown);
     EXPECT_EQ(unit->to_si, 1.0);
   }
+}
+
+TEST(Units, MultiplesOfOne) {
+  const auto counts = parse_unit("0.0076 deg/s");
+  ASSERT_TRUE(counts) << counts.error().message;
+  EXPECT_EQ(counts->quantity, Quantity::kAngularRate);
+  EXPECT_DOUBLE_EQ(counts->to_si, 0.0076 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(parse_unit("1/16384 g").value().to_si, 9.80665 / 16384.0);
+  for (const char* const text :
+       {"0 deg/s", "-1 deg/s", "nan deg/s", "1/0 g", "2 degC", "2 furlong", "2"})
+    EXPECT_FALSE(parse_unit(text)) << text;
 }
 
 TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {

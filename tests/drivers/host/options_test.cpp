@@ -61,6 +61,8 @@ TEST(OptionValues, FillInDefaultsAndKeepOrder) {
 TEST(OptionValues, RefuseWithTheWayOut) {
   EXPECT_EQ(complaint({{"speed", "1"}}),
             "no option speed; it has: port, rate, burst, raw, mode, file");
+  EXPECT_EQ(complaint({{"prot", "1"}}),
+            "no option prot; it has: port, rate, burst, raw, mode, file; did you mean 'port'?");
   EXPECT_EQ(complaint({{"-", ""}}), "option port is missing: The port; give port=...");
   EXPECT_EQ(complaint({{"rate", "10"}, {"rate", "20"}}),
             "option rate: given 2 times; give it once");

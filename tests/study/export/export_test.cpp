@@ -260,6 +260,21 @@ TEST(Sha256, KnownDigests) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   EXPECT_EQ(study::sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  // In pieces of any length, with and without the processor's own instructions.
+  const std::string text(100'000, 'b');
+  for (const bool portable : {false, true}) {
+    study::Sha256 hash(portable);
+    std::size_t length = 1;
+    for (std::size_t at = 0; at < text.size();) {
+      hash.add(std::string_view(text).substr(at, length));
+      at += length;
+      length = length * 7 % 1009;
+    }
+    EXPECT_EQ(hash.hex(), study::sha256(text)) << portable;
+    study::Sha256 first(portable);
+    first.add("abc");
+    EXPECT_EQ(first.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  }
 }
 
 }  // namespace

@@ -1,0 +1,153 @@
+// Files of other programs, as a user gives them to the program; and progress on a terminal.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "tests/cli/program.h"
+
+namespace imunoise {
+namespace {
+
+using nlohmann::json;
+using testing::Outcome;
+
+class PlainFiles : public testing::Program {
+ protected:
+  // Rates (deg/s) at 100 Hz; accelerations (m/s²) in every `each`th row.
+  void write_imu(const std::string& name, int rows, int each = 1) const {
+    std::mt19937 random(4);
+    std::normal_distribution<double> normal;
+    std::ofstream file(folder_ / name);
+    file << "t,wx [deg/s],wy [deg/s],wz [deg/s],ax [m/s^2],ay [m/s^2],az [m/s^2]\n";
+    for (int i = 0; i < rows; ++i) {
+      file << fmt::format("{:.2f}", 0.01 * i);
+      for (int a = 0; a < 3; ++a) file << fmt::format(",{:.6f}", 0.05 * normal(random));
+      for (int a = 0; a < 3; ++a) {
+        const double value = 0.02 * normal(random) + (a == 2 ? 9.81 : 0.0);
+        file << (i % each == 0 ? fmt::format(",{:.6f}", value) : ",");
+      }
+      file << "\n";
+    }
+  }
+  json json_of(const std::string& arguments) const {
+    const Outcome done = run(arguments + " --json");
+    EXPECT_EQ(done.status, 0) << arguments << "\n" << done.errors;
+    return json::parse(done.out);
+  }
+};
+
+TEST_F(PlainFiles, EveryJsonHasThePreflight) {
+  write_imu("a.csv", 4000);
+  for (const std::string command :
+       {"wv a.csv", "wv a.csv --allan", "fit a.csv --model WN",
+        "test a.csv --split-into 2 --model WN",
+        "select a.csv --split-into 4 --model WN --model 'WN + RW'", "diagnose a.csv --model WN"}) {
+    const json got = json_of(command + " --channel wx");
+    ASSERT_EQ(got["preflight"].size(), 1U) << command;
+    EXPECT_EQ(got["preflight"][0]["file"], "a.csv") << command;
+    EXPECT_EQ(got["preflight"][0]["samples"], "4000") << command;
+  }
+  EXPECT_EQ(json_of("array a.csv --channel wx,wy --model WN")["preflight"].size(), 1U);
+  const Outcome page = run("wv a.csv --channel wx --allan --report a.html");
+  ASSERT_EQ(page.status, 0) << page.errors;
+  EXPECT_NE(read("a.html").find("no faults found"), std::string::npos);
+}
+
+// A RealSense has two sensors of two rates.
+TEST_F(PlainFiles, SensorsOfTwoRatesAreCalibratedAlike) {
+  write_imu("a.csv", 8000, 4);
+  const json got = json_of("calibrate a.csv --model WN --no-diagnose");
+  ASSERT_EQ(got["channels"].size(), 6U);
+  EXPECT_EQ(got["channels"][0]["fit"]["rate_hz"], 100.0);
+  EXPECT_EQ(got["channels"][5]["channel"], "az");
+  EXPECT_EQ(got["channels"][5]["fit"]["rate_hz"], 25.0);
+  const Outcome text = run("calibrate a.csv --model WN --no-diagnose");
+  // 0.05°/s at 100 Hz; 0.02 m/s² at 25 Hz.
+  for (const char* const part : {"Noise of all channels", "minimum / 0.664", "°/√h", "rad/s/√Hz",
+                                 "µg/√Hz", "m/s^2/√Hz", "Bias instability"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
+  const Outcome kalibr = run("export a.csv --model WN --to kalibr");
+  ASSERT_EQ(kalibr.status, 0) << kalibr.errors;
+  EXPECT_NE(kalibr.out.find("\ngyroscope_noise_density:"), std::string::npos) << kalibr.out;
+  EXPECT_NE(kalibr.out.find("\naccelerometer_noise_density:"), std::string::npos) << kalibr.out;
+}
+
+TEST_F(PlainFiles, ExportJoinsTheFitsOfTwoFiles) {
+  write_imu("a.csv", 4000);
+  const auto fit = [&](const std::string& channels, const std::string& to) {
+    std::ofstream(folder_ / to) << run("fit a.csv --model WN --json --channel " + channels).out;
+  };
+  fit("wx,wy,wz", "gyro.json");
+  fit("ax,ay,az", "acc.json");
+  const Outcome kalibr = run("export gyro.json acc.json --to kalibr");
+  ASSERT_EQ(kalibr.status, 0) << kalibr.errors;
+  EXPECT_NE(kalibr.out.find("\ngyroscope_noise_density:"), std::string::npos) << kalibr.out;
+  EXPECT_NE(kalibr.out.find("\naccelerometer_noise_density:"), std::string::npos) << kalibr.out;
+}
+
+TEST_F(PlainFiles, AMistypedProgramIsGuessed) {
+  write_imu("a.csv", 100);
+  const Outcome got = run("export a.csv --to kalibrr");
+  EXPECT_EQ(got.status, 2);
+  EXPECT_NE(got.errors.find("did you mean 'kalibr'?"), std::string::npos) << got.errors;
+}
+
+// Runs the program with standard error on a terminal; returns what it wrote there.
+std::string on_terminal(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                        int& status) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    std::vector<char*> all;
+    arguments.insert(arguments.begin(), IMUNOISE_BINARY);
+    for (std::string& one : arguments) all.push_back(one.data());
+    all.push_back(nullptr);
+    if (chdir(folder.c_str()) == 0) execv(IMUNOISE_BINARY, all.data());
+    _exit(127);
+  }
+  std::string out;
+  std::array<char, 4096> buffer{};
+  for (ssize_t n = 0; (n = ::read(terminal, buffer.data(), buffer.size())) > 0;)
+    out.append(buffer.data(), static_cast<std::size_t>(n));
+  int ended = 0;
+  waitpid(child, &ended, 0);
+  close(terminal);
+  status = WEXITSTATUS(ended);
+  return out;
+}
+
+TEST_F(PlainFiles, ProgressMovesOnATerminal) {
+  ASSERT_EQ(run("simulate --model 'WN(sigma2=1e-6) + AR1(sigma2=1e-8, phi=0.99) + "
+                "RW(gamma2=1e-12)' --rate 100 --samples 1500000 --unit rad/s --seed 2 "
+                "--channel gyro_x --out long.h5")
+                .status,
+            0);
+  int status = -1;
+  const std::string shown = on_terminal(
+      folder_, {"diagnose", "long.h5", "--model", "WN + RW", "--auto", "--json"}, status);
+  ASSERT_EQ(status, 0) << shown;
+  std::set<std::string> lines;
+  const std::string erased = "\r\033[K";
+  std::size_t last = std::string::npos;
+  for (std::size_t at = shown.find(erased); at != std::string::npos;) {
+    const std::size_t next = shown.find(erased, at + erased.size());
+    const std::string line = shown.substr(at + erased.size(), next - at - erased.size());
+    if (next != std::string::npos) lines.insert(line);
+    last = at;
+    at = next;
+  }
+  EXPECT_GE(lines.size(), 3U) << shown.substr(0, 2000);
+  for (const std::string& line : lines) EXPECT_NE(line.find("gyro_x "), std::string::npos) << line;
+  // The line goes before the result comes.
+  ASSERT_NE(last, std::string::npos);
+  EXPECT_EQ(shown[last + erased.size()], '{') << shown.substr(last, 200);
+}
+
+}  // namespace
+}  // namespace imunoise
