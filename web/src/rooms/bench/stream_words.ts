@@ -33,3 +33,14 @@ export function deviceFacts(device: LiveDevice | undefined): DeviceFacts {
     temperature: warm === undefined ? "–" : `${number(warm - 273.15)} °C`,
   };
 }
+
+/** What is wrong with a device now, else what was wrong last and when. */
+export function lastError(device: LiveDevice): string {
+  const now = device.disk_trouble || device.warnings[0]?.sentence;
+  if (now) return now;
+  const past = device.past_warning;
+  return past ? `${clock(past.since_ns)} UTC: ${past.sentence}` : "none";
+}
+
+// "06:12:33" of nanoseconds since 1970.
+const clock = (ns: string): string => new Date(Number(ns) / 1e6).toISOString().slice(11, 19);
