@@ -35,7 +35,7 @@ async function fleet(page) {
   assert.deepEqual(await out.locator("th").allTextContents(), ["AB106"]);
   assert.match(await page.locator("p.alarm").textContent(), /AB106/);
   assert.match(await page.getByText(/^quartiles/).textContent(), /°\/√h, of 6 devices/);
-  await page.locator(".picture-frame circle.measured").nth(5).waitFor();
+  await page.locator(".picture-frame svg circle").nth(5).waitFor();
   assert.deepEqual(await violations(page), []);
   await picture(page, "fleet");
   await page.getByLabel("parameter").selectOption({ label: "acc_x: velocity random walk of WN" });

@@ -148,7 +148,7 @@ test("200 replicates under a name of 80 characters; enlarged, and on paper", { t
   const where = folder();
   simulate(where, "--model", "WN(sigma2=2.5e-7) + line(f=19.9, amplitude=2e-4)", "--rate", "100", "--samples", "1000",
     "--replicates", "200", "--seed", "4", "--unit", "rad/s", "--channel", long, "--out", "g.h5");
-  const files = Array.from({ length: 200 }, (_, k) => `g_${String(k + 1).padStart(3, "0")}.h5`);
+  const files = Array.from({ length: 200 }, (_, k) => `g_${k + 1}.h5`);
   const { url } = await open(t, where, ...files);
   const { page, problems } = await browse(t);
   await page.goto(url);

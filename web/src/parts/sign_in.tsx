@@ -18,7 +18,7 @@ export function SignIn() {
   return (
     <form class="empty" onSubmit={send}>
       <h1>Sign in</h1>
-      <p>{restarted.value && "imunoised was started again, and asks once more. "}The token is in the file that imunoised was started with (--tokens): the second word of a line.</p>
+      <p>{restarted.value && "imunoised was started again, and asks once more. "}The token is in the file that imunoised was started with (<span class="mono">--tokens</span>): the second word of a line.</p>
       <label for="token">Token</label>
       <input id="token" type="password" autocomplete="current-password" required value={token}
         onInput={(event) => type(event.currentTarget.value)} />

@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { post } from "../../api/client";
 import type { CampaignState, LiveDevice, LiveReplicate } from "../../api/schema";
 import { duration } from "../../parts/numbers";
-import { Empty, Skeleton, Trouble } from "../../parts/states";
+import { Empty, Loading, Trouble } from "../../parts/states";
 import { campaigns, listCampaigns, live, mayChange, rejected } from "../../state";
 import { Sparkline } from "./sparkline";
 import { deviceFacts, lastError } from "./stream_words";
@@ -95,14 +95,21 @@ function Campaign({ state }: { state: CampaignState }) {
 
 // Campaign files that imunoised does not take: what is wrong, and where.
 const Rejected = () => (
-  <section class="trouble" role="alert" aria-label="Rejected campaign files">
-    <span>{rejected.value.map((one) => <p key={one.file}><strong>{one.file}</strong> is not used: {one.problems.join("; ")}. Mend it, then send SIGHUP to imunoised.</p>)}</span>
+  <section class="trouble" role="alert" aria-label="Campaign files that are not used">
+    <ul>
+      {rejected.value.map((one) => (
+        <li key={one.file}>
+          <strong>{one.file}</strong> is not used. Mend it, then send SIGHUP to imunoised:
+          <ul>{one.problems.map((problem) => <li key={problem}>{problem.replace(`${one.file}:`, "line ")}</li>)}</ul>
+        </li>
+      ))}
+    </ul>
   </section>
 );
 
 export function Bench() {
   useEffect(() => void listCampaigns().catch(() => undefined), []);
-  if (campaigns.value === null) return <Skeleton lines={8} />;
+  if (campaigns.value === null) return <Loading />;
   const all = [...campaigns.value.values()];
   return (
     <div class="bench">

@@ -4,7 +4,7 @@ import type { LiveDevice as Device, LiveStream } from "../../api/schema";
 import { FigureView } from "../../figure/figure_view";
 import type { Place } from "../../figure/figure";
 import { duration, number } from "../../parts/numbers";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading, Skeleton } from "../../parts/states";
 import { campaigns, live } from "../../state";
 import { TraceTable, TraceView } from "../../trace/trace_view";
 import { Deviation } from "./deviation";
@@ -87,7 +87,7 @@ function Knowledge({ campaign, device }: { campaign: string; device: Device }) {
 
 export function LiveDevice({ campaign, name }: { campaign: string; name: string }) {
   const back = <p><a href="#/bench">The bench</a></p>;
-  if (campaigns.value === null) return <Skeleton lines={8} />;
+  if (campaigns.value === null) return <Loading />;
   const device = live.value.get(campaign)?.devices.find((one) => one.device === name);
   if (!device) return <Empty title={`${name} is not recorded now`} sentence="When its campaign records, its samples stand here.">{back}</Empty>;
   const first = device.streams[0];

@@ -4,7 +4,7 @@ import { number } from "../../parts/numbers";
 import { shownAs } from "../../trace/units";
 import { type Box, outline } from "./sparkline_path";
 
-const box: Box = { width: 120, height: 20 };
+const box: Box = { width: 120, height: 22 };
 
 /** "gyro_x: from −0.3 to 0.41 °/s in the last minute" */
 function sentence(channel: RangeChannel): string {

@@ -5,15 +5,13 @@ export interface Box {
   readonly height: number;
 }
 
-/** An SVG path around all ranges; "" where there are none. A channel that never changes is a thin line in the middle. */
+/** An SVG path around all ranges; "" where there are fewer than two. A channel that never changes is a line in the middle. */
 export function outline(lower: readonly number[], upper: readonly number[], box: Box): string {
-  if (lower.length === 0) return "";
+  if (lower.length < 2) return "";
   const [low, high] = [Math.min(...lower), Math.max(...upper)];
-  const thin = 0.5; // a range of one value is seen
-  const y = (value: number): number =>
-    high > low ? thin + ((high - value) / (high - low)) * (box.height - 2 * thin) : box.height / 2;
-  const step = box.width / lower.length;
-  const corners = (values: readonly number[], by: number): string[] =>
-    values.flatMap((value, k) => [`${(k * step).toFixed(1)} ${(y(value) + by).toFixed(1)}`, `${((k + 1) * step).toFixed(1)} ${(y(value) + by).toFixed(1)}`]);
-  return `M${[...corners(upper, -thin), ...corners(lower, thin).reverse()].join("L")}Z`;
+  const room = 1.5; // for the line's width
+  const y = (value: number): number => (high > low ? room + ((high - value) / (high - low)) * (box.height - 2 * room) : box.height / 2);
+  const step = box.width / (lower.length - 1);
+  const corners = (values: readonly number[]): string[] => values.map((value, k) => `${(k * step).toFixed(1)} ${y(value).toFixed(1)}`);
+  return `M${[...corners(upper), ...corners(lower).reverse()].join("L")}Z`;
 }

@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { get, over, post } from "../../api/client";
 import type { Preflight, RecordingList } from "../../api/schema";
 import { Files } from "../../parts/files";
-import { Progress, Skeleton, Trouble } from "../../parts/states";
+import { Loading, Progress, Trouble } from "../../parts/states";
 import { go, inputs, jobs, listStudies, mayChange, session, studies } from "../../state";
 import { freeName } from "./free_name";
 
@@ -83,7 +83,7 @@ function useRecordings(): RecordingList["recordings"] {
 
 export function Studies() {
   const recordings = useRecordings();
-  if (studies.value === null) return <Skeleton lines={6} />;
+  if (studies.value === null) return <Loading />;
   const sources: Source[] = [
     ...inputs.value.map((one) => ({
       title: one.input && one.input.files.length > 1 ? `${one.name} and ${one.input.files.length - 1} more` : one.name,

@@ -4,7 +4,7 @@ import type { Place } from "../../figure/figure";
 import { FigureView } from "../../figure/figure_view";
 import { Files } from "../../parts/files";
 import { number } from "../../parts/numbers";
-import { Progress, Skeleton, Trouble } from "../../parts/states";
+import { Loading, Progress, Trouble } from "../../parts/states";
 import { go, mayChange } from "../../state";
 import { Candidates } from "./candidates";
 import { ErrorPanel } from "./error_panel";
@@ -59,7 +59,7 @@ export function StudyRoom({ name }: { name: string }) {
   if (!study || !rung) {
     return store.problem.value
       ? <Trouble sentence={store.problem.value} onClose={() => go("studies")} />
-      : <Skeleton lines={12} />;
+      : <Loading />;
   }
   const judged = verdict(study);
   const still = store.busy.value || !mayChange.value;
