@@ -43,7 +43,7 @@ async function lookOn(t, url, address) {
   await picture(page, "journey_viewer");
 }
 
-test("from an empty bench to a model that holds the hidden effect", { timeout: 240_000 }, async (t) => {
+test("from an empty bench to a model that holds the hidden effect", { timeout: 480_000 }, async (t) => {
   const where = folder();
   const { url, child } = await serve(t, where, waiting, 8473);
   const { page, problems } = await browse(t);
@@ -70,7 +70,7 @@ test("from an empty bench to a model that holds the hidden effect", { timeout: 2
   await page.getByText("There is no study yet").waitFor();
   await page.getByLabel("first model").first().fill("WN");
   await page.getByRole("button", { name: "Study", exact: true }).first().click();
-  await page.locator(".candidates li").first().waitFor({ timeout: 120_000 });
+  await page.locator(".candidates li").first().waitFor({ timeout: 240_000 });
   assert.match(await page.locator(".verdict").textContent(), /something is missing/);
   await picture(page, "journey_missing");
   await lookOn(t, url, page.url());

@@ -104,11 +104,11 @@ async function arrays(page) {
   assert.ok(parseFloat(weights[5]) < 0.3 * parseFloat(weights[0]), `the noisy one counts least: ${weights}`);
 }
 
-test("all devices of a type, what was recorded, and arrays", { timeout: 240_000 }, async (t) => {
+test("all devices of a type, what was recorded, and arrays", { timeout: 480_000 }, async (t) => {
   const { url } = await serve(t, folder(), campaign, 8477);
   const { page, problems } = await browse(t);
   await signIn(page, url, operator);
-  await page.getByText("finished").first().waitFor({ timeout: 180_000 });
+  await page.getByText("finished").first().waitFor({ timeout: 400_000 });
   await fleet(page);
   await samples(page);
   await arrays(page);

@@ -118,7 +118,7 @@ test("imunoised is killed and comes back", { timeout: 90_000 }, async (t) => {
   assert.deepEqual(problems, []);
 });
 
-test("64 devices", { timeout: 120_000 }, async (t) => {
+test("64 devices", { timeout: 300_000 }, async (t) => {
   const names = Array.from({ length: 64 }, (_, k) => `imu${String(k + 1).padStart(2, "0")}`);
   const all = names.map((name, k) => device(name, `options.serial = "AB${100 + k}"\noptions.seed = ${k + 1}\n`)).join("");
   const { url } = await serve(t, folder(), campaign("wall", all), 8481);
@@ -144,7 +144,7 @@ test("64 devices", { timeout: 120_000 }, async (t) => {
   assert.deepEqual(problems, []);
 });
 
-test("200 replicates under a name of 80 characters; enlarged, and on paper", { timeout: 240_000 }, async (t) => {
+test("200 replicates under a name of 80 characters; enlarged, and on paper", { timeout: 480_000 }, async (t) => {
   const where = folder();
   simulate(where, "--model", "WN(sigma2=2.5e-7) + line(f=19.9, amplitude=2e-4)", "--rate", "100", "--samples", "1000",
     "--replicates", "200", "--seed", "4", "--unit", "rad/s", "--channel", long, "--out", "g.h5");
@@ -155,8 +155,10 @@ test("200 replicates under a name of 80 characters; enlarged, and on paper", { t
   await page.getByLabel("first model").fill("WN");
   assert.deepEqual(await violations(page), []);
   await picture(page, "studies_200");
+  const inside = await page.locator(".new select").evaluate((one) => one.getBoundingClientRect().right <= one.form.getBoundingClientRect().right);
+  assert.ok(inside, "a long name stays in its card");
   await page.getByRole("button", { name: "Study", exact: true }).click();
-  await page.locator(".candidates li").first().waitFor({ timeout: 180_000 });
+  await page.locator(".candidates li").first().waitFor({ timeout: 400_000 });
   await page.getByText("200 replicates").first().waitFor();
   assert.deepEqual(await violations(page), []);
   await picture(page, "study_200");
