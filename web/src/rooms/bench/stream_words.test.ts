@@ -13,7 +13,7 @@ test("a rate stands beside the nominal one", () => {
 
 test("a device's streams are one row: the fastest rate, all that is missing, a temperature", () => {
   const facts = deviceFacts({ streams: [stream({ nominal_hz: 10, missing: "2", temperature_k: 300.15 }), stream({ rate_hz: 90, missing: "3" })] } as unknown as LiveDevice);
-  expect(facts).toEqual({ rate: "90 of 100 Hz", rateOff: true, missing: "5", temperature: "27 °C" });
+  expect(facts).toEqual({ rate: "90.00 of 100 Hz", rateOff: true, missing: "5", temperature: "27.0 °C" });
   expect(deviceFacts(undefined).rate).toBe("–");
 });
 

@@ -6,7 +6,8 @@ import { number } from "../../parts/numbers";
 export function rateWords(stream: LiveStream): string {
   const nominal = stream.nominal_hz > 0 ? `${number(stream.nominal_hz, 4)} Hz` : "";
   if (stream.rate_hz === undefined) return nominal || "–";
-  return nominal ? `${number(stream.rate_hz, 4)} of ${nominal}` : `${number(stream.rate_hz, 4)} Hz`;
+  // As many digits each time: text that changes its width jumps.
+  return nominal ? `${stream.rate_hz.toPrecision(4)} of ${nominal}` : `${number(stream.rate_hz, 4)} Hz`;
 }
 
 /** A rate that is more than a fiftieth off. */
@@ -30,7 +31,7 @@ export function deviceFacts(device: LiveDevice | undefined): DeviceFacts {
     rate: rateWords(fastest),
     rateOff: device.streams.some(offRate),
     missing: String(missing),
-    temperature: warm === undefined ? "–" : `${number(warm - 273.15)} °C`,
+    temperature: warm === undefined ? "–" : `${(warm - 273.15).toFixed(1)} °C`,
   };
 }
 
