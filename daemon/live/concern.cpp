@@ -1,5 +1,7 @@
 #include "daemon/live/concern.h"
 
+#include <algorithm>
+
 #include "recording/store/timeline/straight_line.h"
 
 namespace imunoise::live {
@@ -16,7 +18,7 @@ void Concern::see(std::int64_t now_ns, std::uint64_t count) {
     since_ns_ = now_ns;
     count_ = 0;
   }
-  last_ns_ = now_ns;
+  last_ns_ = std::max(last_ns_, now_ns);
   count_ += count;
 }
 

@@ -15,8 +15,10 @@ class Concern {
   void see(std::int64_t now_ns, std::uint64_t count = 1);
   /// Since when; nothing: it is of no concern any more.
   std::optional<std::int64_t> since(std::int64_t now_ns) const;
-  /// How often it was seen since then.
+  /// How often it was seen since then, or the last time that it was of concern; 0: never.
   std::uint64_t count() const { return count_; }
+  /// When it was seen last.
+  std::int64_t last_ns() const { return last_ns_; }
 
  private:
   std::int64_t since_ns_ = 0;

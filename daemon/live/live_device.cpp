@@ -75,7 +75,28 @@ std::string outlook(const v1::LiveDevice& state) {
 
 }  // namespace
 
-LiveDevice::LiveDevice(const v1::RecordedDevice& device) : device_(device) {
+std::optional<LiveDevice::Pictured> LiveDevice::pictured_of(const v1::RecordedDevice& device) {
+  const auto rank = [](Quantity quantity) {
+    if (quantity == Quantity::kAngularRate) return 0;
+    return quantity == Quantity::kAcceleration ? 1 : 2;
+  };
+  std::optional<Pictured> out;
+  int best = 3;
+  for (int s = 0; s < device.streams_size(); ++s) {
+    const v1::RecordedStream& stream = device.streams(s);
+    if (!(stream.rate_hz() > 0.0)) continue;
+    for (int c = 0; c < stream.channels_size(); ++c) {
+      const int of = rank(recording::units_of(stream.channels(c)).quantity);
+      if (of >= best) continue;
+      best = of;
+      out = Pictured{static_cast<std::size_t>(s), static_cast<std::size_t>(c)};
+    }
+  }
+  return out;
+}
+
+LiveDevice::LiveDevice(const v1::RecordedDevice& device)
+    : device_(device), pictured_(pictured_of(device)) {
   for (const v1::RecordedStream& stream : device.streams()) {
     Stream& to = streams_.emplace_back(stream);
     for (int c = 0; c < stream.channels_size(); ++c) {
@@ -222,6 +243,38 @@ v1::LiveDevice LiveDevice::state() const {
   }
   out.set_outlook(outlook(out));
   for (v1::LiveWarning& one : warnings()) *out.add_warnings() = std::move(one);
+  if (v1::LiveWarning past = past_warning(); past.since_ns() != 0)
+    *out.mutable_past_warning() = std::move(past);
+  if (pictured_) {
+    const double rate = device_.streams(static_cast<int>(pictured_->stream)).rate_hz();
+    *out.mutable_last_minute() =
+        streams_[pictured_->stream].rings.last_minute(pictured_->channel, rate);
+  }
+  return out;
+}
+
+// Without a time where nothing was of concern and is no more.
+v1::LiveWarning LiveDevice::past_warning() const {
+  v1::LiveWarning out;
+  const auto see = [&](v1::LiveConcern concern, const Concern& of, const Stream& stream,
+                       const std::string& sentence) {
+    if (of.count() == 0 || of.since(stream.now_ns) || of.last_ns() <= out.since_ns()) return;
+    out.set_concern(concern);
+    out.set_since_ns(of.last_ns());
+    out.set_sentence(sentence);
+  };
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    const v1::RecordedStream& stream = device_.streams(static_cast<int>(s));
+    const Stream& of = streams_[s];
+    see(v1::lost_samples, of.lost, of,
+        fmt::format("{}: samples were rejected or missing, {} times", stream.name(),
+                    of.lost.count()));
+    for (const Channel& one : of.channels) {
+      see(v1::saturated, one.saturated, of,
+          fmt::format("{}: {} samples were at the limit of the range",
+                      stream.channels(static_cast<int>(one.index)).name(), one.saturated.count()));
+    }
+  }
   return out;
 }
 

@@ -62,6 +62,12 @@ class LiveDevice {
     std::int64_t now_ns = 0;
     Concern lost;
   };
+  // What a picture of the device shows.
+  struct Pictured {
+    std::size_t stream = 0;
+    std::size_t channel = 0;  // in the stream
+  };
+  static std::optional<Pictured> pictured_of(const v1::RecordedDevice& device);
   void take_channel(const recording::Rows& rows, const v1::RecordedStream& stream, Channel& to);
   static void take_gaps(const recording::Rows& rows, double rate_hz, Stream& to);
   static v1::LiveStream describe(const v1::RecordedStream& stream, const Stream& of);
@@ -69,8 +75,11 @@ class LiveDevice {
   static void warn(const v1::RecordedStream& stream, const Stream& of,
                    std::vector<v1::LiveWarning>& to);
 
+  v1::LiveWarning past_warning() const;
+
   v1::RecordedDevice device_;
   std::vector<Stream> streams_;
+  std::optional<Pictured> pictured_;
 };
 
 }  // namespace imunoise::live

@@ -111,4 +111,24 @@ Result<v1::SampleRanges> SampleRings::ranges(std::uint32_t samples_each, std::ui
   return out;
 }
 
+v1::RangeChannel SampleRings::last_minute(std::size_t channel, double rate_hz) const {
+  constexpr double kMinute = 60.0;  // s
+  constexpr double kFewest = 15.0;  // ranges
+  auto ring = rings_.begin();
+  while (std::next(ring) != rings_.end() &&
+         kMinute * rate_hz >= kFewest * std::next(ring)->samples_each)
+    ++ring;
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(kMinute * rate_hz / ring->samples_each));
+  v1::RangeChannel out;
+  out.set_channel(channels_[channel].name);
+  out.set_units(channels_[channel].units.symbol);
+  const std::uint64_t count = std::min({ring->complete, wanted, kRangesKept - 1});
+  for (std::uint64_t k = ring->complete - count; k < ring->complete; ++k) {
+    const Extent& extent = ring->extents[(k % kRangesKept) * channels_.size() + channel];
+    out.add_lower(extent.lower);
+    out.add_upper(extent.upper);
+  }
+  return out;
+}
+
 }  // namespace imunoise::live

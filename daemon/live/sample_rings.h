@@ -31,6 +31,9 @@ class SampleRings {
   Result<v1::SampleRanges> ranges(std::uint32_t samples_each, std::uint64_t from,
                                   const std::vector<std::string>& channels) const;
 
+  /// The last minute of a channel at `rate_hz`, as 15 to 60 ranges: a picture without axes.
+  v1::RangeChannel last_minute(std::size_t channel, double rate_hz) const;
+
  private:
   struct Channel {
     std::string name;

@@ -22,8 +22,6 @@
 namespace imunoise::service {
 namespace {
 
-constexpr std::size_t kLargestLive = 200'000;  // bytes of an event: its JSON is longer
-
 Result<ApiHandlerOptions> handler_options(const ServiceOptions& options) {
   ApiHandlerOptions out;
   out.hosts = options.hosts;
@@ -166,10 +164,9 @@ class Service::Implementation {
     hub_.tell(event);
   }
   void tell(v1::LiveReplicate live) {
-    if (live.ByteSizeLong() > kLargestLive) {
-      for (v1::LiveDevice& device : *live.mutable_devices()) {
-        for (v1::LiveChannel& channel : *device.mutable_channels()) channel.clear_scales();
-      }
+    // They are most of it and change slowly: GET /v1/live has them.
+    for (v1::LiveDevice& device : *live.mutable_devices()) {
+      for (v1::LiveChannel& channel : *device.mutable_channels()) channel.clear_scales();
     }
     v1::Event event;
     *event.mutable_live() = std::move(live);

@@ -225,6 +225,7 @@ v1::Rung rung_of(const EvaluatedModel& evaluated, const Step& step, double first
     drift.set_seconds(from.seconds);
     drift.set_predicted(from.predicted);
     drift.set_measured(from.measured);
+    drift.set_stretches(static_cast<std::uint64_t>(from.stretches));
     drift.set_unit(unit);
   }
   return out;

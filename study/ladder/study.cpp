@@ -168,6 +168,7 @@ Result<v1::Rung> Operation::climbed(const std::string& model, const std::string&
   if (folder_) folder_->keep(*prepared);
   study_.set_unit(std::string(si_symbol(prepared->subject->quantity)));
   study_.set_rate_hz(prepared->subject->rate.value);
+  study_.set_replicates(static_cast<std::uint32_t>(prepared->subject->replicates()));
   if (study_.attempts_size() == 0) study_.set_first_log_likelihood(rung->log_likelihood());
   count_from_first(study_, *rung);
   return rung;

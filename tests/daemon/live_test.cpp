@@ -174,6 +174,25 @@ TEST(LiveDevice, TellsRateMissingSamplesAndTemperatureOfEachStream) {
   EXPECT_NE(live.samples(request).error().message.find("other"), std::string::npos);
 }
 
+// 256 of the 6000 samples of a minute are a range: 23.4 of them.
+TEST(LiveDevice, ShowsTheLastMinuteOfAnAngularRate) {
+  LiveDevice live(device());
+  Source source;
+  live.take(source.block(1'000));
+  EXPECT_EQ(live.state().last_minute().lower_size(), 3) << "complete ranges";
+  for (int i = 0; i < 10; ++i) live.take(source.block(1'000));
+  recording::Block block = source.block(256 * 43 - 11'000);
+  std::get<std::vector<std::int16_t>>(block.rows.channels[0]).back() = -900;
+  live.take(block);
+  const v1::RangeChannel shown = live.state().last_minute();
+  EXPECT_EQ(shown.channel(), "gyro_x");
+  EXPECT_EQ(shown.units(), "rad/s");
+  ASSERT_EQ(shown.lower_size(), 24);
+  ASSERT_EQ(shown.upper_size(), 24);
+  EXPECT_NEAR(shown.lower(23), -900 * 0.05 * M_PI / 180.0, 1e-6);
+  EXPECT_GT(shown.lower(22), -100 * 0.05 * M_PI / 180.0);
+}
+
 TEST(LiveDevice, TellsScalesAndHowLongTheyTake) {
   LiveDevice live(device());
   Source source;
@@ -230,9 +249,12 @@ TEST(LiveDevice, WarnsOfWhatCanStillBeMended) {
   EXPECT_EQ(state.refused(), 3U);
   EXPECT_EQ(state.gaps(), 1U);
   EXPECT_FALSE(warns(state, v1::warming)) << "too early to say";
+  EXPECT_FALSE(state.has_past_warning()) << "they hold still";
   live.take(source.block(30'000));
   state = live.state();
   EXPECT_FALSE(warns(state, v1::saturated)) << "a minute later that is over";
+  EXPECT_EQ(state.past_warning().sentence(), "imu: samples were rejected or missing, 4 times");
+  EXPECT_EQ(state.past_warning().since_ns(), kStart + 60'990'000'000) << "the end of the block";
   ASSERT_TRUE(warns(state, v1::warming));
   EXPECT_NE(
       state.warnings(0).sentence().find("temperature: the temperature rises by 3.0 K an hour"),

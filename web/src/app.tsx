@@ -1,5 +1,5 @@
 // The frame around the rooms, and the states in which there is no room yet.
-import { Empty, Skeleton } from "./parts/states";
+import { Empty, Loading } from "./parts/states";
 import { SignIn } from "./parts/sign_in";
 import { ArrayRoom } from "./rooms/arrays/array_room";
 import { Arrays } from "./rooms/arrays/arrays";
@@ -38,7 +38,7 @@ function BenchRoom() {
 
 function Room() {
   if (trouble.value) return <Empty title="imunoise does not answer" sentence={trouble.value} />;
-  if (!session.value) return <Skeleton lines={8} />;
+  if (!session.value) return <Loading />;
   if (!knownHere.value) return <SignIn />;
   const name = place.value[1];
   if (here() === "studies") return name ? <StudyRoom key={name} name={name} /> : <Studies />;
@@ -47,6 +47,7 @@ function Room() {
 }
 
 function Recording() {
+  if (!knownHere.value) return null;
   const now = [...(campaigns.value?.values() ?? [])].find((one) => one.recording);
   if (!now) return null;
   const left = now.left_s === undefined ? "" : ` · ${Math.ceil(now.left_s / 60)} min left`;

@@ -2,17 +2,19 @@
 import { computed, signal } from "@preact/signals";
 import { get, post, Refused } from "./api/client";
 import { watch } from "./api/events";
-import type { CampaignState, InputList, Job, LiveReplicate, Session, StudySummary } from "./api/schema";
+import type { CampaignState, InputList, Job, LiveReplicate, RejectedFile, Session, StudySummary } from "./api/schema";
 
 export const session = signal<Session | null>(null);
 export const connected = signal(true);
 export const place = signal<readonly string[]>([]);
 export const campaigns = signal<ReadonlyMap<string, CampaignState> | null>(null);
+export const rejected = signal<readonly RejectedFile[]>([]); // campaign files
 export const live = signal<ReadonlyMap<string, LiveReplicate>>(new Map());
 export const jobs = signal<ReadonlyMap<string, Job>>(new Map());
 export const studies = signal<readonly StudySummary[] | null>(null);
 export const inputs = signal<InputList["inputs"]>([]);
 export const trouble = signal<string>("");
+export const restarted = signal(false); // the service, since somebody signed in
 
 export const mayChange = computed(() => session.value?.role === "operator");
 export const knownHere = computed(() => session.value !== null && session.value.role !== "role_unspecified");
@@ -42,6 +44,7 @@ async function redeem(): Promise<void> {
 
 export async function signIn(token: string): Promise<void> {
   session.value = await post("/v1/session", {}, { token });
+  restarted.value = false;
   await begin();
 }
 
@@ -49,14 +52,28 @@ export async function listStudies(): Promise<void> {
   studies.value = (await get("/v1/studies")).studies;
 }
 
+/** Campaigns come and go with their files, which no event tells. */
+export async function listCampaigns(): Promise<void> {
+  const list = await get("/v1/campaigns");
+  campaigns.value = new Map(list.campaigns.map((one) => [one.campaign?.name ?? "", one]));
+  rejected.value = list.rejected;
+}
+
 async function look(): Promise<void> {
   inputs.value = (await get("/v1/inputs")).inputs;
   await listStudies();
   if (!session.value?.bench) return;
-  const all = (await get("/v1/campaigns")).campaigns;
-  campaigns.value = new Map(all.map((one) => [one.campaign?.name ?? "", one]));
+  await listCampaigns();
   const now = (await get("/v1/live")).replicates;
   live.value = new Map(now.map((one) => [one.campaign, one]));
+}
+
+// Sessions end with the program: one that was started again knows none.
+function forget(): void {
+  connected.value = true;
+  if (!knownHere.value || !session.value) return;
+  restarted.value = true;
+  session.value = { ...session.value, role: "role_unspecified" };
 }
 
 let watching = false;
@@ -71,6 +88,10 @@ async function begin(): Promise<void> {
       const back = news.connected && !connected.value;
       connected.value = news.connected;
       if (back) void look().catch(() => undefined);
+      return;
+    }
+    if ("stranger" in news) {
+      forget();
       return;
     }
     if (news.campaign) {

@@ -1,7 +1,7 @@
 // Emulated sensors are recorded; a viewer looks on.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browse, folder, operator, picture, serve, viewer, violations } from "./programs.mjs";
+import { browse, folder, operator, picture, serve, signIn, viewer, violations } from "./programs.mjs";
 
 const campaign = `name = "array"
 folder = "recordings"
@@ -14,12 +14,6 @@ driver = "emulated"
 options.device = "xsens"
 options.seed = 1
 `;
-
-async function signIn(page, url, token) {
-  await page.goto(url);
-  await page.getByLabel("Token").fill(token);
-  await page.getByRole("button", { name: "Sign in" }).click();
-}
 
 // The samples of a device as they come, its Allan deviation, and how much longer.
 async function look(page) {

@@ -1,7 +1,7 @@
 // Every device of the bench, and the history of one.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browse, folder, operator, picture, serve, violations } from "./programs.mjs";
+import { browse, folder, operator, picture, serve, signIn, violations } from "./programs.mjs";
 
 const campaign = `name = "bench"
 folder = "recordings"
@@ -28,9 +28,7 @@ options.model = ["gyro: WN(sigma2=9e-6)"]
 test("a device is listed, and its history is a click away", { timeout: 150_000 }, async (t) => {
   const { url } = await serve(t, folder(), campaign, 8474);
   const { page, problems } = await browse(t);
-  await page.goto(url);
-  await page.getByLabel("Token").fill(operator);
-  await page.getByRole("button", { name: "Sign in" }).click();
+  await signIn(page, url, operator);
   const calibrated = async (count) => {
     const known = () => page.evaluate(async () => (await (await fetch("/v1/recordings")).json()).recordings.filter((one) => one.calibrated).length);
     while ((await known()) < count) await page.waitForTimeout(300);

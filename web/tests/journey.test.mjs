@@ -1,7 +1,7 @@
 // From an emulated sensor with a hidden effect to a model that holds it, with nothing but the page.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browse, folder, operator, picture, serve, violations } from "./programs.mjs";
+import { browse, file, folder, operator, picture, serve, signIn, viewer, violations } from "./programs.mjs";
 
 const campaign = `name = "bench"
 folder = "recordings"
@@ -22,12 +22,38 @@ options.model = ["gyro: WN(sigma2=9e-6)"]
 options.effect = ["fan(frequency=23, amplitude=3e-3, channel=gyro_x)"]
 `;
 
-test("record, study, find, add", { timeout: 240_000 }, async (t) => {
-  const { url } = await serve(t, folder(), campaign, 8473);
+const waiting = campaign.replace('"bench"', '"other"').replace('"recordings"', '"elsewhere"').replace("[calib", 'settling = "1 h"\n[calib');
+
+// Someone else looks on: every button is there, none works, and a request is refused with a sentence.
+async function lookOn(t, url, address) {
+  const { page } = await browse(t);
+  await signIn(page, url, viewer);
+  await page.getByText("read only").waitFor();
+  await page.goto(address);
+  await page.locator(".candidates li").first().waitFor({ timeout: 60_000 });
+  for (const name of ["Undo", "Redo", "Branch", "+ add a term"]) assert.ok(await page.getByRole("button", { name }).isDisabled(), name);
+  assert.ok(await page.getByRole("button", { name: "Add", exact: true }).first().isDisabled());
+  await page.keyboard.press("Control+z");
+  const refused = await page.evaluate(async () => {
+    const response = await fetch(`/v1/studies/${location.hash.split("/")[2]}/add`, { method: "POST", headers: { "Content-Type": "application/json" }, body: '{"term": "RW"}' });
+    return [response.status, (await response.json()).error];
+  });
+  assert.deepEqual(refused, [403, "this needs an operator token"]);
+  assert.deepEqual(await violations(page), []);
+  await picture(page, "journey_viewer");
+}
+
+test("from an empty bench to a model that holds the hidden effect", { timeout: 480_000 }, async (t) => {
+  const where = folder();
+  const { url, child } = await serve(t, where, waiting, 8473);
   const { page, problems } = await browse(t);
-  await page.goto(url);
-  await page.getByLabel("Token").fill(operator);
-  await page.getByRole("button", { name: "Sign in" }).click();
+  await signIn(page, url, operator);
+  await page.getByText("waits until the sensors are still").waitFor({ timeout: 30_000 });
+  await page.getByRole("link", { name: "Studies" }).click();
+  await page.getByText("Nothing is recorded yet").waitFor();
+  await page.getByRole("link", { name: "Bench" }).click();
+  file(where, "bench", campaign);
+  child.kill("SIGHUP");
   await page.getByText("finished").first().waitFor({ timeout: 90_000 });
   assert.deepEqual(await violations(page), []);
   await picture(page, "bench_finished");
@@ -35,11 +61,26 @@ test("record, study, find, add", { timeout: 240_000 }, async (t) => {
   await page.getByRole("link", { name: "Studies" }).click();
   await page.getByRole("option", { name: "imu/imu/gyro_x" }).first().waitFor({ state: "attached", timeout: 20_000 });
   await page.getByLabel("channel").first().selectOption("imu/imu/gyro_x");
+  await page.getByRole("button", { name: "Study", exact: true }).first().click();
+  await page.getByRole("status").getByText("Fitting the first model").waitFor();
+  assert.deepEqual(await violations(page), []);
+  await picture(page, "job");
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await page.getByText("Fitting the first model").waitFor({ state: "detached", timeout: 10_000 });
+  await page.getByText("There is no study yet").waitFor();
   await page.getByLabel("first model").first().fill("WN");
   await page.getByRole("button", { name: "Study", exact: true }).first().click();
-  await page.locator(".candidates li").first().waitFor({ timeout: 120_000 });
+  await page.locator(".candidates li").first().waitFor({ timeout: 240_000 });
   assert.match(await page.locator(".verdict").textContent(), /something is missing/);
   await picture(page, "journey_missing");
+  await lookOn(t, url, page.url());
+  await page.getByRole("button", { name: "+ add a term" }).click();
+  await page.getByLabel("term").fill("lime(f=7)");
+  await page.locator(".model").getByRole("button", { name: "Add", exact: true }).click();
+  await page.getByRole("alert").getByText(/line/).waitFor();
+  assert.deepEqual(await violations(page), []);
+  await picture(page, "journey_error");
+  await page.getByRole("button", { name: "Close" }).click();
   const error = async () => parseFloat(await page.locator(".errors .now").first().textContent());
   const before = await error();
   await page.getByRole("button", { name: "Add", exact: true }).first().click();

@@ -50,13 +50,25 @@ export async function open(test, where, ...words) {
 export const operator = "o".repeat(32);
 export const viewer = "v".repeat(32);
 
+/** Puts a campaign where serve() looks for it. */
+export function file(where, name, campaign) {
+  mkdirSync(join(where, "campaigns"), { recursive: true });
+  writeFileSync(join(where, "campaigns", `${name}.toml`), campaign);
+}
+
 /** `imunoised` with emulated sensors. */
 export async function serve(test, where, campaign, port) {
-  writeFileSync(join(where, "array.toml"), campaign);
+  file(where, "array", campaign);
   writeFileSync(join(where, "tokens"), `operator ${operator}\nviewer ${viewer}\n`, { mode: 0o600 });
-  const words = ["--listen", `127.0.0.1:${port}`, "--tokens", "tokens", "--studies", "studies", "array.toml"];
+  const words = ["--listen", `127.0.0.1:${port}`, "--tokens", "tokens", "--studies", "studies", "campaigns"];
   const { child } = await started(test, join(dirname(imunoise), "imunoised"), words, /answers on 127.0.0.1\S+ port \d+/, where);
   return { child, url: `http://127.0.0.1:${port}/` };
+}
+
+export async function signIn(page, url, token) {
+  await page.goto(url);
+  await page.getByLabel("Token").fill(token);
+  await page.getByRole("button", { name: "Sign in" }).click();
 }
 
 /** A page that fails the test when its scripts do. */
@@ -81,15 +93,24 @@ export async function picture(page, name) {
   if (guide && existsSync(join(guide, `${name}.png`))) copyFileSync(`${screenshots}${name}_light.png`, join(guide, `${name}.png`));
 }
 
-/** What axe finds wrong, a line each. The script runs beside the page's policy, not by it. */
+/** What axe finds wrong in light and in dark, a line each. The script runs beside the page's policy, not by it. */
 export async function violations(page) {
   const client = await page.context().newCDPSession(page);
   await client.send("Runtime.evaluate", { expression: axe });
+  const found = [];
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    found.push(...(await violationsNow(client)).map((one) => `${colorScheme}: ${one}`));
+  }
+  await client.detach();
+  return found;
+}
+
+async function violationsNow(client) {
   const { result } = await client.send("Runtime.evaluate", {
     expression: "axe.run().then((found) => JSON.stringify(found.violations.map((one) => one.id + ': ' + one.nodes.map((node) => node.html.slice(0, 120) + ' ' + (node.any[0]?.message ?? '')).join('; '))))",
     awaitPromise: true,
     returnByValue: true,
   });
-  await client.detach();
   return JSON.parse(result.value);
 }

@@ -36,7 +36,7 @@ test("the hidden effect is found and the error falls", { timeout: 180_000 }, asy
   const before = await now(page);
 
   await page.getByRole("button", { name: "Preview" }).first().click();
-  await page.locator('[data-role="ghost"]').waitFor();
+  await page.locator('[data-role="ghost"]').first().waitFor();
   await picture(page, "preview");
   assert.equal(await now(page), before, "a preview changes nothing");
 

@@ -39,7 +39,10 @@ std::vector<RunOff> run_off_of(const FittedModel& fitted,
     for (const WaveletVariance& one : left)
       mean += at_scales(one, scale).variance(0) / static_cast<double>(left.size());
     const double model = variance(fitted.fit.model.noise, scale.half_widths())(0);
-    out.push_back({seconds, 2.0 * seconds * std::sqrt(model), 2.0 * seconds * std::sqrt(mean)});
+    std::int64_t stretches = 0;
+    for (std::size_t k = 0; k < subject.replicates(); ++k) stretches += subject.length(k) / (2 * m);
+    out.push_back(
+        {seconds, 2.0 * seconds * std::sqrt(model), 2.0 * seconds * std::sqrt(mean), stretches});
   }
   return out;
 }

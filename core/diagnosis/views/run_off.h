@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/regression/fitted_model.h"
@@ -13,6 +14,8 @@ struct RunOff {
   double seconds = 0.0;
   double predicted = 0.0;  ///< by the model's noise
   double measured = 0.0;   ///< over all replicates, with the model's effects taken out
+  /// Of 2·seconds without overlap: how many values `measured` rests on.
+  std::int64_t stretches = 0;
 };
 
 /// The half-widths that run_off_of() takes: 1, 10, 100 and 1000 s, as far as the replicates are

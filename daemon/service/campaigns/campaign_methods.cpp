@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "daemon/acquire/clock.h"
@@ -85,8 +86,14 @@ void add_campaign_methods(Methods& methods, CampaignControl& control,
         }
         v1::LiveList out;
         for (v1::LiveReplicate& one : control.live()) {
-          if (request.campaign().empty() || one.campaign() == request.campaign())
-            *out.add_replicates() = std::move(one);
+          if (!request.campaign().empty() && one.campaign() != request.campaign()) continue;
+          if (!request.device().empty()) {
+            const auto others = std::remove_if(
+                one.mutable_devices()->begin(), one.mutable_devices()->end(),
+                [&](const v1::LiveDevice& each) { return each.device() != request.device(); });
+            one.mutable_devices()->erase(others, one.mutable_devices()->end());
+          }
+          *out.add_replicates() = std::move(one);
         }
         return out;
       });

@@ -75,8 +75,10 @@ Answer<v1::Text> StudyPictures::draw(const v1::Study& study,
     return refuse(404,
                   "this model was tried by an older version of imunoise, which kept no figures; "
                   "try it again");
-  report::StudyFigureOptions options{
-      .view = request.view(), .attempt = attempt, .variance = request.variance()};
+  report::StudyFigureOptions options{.view = request.view(),
+                                     .attempt = attempt,
+                                     .variance = request.variance(),
+                                     .si = request.si()};
   std::optional<v1::RungPicture> preview;
   if (!request.ghost().empty()) {
     preview = ghost(study, attempt, request);

@@ -18,6 +18,8 @@ namespace imunoise::report {
 namespace {
 
 constexpr int kMostShown = 8;
+// With fewer of them, the size of a measured integrated error is a matter of chance.
+constexpr std::uint64_t kFewStretches = 10;
 
 // "WN + RW" for the first rung, "+ RES − AR1" for what came after.
 std::string name_of(const v1::Rung& rung) {
@@ -151,7 +153,10 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
       {"model"},
       {}};
   for (const v1::IntegratedError& one : report.ladder(0).drift())
-    out.head.push_back(fmt::format("{:g} s", one.seconds()));
+    out.head.push_back(one.stretches() > 0 && one.stretches() < kFewStretches
+                           ? fmt::format("{:g} s (only {} stretch{})", one.seconds(),
+                                         one.stretches(), one.stretches() == 1 ? "" : "es")
+                           : fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
     std::vector<std::string> row{name_of(rung)};
     for (const v1::IntegratedError& one : rung.drift()) {

@@ -41,6 +41,11 @@ Layer line(Role role, const std::vector<ScaleView>& scales, Value value) {
   return out;
 }
 
+bool any_known(const Layer& layer) {
+  return std::any_of(layer.data.begin(), layer.data.end(),
+                     [](const Datum& one) { return std::isfinite(one.y); });
+}
+
 void add_misfits(const BudgetView& view, Panel& to) {
   Layer out{.shape = Shape::kColumns, .role = Role::kMisfit};
   for (const Misfit& one : misfits(view)) {
@@ -93,7 +98,7 @@ void add_measured(const BudgetView& view, Panel& to) {
 }
 
 Panel budget_panel(const BudgetView& view, const BudgetWords& words) {
-  const AllanUnit allan = allan_unit(words.unit);
+  const AllanUnit allan = allan_unit(words.unit, words.si);
   Panel out{.x = {.kind = AxisKind::kLogarithmic, .title = "averaging time, s"},
             .y = {.kind = AxisKind::kLogarithmic,
                   .title = "wavelet variance ν, " + squared(words.unit),
@@ -110,16 +115,13 @@ Panel budget_panel(const BudgetView& view, const BudgetWords& words) {
   }
   add_replicates(view, out);
   add_terms(view, out);
-  Layer ghost = line(Role::kGhost, view.scales, [](const ScaleView& s) { return s.ghost; });
-  ghost.key = "with the change";
-  const auto known = [](const Datum& one) { return std::isfinite(one.y); };
-  if (std::any_of(ghost.data.begin(), ghost.data.end(), known))
-    out.layers.push_back(std::move(ghost));
   Layer model = line(Role::kModel, view.scales, [](const ScaleView& s) { return s.model; });
   model.name = "model";
   model.key = "model";
-  if (std::any_of(model.data.begin(), model.data.end(), known))
-    out.layers.push_back(std::move(model));
+  if (any_known(model)) out.layers.push_back(std::move(model));
+  Layer ghost = line(Role::kGhost, view.scales, [](const ScaleView& s) { return s.ghost; });
+  ghost.key = "with the change";
+  if (any_known(ghost)) out.layers.push_back(std::move(ghost));
   add_measured(view, out);
   if (words.mark_misfits) add_misfits(view, out);
   return out;
@@ -142,11 +144,15 @@ Panel residual_panel(const BudgetView& view) {
     if (!goes_on) untested.data.push_back({.lower = column_begin(view.scales, k)});
     untested.data.back().upper = column_end(view.scales, k);
   }
-  return {.x = {.kind = AxisKind::kLogarithmic},
-          .y = {.kind = AxisKind::kSigma, .title = "residual, σ"},
-          .shares_x = true,
-          .height = 120.0,
-          .layers = {std::move(chance), std::move(untested), std::move(bars)}};
+  Panel out{.x = {.kind = AxisKind::kLogarithmic},
+            .y = {.kind = AxisKind::kSigma, .title = "residual, σ"},
+            .shares_x = true,
+            .height = 120.0,
+            .layers = {std::move(chance), std::move(untested), std::move(bars)}};
+  Layer ghost =
+      line(Role::kGhost, view.scales, [](const ScaleView& s) { return s.ghost_residual; });
+  if (any_known(ghost)) out.layers.push_back(std::move(ghost));
+  return out;
 }
 
 std::string budget_caption(const BudgetView& view, const BudgetWords& words) {

@@ -13,6 +13,7 @@ struct BudgetWords {
   double confidence = 0.0;    ///< of the intervals; 0 where it is not known
   bool mark_misfits = false;  ///< a test says that the model fails: mark where
   bool allan = false;         ///< the view holds Allan deviations (as_allan())
+  bool si = false;            ///< Allan deviations are in `unit`, not in that of data sheets
 };
 
 /// Wavelet variance over averaging time: measured with intervals, model, its terms, replicates and

@@ -34,6 +34,7 @@ void add_ghost(const v1::NoiseBudget& from, BudgetView& to) {
     if (same == other.scales.end()) continue;
     const double explained = std::max(0.0, scale.measured - same->measured);
     scale.ghost = same->model + explained;
+    scale.ghost_residual = same->residual;
   }
 }
 
@@ -41,13 +42,14 @@ Figure averaging_times(const v1::Study& study, const v1::Rung& rung,
                        const StudyFigureOptions& options) {
   BudgetView view = budget_view(rung.picture());
   if (options.preview != nullptr) add_ghost(options.preview->budget(), view);
-  if (!options.variance) view = as_allan(std::move(view), allan_unit(study.unit()));
+  if (!options.variance) view = as_allan(std::move(view), allan_unit(study.unit(), options.si));
   return budget_figure(view, {.channel = study.channel(),
                               .unit = study.unit(),
                               .subtitle = rung.model(),
                               .confidence = 0.95,
                               .mark_misfits = fails(verdict_at(rung.misfit_p())),
-                              .allan = !options.variance});
+                              .allan = !options.variance,
+                              .si = options.si});
 }
 
 std::optional<Figure> spectrum(const v1::Study& study, const v1::RungPicture& picture,

@@ -19,6 +19,7 @@ struct StudyFigureOptions {
   std::uint32_t attempt = 0;                 ///< an attempt of the study that has a picture
   const v1::RungPicture* preview = nullptr;  ///< of a model that might be: drawn as a ghost
   bool variance = false;                     ///< wavelet variance instead of Allan deviation
+  bool si = false;                           ///< Allan deviation in SI, not in data sheets' units
 };
 
 /// Nothing where the data show nothing in this view: one replicate, no witnesses, too few samples.

@@ -130,8 +130,8 @@ double AllanUnit::variance(double deviation) const {
   return 0.5 * in_si * in_si;
 }
 
-AllanUnit allan_unit(const std::string& unit) {
-  if (const auto parsed = parse_unit(unit)) {
+AllanUnit allan_unit(const std::string& unit, bool si) {
+  if (const auto parsed = parse_unit(unit); parsed && !si) {
     const CoefficientUnits units =
         coefficient_units(Coefficient::kBiasInstability, parsed->quantity);
     if (!units.datasheet.empty()) return {units.to_datasheet * parsed->to_si, units.datasheet};

@@ -26,6 +26,8 @@ struct ScaleView {
   double model = kMissing;     ///< In unit².
   double ghost = kMissing;     ///< Total of a model that might be, in unit².
   double residual = kMissing;  ///< In standard deviations.
+  double ghost_residual =
+      kMissing;  ///< What the model that might be leaves, in standard deviations.
   bool tested = false;
   std::vector<double> terms;  ///< One a term, in unit².
 
@@ -68,8 +70,8 @@ struct AllanUnit {
 };
 
 /// Datasheet unit of a channel's Allan deviation (°/h, µg); the unit itself where none is
-/// customary.
-AllanUnit allan_unit(const std::string& unit);
+/// customary, or where SI units are wanted.
+AllanUnit allan_unit(const std::string& unit, bool si = false);
 
 /// The same with Allan deviations over their averaging times in place of wavelet variances.
 BudgetView as_allan(BudgetView view, const AllanUnit& unit);

@@ -57,7 +57,10 @@ TEST_F(ApiPage, APreviewIsDrawnAsAGhost) {
   const RawResponse with = testing::get(local_, figure + "&ghost=RW");
   ASSERT_EQ(with.status, 200) << with.body;
   EXPECT_EQ(count(plain, "data-role=\"ghost\""), 0U);
-  EXPECT_EQ(count(with.body, "data-role=\"ghost\""), 1U);
+  EXPECT_EQ(count(with.body, "data-role=\"ghost\""), 2U) << "the curve and what it leaves";
+  const std::string in_si = testing::get(local_, figure + "&si=true").body;
+  EXPECT_NE(in_si.find("Allan deviation, rad/s"), std::string::npos);
+  EXPECT_EQ(in_si.find("°/h"), std::string::npos);
 }
 
 TEST_F(ApiPage, ClientsGetNoMeasurementsWithAStudy) {

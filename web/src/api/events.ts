@@ -2,9 +2,10 @@
 // closes, the next one gets the lock. EventSource is not used: browsers allow six connections a host.
 import type { Event } from "./schema";
 
-export type News = Event | { readonly connected: boolean };
+export type News = Event | { readonly connected: boolean } | { readonly stranger: true };
 
 const kRetry = 1500; // ms
+const kSilence = 40_000; // ms, after which a stream is given up: the service says something each 15 s
 const channel = new BroadcastChannel("imunoise-events");
 const listeners = new Set<(news: News) => void>();
 
@@ -32,20 +33,34 @@ function tellAll(news: News): void {
   channel.postMessage(news);
 }
 
-async function read(): Promise<void> {
-  const response = await fetch("/v1/events", { credentials: "same-origin" });
-  if (!response.ok || !response.body) throw new Error(`status ${response.status}`);
-  tellAll({ connected: true });
-  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-  for (let text = ""; ;) {
-    const { value, done } = await reader.read();
-    if (done) return;
-    const { blocks, rest } = split(text + value);
-    text = rest;
-    for (const block of blocks) {
-      const event = parse(block);
-      if (event) tellAll(event);
+// Ends when the stream does, or falls silent. The service may have been started again since the page knew it: then it does not know the page.
+async function read(): Promise<News> {
+  const silence = new AbortController();
+  let patience = 0;
+  const hear = (): void => {
+    clearTimeout(patience);
+    patience = setTimeout(() => silence.abort(), kSilence);
+  };
+  try {
+    hear();
+    const response = await fetch("/v1/events", { credentials: "same-origin", signal: silence.signal });
+    if (response.status === 401) return { stranger: true };
+    if (!response.ok || !response.body) throw new Error(`status ${response.status}`);
+    tellAll({ connected: true });
+    const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+    for (let text = ""; ;) {
+      const { value, done } = await reader.read();
+      hear();
+      if (done) return { connected: false };
+      const { blocks, rest } = split(text + value);
+      text = rest;
+      for (const block of blocks) {
+        const event = parse(block);
+        if (event) tellAll(event);
+      }
     }
+  } finally {
+    clearTimeout(patience);
   }
 }
 
@@ -58,8 +73,7 @@ export function watch(listener: (news: News) => void): void {
   channel.onmessage = (message: MessageEvent<News>) => tell(message.data);
   void navigator.locks.request("imunoise-events", async () => {
     for (;;) {
-      await read().catch(() => undefined);
-      tellAll({ connected: false });
+      tellAll(await read().catch(() => ({ connected: false })));
       await pause(kRetry);
     }
   });

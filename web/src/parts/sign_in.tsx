@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { session, signIn } from "../state";
+import { restarted, session, signIn } from "../state";
 
 export function SignIn() {
   const [token, type] = useState("");
@@ -18,7 +18,7 @@ export function SignIn() {
   return (
     <form class="empty" onSubmit={send}>
       <h1>Sign in</h1>
-      <p>imunoised asks for a token: a line of the file that it was started with (--tokens).</p>
+      <p>{restarted.value && "imunoised was started again, and asks once more. "}The token is in the file that imunoised was started with (<span class="mono">--tokens</span>): the second word of a line.</p>
       <label for="token">Token</label>
       <input id="token" type="password" autocomplete="current-password" required value={token}
         onInput={(event) => type(event.currentTarget.value)} />

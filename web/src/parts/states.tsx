@@ -18,6 +18,14 @@ export const Skeleton = ({ lines }: { lines: number }) => (
   </div>
 );
 
+/** A room of which nothing is there yet. */
+export const Loading = () => (
+  <>
+    <h1 class="visually-hidden">Loading</h1>
+    <Skeleton lines={8} />
+  </>
+);
+
 const words: Record<string, string> = {
   open: "Fitting the first model", candidates: "Seeking what is missing", preview: "Previewing", add: "Adding the term",
   undo: "Going back", redo: "Going forward", try: "Trying the model", branch: "Copying the study",

@@ -5,7 +5,7 @@ import type { ArrayReport, SensorBudget, VirtualSensor } from "../../api/schema"
 import { Picture } from "../../figure/picture";
 import { useLoaded } from "../../parts/loaded";
 import { number } from "../../parts/numbers";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading } from "../../parts/states";
 import { arrayTitle, gainRows, gainSentence, pairVerdict, shareTerms, weightRows } from "./array_rows";
 
 interface At {
@@ -103,7 +103,7 @@ export function ArrayRoom({ campaign, folder, place }: { campaign: string; folde
   const { answer, problem } = useLoaded(() => get("/v1/arrays/{campaign}/{folder}", { campaign, folder }), `${campaign}/${folder}`);
   const back = <p><a href="#/arrays">All arrays</a></p>;
   if (problem) return <Empty title="This array cannot be shown" sentence={problem}>{back}</Empty>;
-  if (!answer) return <Skeleton lines={8} />;
+  if (!answer) return <Loading />;
   const one = answer.arrays[place];
   if (!one) return <Empty title="There is no such array" sentence="Choose one of the list.">{back}</Empty>;
   const troubles = one.troubles.map((trouble) => <p class="alarm" key={trouble.message}>{trouble.step}: {trouble.message}</p>);

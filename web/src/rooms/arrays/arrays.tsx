@@ -1,14 +1,14 @@
 // The arrays of sensors that were calibrated.
 import { get } from "../../api/client";
 import { useLoaded } from "../../parts/loaded";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading } from "../../parts/states";
 import { minute } from "../devices/device_rows";
 import { arrayTitle, placesOf } from "./array_rows";
 
 export function Arrays() {
   const { answer, problem } = useLoaded(() => get("/v1/arrays"), "");
   if (problem) return <Empty title="The arrays cannot be listed" sentence={problem} />;
-  if (!answer) return <Skeleton lines={8} />;
+  if (!answer) return <Loading />;
   if (answer.arrays.length === 0)
     return <Empty title="No array was calibrated yet" sentence="Record a device with several angular rates or accelerations, or several devices at once, and let the campaign calibrate with array = true." />;
   return (

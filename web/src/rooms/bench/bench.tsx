@@ -1,11 +1,12 @@
 // What is happening: campaigns, their devices, what is wrong, how long still.
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { post } from "../../api/client";
 import type { CampaignState, LiveDevice, LiveReplicate } from "../../api/schema";
 import { duration } from "../../parts/numbers";
-import { Empty, Skeleton, Trouble } from "../../parts/states";
-import { campaigns, live, mayChange } from "../../state";
-import { deviceFacts } from "./stream_words";
+import { Empty, Loading, Trouble } from "../../parts/states";
+import { campaigns, listCampaigns, live, mayChange, rejected } from "../../state";
+import { Sparkline } from "./sparkline";
+import { deviceFacts, lastError } from "./stream_words";
 
 const phases: Record<string, string> = {
   settling: "waits until the sensors are still", recording: "records", pausing: "pauses", calibrating: "calibrates",
@@ -36,13 +37,13 @@ function Row({ campaign, device }: { campaign: string; device: LiveDevice }) {
   return (
     <tr class={device.warnings.length > 0 || device.disk_trouble ? "doubt" : ""}>
       <th scope="row"><a href={`#/bench/${encodeURIComponent(campaign)}/${encodeURIComponent(device.device)}`}>{device.device}</a></th>
+      <td><Sparkline channel={device.last_minute} /></td>
       <td class={facts.rateOff ? "alarm" : ""}>{facts.rate}</td>
-      <td>{device.samples}</td>
       <td class={facts.missing !== "0" ? "alarm" : ""}>{facts.missing}</td>
       <td class={device.refused !== "0" ? "alarm" : ""}>{device.refused}</td>
       <td>{facts.temperature}</td>
       <td>{duration(device.elapsed_s)}</td>
-      <td>{device.disk_trouble || device.warnings[0]?.sentence || device.outlook}</td>
+      <td class={device.disk_trouble || device.warnings.length > 0 ? "alarm" : "soft"}>{lastError(device)}</td>
     </tr>
   );
 }
@@ -51,7 +52,7 @@ function Devices({ replicate }: { replicate: LiveReplicate }) {
   return (
     <div class="scroll" tabIndex={0} role="group" aria-label={`devices of ${replicate.campaign}`}>
       <table class="devices">
-        <thead><tr>{["device", "rate", "samples", "missing", "rejected", "temperature", "recorded", "state"].map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
+        <thead><tr>{["device", "last minute", "rate", "missing", "rejected", "temperature", "recorded", "last error"].map((one) => <th scope="col" key={one}>{one}</th>)}</tr></thead>
         <tbody>
           {replicate.devices.map((one) => <Row key={one.device} campaign={replicate.campaign} device={one} />)}
         </tbody>
@@ -92,9 +93,30 @@ function Campaign({ state }: { state: CampaignState }) {
   );
 }
 
+// Campaign files that imunoised does not take: what is wrong, and where.
+const Rejected = () => (
+  <section class="trouble" role="alert" aria-label="Campaign files that are not used">
+    <ul>
+      {rejected.value.map((one) => (
+        <li key={one.file}>
+          <strong>{one.file}</strong> is not used. Mend it, then send SIGHUP to imunoised:
+          <ul>{one.problems.map((problem) => <li key={problem}>{problem.replace(`${one.file}:`, "line ")}</li>)}</ul>
+        </li>
+      ))}
+    </ul>
+  </section>
+);
+
 export function Bench() {
-  if (campaigns.value === null) return <Skeleton lines={8} />;
-  if (campaigns.value.size === 0) return <Empty title="The bench is empty" sentence="Start imunoised with a campaign file, such as config/emulated.toml." />;
+  useEffect(() => void listCampaigns().catch(() => undefined), []);
+  if (campaigns.value === null) return <Loading />;
   const all = [...campaigns.value.values()];
-  return <div class="bench"><h1 class="visually-hidden">Bench</h1>{all.map((one) => <Campaign key={one.campaign?.name} state={one} />)}</div>;
+  return (
+    <div class="bench">
+      {all.length > 0 && <h1 class="visually-hidden">Bench</h1>}
+      {rejected.value.length > 0 && <Rejected />}
+      {all.length === 0 && <Empty title="The bench is empty" sentence="Put a campaign file, such as config/emulated.toml, into the folder that imunoised was started with, then send SIGHUP to imunoised." />}
+      {all.map((one) => <Campaign key={one.campaign?.name} state={one} />)}
+    </div>
+  );
 }

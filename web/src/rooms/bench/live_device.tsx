@@ -4,7 +4,7 @@ import type { LiveDevice as Device, LiveStream } from "../../api/schema";
 import { FigureView } from "../../figure/figure_view";
 import type { Place } from "../../figure/figure";
 import { duration, number } from "../../parts/numbers";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading, Skeleton } from "../../parts/states";
 import { campaigns, live } from "../../state";
 import { TraceTable, TraceView } from "../../trace/trace_view";
 import { Deviation } from "./deviation";
@@ -65,7 +65,7 @@ function Knowledge({ campaign, device }: { campaign: string; device: Device }) {
   if (!one) return <section class="knowledge"><p class="soft">No angular rate or acceleration is recorded: there is no Allan deviation to show.</p></section>;
   const asked = { campaign, device: device.device, stream: one.stream, channel: one.channel };
   // Every scale changes slowly: a new figure each ten seconds is enough.
-  const version = `${Math.floor(device.elapsed_s / 10)} ${one.scales.length > 1}`;
+  const version = String(device.elapsed_s < 10 ? Math.floor(device.elapsed_s) : 10 + Math.floor(device.elapsed_s / 10));
   return (
     <section class="knowledge" aria-label="What is known so far">
       <header>
@@ -87,7 +87,7 @@ function Knowledge({ campaign, device }: { campaign: string; device: Device }) {
 
 export function LiveDevice({ campaign, name }: { campaign: string; name: string }) {
   const back = <p><a href="#/bench">The bench</a></p>;
-  if (campaigns.value === null) return <Skeleton lines={8} />;
+  if (campaigns.value === null) return <Loading />;
   const device = live.value.get(campaign)?.devices.find((one) => one.device === name);
   if (!device) return <Empty title={`${name} is not recorded now`} sentence="When its campaign records, its samples stand here.">{back}</Empty>;
   const first = device.streams[0];
@@ -104,7 +104,7 @@ export function LiveDevice({ campaign, name }: { campaign: string; name: string 
       </header>
       {first ? <Traces key={first.stream} campaign={campaign} device={name} stream={first} /> : <Skeleton lines={6} />}
       <Knowledge campaign={campaign} device={device} />
-      <details class="scales"><summary>All averaging times of all channels</summary><Deviation device={device} /></details>
+      <Deviation campaign={campaign} device={name} elapsed={device.elapsed_s} />
     </div>
   );
 }

@@ -6,7 +6,8 @@ import { number } from "../../parts/numbers";
 export function rateWords(stream: LiveStream): string {
   const nominal = stream.nominal_hz > 0 ? `${number(stream.nominal_hz, 4)} Hz` : "";
   if (stream.rate_hz === undefined) return nominal || "–";
-  return nominal ? `${number(stream.rate_hz, 4)} of ${nominal}` : `${number(stream.rate_hz, 4)} Hz`;
+  // As many digits each time: text that changes its width jumps.
+  return nominal ? `${stream.rate_hz.toPrecision(4)} of ${nominal}` : `${number(stream.rate_hz, 4)} Hz`;
 }
 
 /** A rate that is more than a fiftieth off. */
@@ -30,6 +31,17 @@ export function deviceFacts(device: LiveDevice | undefined): DeviceFacts {
     rate: rateWords(fastest),
     rateOff: device.streams.some(offRate),
     missing: String(missing),
-    temperature: warm === undefined ? "–" : `${number(warm - 273.15)} °C`,
+    temperature: warm === undefined ? "–" : `${(warm - 273.15).toFixed(1)} °C`,
   };
 }
+
+/** What is wrong with a device now, else what was wrong last and when. */
+export function lastError(device: LiveDevice): string {
+  const now = device.disk_trouble || device.warnings[0]?.sentence;
+  if (now) return now;
+  const past = device.past_warning;
+  return past ? `${clock(past.since_ns)} UTC: ${past.sentence}` : "none";
+}
+
+// "06:12:33" of nanoseconds since 1970.
+const clock = (ns: string): string => new Date(Number(ns) / 1e6).toISOString().slice(11, 19);

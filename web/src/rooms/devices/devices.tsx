@@ -1,7 +1,7 @@
 // Every device of the bench: how often it was recorded and calibrated, and what it does now.
 import { get } from "../../api/client";
 import { useLoaded } from "../../parts/loaded";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading } from "../../parts/states";
 import { campaigns, live } from "../../state";
 import { deviceFacts } from "../bench/stream_words";
 import { type DeviceRow, deviceRows, deviceState, liveOf, minute } from "./device_rows";
@@ -31,7 +31,7 @@ export function Devices() {
   const recordings = [...(campaigns.value?.values() ?? [])].map((one) => one.recording).join(" ");
   const { answer, problem } = useLoaded(() => get("/v1/recordings"), recordings);
   if (problem) return <Empty title="The devices cannot be listed" sentence={problem} />;
-  if (!answer) return <Skeleton lines={8} />;
+  if (!answer) return <Loading />;
   const rows = deviceRows(answer.recordings);
   if (rows.length === 0) return <Empty title="No device was recorded yet" sentence="Start a campaign on the bench; its devices then stand here." />;
   return (

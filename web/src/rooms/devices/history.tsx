@@ -3,7 +3,7 @@ import { get } from "../../api/client";
 import type { History as Answer, ParameterHistory } from "../../api/schema";
 import { Picture } from "../../figure/picture";
 import { useLoaded } from "../../parts/loaded";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading } from "../../parts/states";
 import { minute, recordingsOf } from "./device_rows";
 import { parameterRow, pointRows } from "./parameter_rows";
 
@@ -64,7 +64,7 @@ export function History({ device }: { device: string }) {
   const { answer, problem } = useLoaded(() => get("/v1/history", {}, { device }), device);
   const back = <p><a href="#/devices">All devices</a></p>;
   if (problem) return <Empty title={`No history of ${device}`} sentence={problem}>{back}<Recordings device={device} /></Empty>;
-  if (!answer) return <Skeleton lines={8} />;
+  if (!answer) return <Loading />;
   return (
     <div class="list">
       {back}

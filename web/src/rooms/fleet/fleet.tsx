@@ -4,7 +4,7 @@ import { get } from "../../api/client";
 import type { FleetParameter } from "../../api/schema";
 import { Picture } from "../../figure/picture";
 import { useLoaded } from "../../parts/loaded";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading } from "../../parts/states";
 import { go } from "../../state";
 import { fleetRows, keyOf, quartiles, titleOf, unitOf, worstFirst } from "./fleet_rows";
 
@@ -39,7 +39,7 @@ export function Fleet({ type }: { type: string }) {
   const { answer, problem } = useLoaded(() => get("/v1/fleet", {}, { type }), type);
   const [wanted, choose] = useState("");
   if (problem) return <Empty title="There is no fleet to show" sentence={problem} />;
-  if (!answer) return <Skeleton lines={8} />;
+  if (!answer) return <Loading />;
   const all = worstFirst(answer.parameters);
   const one = all.find((parameter) => keyOf(parameter) === wanted) ?? all[0];
   return (

@@ -5,7 +5,7 @@ import type { Manifest, SampleRanges } from "../../api/schema";
 import { Consumers } from "../../parts/consumers";
 import { useLoaded } from "../../parts/loaded";
 import { duration, number } from "../../parts/numbers";
-import { Empty, Skeleton } from "../../parts/states";
+import { Empty, Loading, Skeleton } from "../../parts/states";
 import { kLeft, kRight } from "../../trace/draw";
 import { tracesOf } from "../../trace/ranges";
 import { TraceTable, TraceView } from "../../trace/trace_view";
@@ -125,7 +125,7 @@ export function Recording({ campaign, folder }: { campaign: string; folder: stri
   const calibrated = known?.calibrations.some((one) => one.folder === folder && one.fitted > 0);
   const back = <p><a href="#/devices">All devices</a></p>;
   if (problem) return <Empty title={`No recording ${folder}`} sentence={problem}>{back}</Empty>;
-  if (!answer) return <Skeleton lines={8} />;
+  if (!answer) return <Loading />;
   return (
     <div class="list">
       {back}

@@ -7,6 +7,8 @@ import type { StudyStore } from "./study_store";
 
 const percent = (p: number): string => (p < 1e-4 ? "less than 0.01 %" : `${number(100 * p, 2)} %`);
 
+const ended = (sentence: string): string => (/[.!?]$/.test(sentence) ? sentence : `${sentence}.`);
+
 function Falls({ study, candidate }: { study: Study; candidate: EffectCandidate }) {
   const before = errorOf(currentRung(study));
   const after = errorOf(candidate.next) ?? candidate.heldout_error_after;
@@ -19,7 +21,7 @@ function Details({ candidate }: { candidate: EffectCandidate }) {
     <div class="details">
       <p>{candidate.cause}</p>
       {candidate.confused_with.length > 0 && <p><b>Or:</b> {candidate.confused_with.map((id) => id.replaceAll("_", " ")).join(", ")}.</p>}
-      {candidate.record_next && <p><b>To be sure:</b> {candidate.record_next}</p>}
+      {candidate.record_next && <p><b>To be sure:</b> {ended(candidate.record_next)}</p>}
       {candidate.parameters.length > 0 && (
         <dl>
           {candidate.parameters.map((one) => (
@@ -56,7 +58,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
       {nothing && <p class="soft">{study.diagnosis.summary}</p>}
       <ol>
         {all.map((one, i) => {
-          const sure = surety(one);
+          const sure = surety(one, all[0]);
           const shown = preview !== "" && preview === one.term;
           return (
             <li key={`${one.effect} ${one.term}`} class={shown ? "shown" : ""}>

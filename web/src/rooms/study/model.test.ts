@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
-import type { Study } from "../../api/schema";
-import { beyondChance, brief, errorOf, mayRedo, path, split, surety, verdict, without } from "./model";
+import type { EffectCandidate, Rung, Study } from "../../api/schema";
+import { beyondChance, brief, errorOf, longestDrift, mayRedo, path, split, surety, verdict, without } from "./model";
 
 const rung = (model: string, added = "") => ({ model, added, views: [], drift: [] });
 const study = (attempts: unknown[], current: number) => ({ attempts, current }) as unknown as Study;
@@ -29,9 +29,21 @@ describe("a study", () => {
     expect(mayRedo(forked)).toBe(false);
     expect(mayRedo({ ...forked, current: 0 })).toBe(true);
   });
+  test("says how far an integral runs off over times that the data tell", () => {
+    const drift = [[1, "400"], [10, "40"], [100, "4"]].map(([seconds, stretches]) => ({ seconds, stretches }));
+    expect(longestDrift({ drift } as unknown as Rung)?.seconds).toBe(10);
+    expect(longestDrift(undefined)).toBeUndefined();
+  });
+  test("has one cause, beside others that explain less", () => {
+    const candidate = (likelihood_gain_nats: number, familywise_p: number) => ({ likelihood_gain_nats, familywise_p, confused_with: [] }) as unknown as EffectCandidate;
+    const best = candidate(3000, 1e-9);
+    expect(surety(best, best).words).toBe("sure");
+    expect(surety(candidate(2000, 1e-9), best).words).toBe("explains less");
+    expect(surety(candidate(2999, 0.01), best).words).toBe("likely");
+  });
   test("is judged by what was found", () => {
     expect(verdict(forked).mood).toBe("plain");
-    const found = { verdict: "found", candidates: [{ title: "resonance", parameters: [{ name: "frequency_hz", value: 19.8999 }] }] };
+    const found = { verdict: "found", candidates: [{ familywise_p: 1e-9, title: "resonance", parameters: [{ name: "frequency_hz", value: 19.8999 }] }] };
     expect(verdict({ ...forked, diagnosis: found } as unknown as Study).words).toBe("something is missing: resonance at 19.9 Hz");
   });
 });

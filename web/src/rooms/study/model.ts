@@ -1,5 +1,5 @@
 // A model's text and a study's attempts, as the room needs them.
-import type { EffectCandidate, Rung, Study, StudyAttempt } from "../../api/schema";
+import type { EffectCandidate, IntegratedError, Rung, Study, StudyAttempt } from "../../api/schema";
 
 /** "WN + RW + line(f=7)": its terms. A + within brackets separates nothing. */
 export function split(model: string): string[] {
@@ -85,8 +85,23 @@ export function withNumber(candidate: EffectCandidate): string {
 /** Whether noise alone makes a search look this good less often than once in twenty. Others are not listed. */
 export const beyondChance = (candidate: EffectCandidate): boolean => candidate.familywise_p < 0.05;
 
-/** How sure a candidate is, by the chance that noise alone looks this good. */
-export function surety(candidate: EffectCandidate): { words: string; mood: "good" | "doubt" } {
+export interface Surety {
+  readonly words: string;
+  readonly mood: "good" | "doubt" | "plain";
+}
+
+/** How sure a candidate is: by its rivals, by how much less it explains than the best one, and by the chance that noise alone looks this good. */
+export function surety(candidate: EffectCandidate, best: EffectCandidate | undefined): Surety {
   if (candidate.confused_with.length > 0) return { words: "or a rival", mood: "doubt" };
+  const clearly = 5; // nats
+  if (best && best !== candidate && best.likelihood_gain_nats > candidate.likelihood_gain_nats + clearly)
+    return { words: "explains less", mood: "plain" };
   return { words: candidate.familywise_p < 1e-3 ? "sure" : "likely", mood: "good" };
+}
+
+/** How far an integral runs off, over the longest time that the data tell: beyond it, few stretches make the measured value a matter of chance. */
+export function longestDrift(rung: Rung | undefined): IntegratedError | undefined {
+  const fewest = 10; // stretches
+  const told = rung?.drift.filter((one) => one.seconds <= 100 && Number(one.stretches) >= fewest) ?? [];
+  return told.at(-1);
 }

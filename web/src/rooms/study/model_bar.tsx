@@ -21,6 +21,7 @@ const byHand = [
 
 function value(coefficient: Coefficient, datasheet: boolean): string {
   const sheet = datasheet && coefficient.datasheet_unit !== "";
+  if (coefficient.value === 0) return `${coefficient.symbol} not seen`;
   return `${coefficient.symbol} ${sheet ? withUnit(coefficient.datasheet_value, coefficient.datasheet_unit) : withUnit(coefficient.value, coefficient.unit)}`;
 }
 

@@ -16,7 +16,7 @@ const kinds: Partial<Record<View, readonly string[]>> = {
 const units: Partial<Record<View, string>> = { averaging_times: "s", spectrum: "Hz", distribution: "s" };
 
 const about: Record<View, string> = {
-  averaging_times: "Circles: measured, with 95 % intervals. Filled ones deviate by more than chance.",
+  averaging_times: "Circles: measured, with 95 % intervals. Filled ones lie beyond two standard deviations, as one in 20 does by chance.",
   spectrum: "Circles: measured, with 95 % intervals. Thin line: the strongest single frequency. Marks: waves that were tested.",
   time: "Variance of the whitened noise in stretches of each replicate: orange is more than in the whole of it, blue is less.",
   distribution: "Excess kurtosis of the whitened noise. Grey: where 19 of 20 values lie if it is normal.",

@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { get, over, post } from "../../api/client";
 import type { Preflight, RecordingList } from "../../api/schema";
 import { Files } from "../../parts/files";
-import { Progress, Skeleton, Trouble } from "../../parts/states";
+import { Loading, Progress, Trouble } from "../../parts/states";
 import { go, inputs, jobs, listStudies, mayChange, session, studies } from "../../state";
 import { freeName } from "./free_name";
 
@@ -33,14 +33,16 @@ function New({ source }: { source: Source }) {
   const channel = chosen || (channels[0] ?? "");
   const [model, type] = useState("");
   const [id, follow] = useState("");
+  const [busy, work] = useState(false);
   const [problem, tell] = useState("");
   const job = jobs.value.get(id);
   const begin = async (event: Event): Promise<void> => {
     event.preventDefault();
     tell("");
+    work(true);
     const study = freeName(channel, (studies.value ?? []).map((one) => one.study));
     try {
-      let now = await post("/v1/studies", {}, { study, ...source.what, channel, model, wait_s: 2 });
+      let now = await post("/v1/studies", {}, { study, ...source.what, channel, model });
       follow(now.job);
       while (!over(now)) {
         await new Promise((next) => setTimeout(next, 300));
@@ -52,6 +54,8 @@ function New({ source }: { source: Source }) {
       if (now.state === "done") go("studies", study);
     } catch (error) {
       tell((error as Error).message);
+    } finally {
+      work(false);
     }
   };
   return (
@@ -61,7 +65,7 @@ function New({ source }: { source: Source }) {
         {channels.map((one) => <option key={one}>{one}</option>)}
       </select></label>
       <label>first model <input value={model} placeholder="chosen by cross-validation" onInput={(event) => type(event.currentTarget.value)} /></label>
-      <button type="submit" class="main" disabled={!mayChange.value || (job !== undefined && !over(job))}>Study</button>
+      <button type="submit" class="main" disabled={!mayChange.value || busy}>Study</button>
       <Files of={source.preflight} />
       {job && !over(job) && <Progress job={job} />}
       {problem && <Trouble sentence={problem} onClose={() => tell("")} />}
@@ -79,7 +83,7 @@ function useRecordings(): RecordingList["recordings"] {
 
 export function Studies() {
   const recordings = useRecordings();
-  if (studies.value === null) return <Skeleton lines={6} />;
+  if (studies.value === null) return <Loading />;
   const sources: Source[] = [
     ...inputs.value.map((one) => ({
       title: one.input && one.input.files.length > 1 ? `${one.name} and ${one.input.files.length - 1} more` : one.name,
@@ -95,6 +99,7 @@ export function Studies() {
     <div class="studies">
       <section aria-labelledby="new-title">
         <h1 id="new-title">New study</h1>
+        {sources.length > 0 && <p class="soft">Choose a channel. imunoise fits a model, shows where it fails, and seeks the effects that it lacks.</p>}
         {sources.length === 0 && <p class="soft">Nothing is recorded yet. {session.value?.bench ? "Start a campaign on the bench." : "Run imunoise open FILES."}</p>}
         {sources.map((one) => <New key={one.title} source={one} />)}
       </section>

@@ -4,12 +4,13 @@ import type { Place } from "../../figure/figure";
 import { FigureView } from "../../figure/figure_view";
 import { Files } from "../../parts/files";
 import { number } from "../../parts/numbers";
-import { Progress, Skeleton, Trouble } from "../../parts/states";
+import { Loading, Progress, Trouble } from "../../parts/states";
 import { go, mayChange } from "../../state";
 import { Candidates } from "./candidates";
 import { ErrorPanel } from "./error_panel";
 import { Export } from "./export";
 import { Ladder } from "./ladder";
+import { Limits } from "./limits";
 import { currentRung, mayRedo, verdict } from "./model";
 import { ModelBar } from "./model_bar";
 import { StudyStore } from "./study_store";
@@ -58,17 +59,15 @@ export function StudyRoom({ name }: { name: string }) {
   if (!study || !rung) {
     return store.problem.value
       ? <Trouble sentence={store.problem.value} onClose={() => go("studies")} />
-      : <Skeleton lines={12} />;
+      : <Loading />;
   }
   const judged = verdict(study);
   const still = store.busy.value || !mayChange.value;
-  const stretches = study.preflight.reduce((sum, file) => sum + file.stretches, 0) || (study.input?.files.length ?? 0);
-  const replicates = stretches * Math.max(1, study.input?.split_into ?? 1);
   return (
     <div class="study">
       <header class="study-head">
         <h1>{study.channel}</h1>
-        <span class="soft">{replicates === 1 ? "one recording" : `${replicates} replicates`} · {number(study.rate_hz)} Hz</span>
+        <span class="soft">{study.replicates > 0 && `${study.replicates === 1 ? "one replicate" : `${study.replicates} replicates`} · `}{number(study.rate_hz)} Hz</span>
         <strong class={`verdict ${judged.mood}`} role="status"><span aria-hidden="true">{judged.sign}</span> {judged.words}</strong>
         <span class="fill" />
         <button type="button" disabled={still || study.current === 0} onClick={() => void store.undo()} title="Ctrl-Z">Undo</button>
@@ -91,7 +90,7 @@ export function StudyRoom({ name }: { name: string }) {
         </Views>
         <div id="view" role="tabpanel" aria-label={views[view]}>
           <FigureView onPlace={move} path="/v1/studies/{study}/figure" fields={{ study: name }}
-            asked={{ view, variance, ghost: view === "averaging_times" || view === "spectrum" ? store.preview.value : "" }}
+            asked={{ view, variance, si: !datasheet, ghost: view === "averaging_times" || view === "spectrum" ? store.preview.value : "" }}
             version={`${study.current} ${study.attempts.length} ${study.diagnosis ? 1 : 0}`} />
         </div>
         <p class="sentence" aria-live="polite">{placeSentence(study, view, at, variance)}</p>
@@ -100,6 +99,7 @@ export function StudyRoom({ name }: { name: string }) {
         <ErrorPanel study={study} preview={store.preview.value} />
         {store.working.value && <Progress job={store.working.value} />}
         <Candidates store={store} study={study} still={still} />
+        <Limits study={study} />
         <Files of={study.preflight} />
       </aside>
       <Ladder study={study} store={store} still={still} />
