@@ -88,6 +88,8 @@ struct Channel {
   double scale_factor = 1.0;   ///< Units per number; not 0.
   double add_offset = 0.0;     ///< Units.
   std::string long_name = {};  ///< "angular rate about x"; may be empty.
+
+  bool operator==(const Channel&) const = default;
 };
 
 /// Channels that share one clock, one counter, one time column.

@@ -20,6 +20,8 @@ using plugin::DeviceError;
 
 constexpr double kBlockTime = 0.05;  // s of samples that wake the reader once
 constexpr double kMostInBlock = 1024.0;
+constexpr double kQueueTime = 5.0;  // s of samples that wait in the kernel for a busy machine
+constexpr double kLeastInQueue = 512.0;
 constexpr const char* kRateAttribute = "sampling_frequency";
 constexpr const char* kTimestamp = "timestamp";
 
@@ -45,12 +47,6 @@ bool is_imu(const iio_device* device) {
   return out;
 }
 
-double attribute(const iio_channel* channel, const char* name, double otherwise) {
-  double out = otherwise;
-  if (iio_channel_find_attr(channel, name) == nullptr) return otherwise;
-  return iio_channel_attr_read_double(channel, name, &out) == 0 ? out : otherwise;
-}
-
 std::string meaning(int error) { return std::generic_category().message(error); }
 
 }  // namespace
@@ -71,10 +67,22 @@ BufferedDevice::BufferedDevice(const Choice& choice) : context_(iio_create_local
   start();
 }
 
-std::string BufferedDevice::name() const { return describe(device_); }
+std::string BufferedDevice::name() const {
+  const char* const name = iio_device_get_name(device_);
+  return text(name == nullptr ? iio_device_get_id(device_) : name);
+}
+
+std::string BufferedDevice::lasting_name() const {
+  int same = 0;
+  for (unsigned i = 0; i < iio_context_get_devices_count(context_.get()); ++i) {
+    const iio_device* const one = iio_context_get_device(context_.get(), i);
+    same += is_imu(one) && text(iio_device_get_name(one)) == name() ? 1 : 0;
+  }
+  return same == 1 ? name() : iio_device_get_id(device_);
+}
 
 void BufferedDevice::fail(std::int32_t code, const std::string& what) const {
-  throw DeviceError(code, fmt::format("IIO {}: {}", name(), what));
+  throw DeviceError(code, fmt::format("IIO {}: {}", describe(device_), what));
 }
 
 void BufferedDevice::find(const std::string& wanted) {
@@ -101,6 +109,17 @@ void BufferedDevice::find(const std::string& wanted) {
                     wanted, there.empty() ? "none" : there));
   }
   device_ = found.front();
+}
+
+double BufferedDevice::attribute(const iio_channel* channel, const char* name,
+                                 double otherwise) const {
+  if (iio_channel_find_attr(channel, name) == nullptr) return otherwise;
+  double out = otherwise;
+  const int error = iio_channel_attr_read_double(channel, name, &out);
+  if (error < 0)
+    fail(IMUNOISE_FAILED, fmt::format("{} of {} cannot be read: {}", name,
+                                      iio_channel_get_id(channel), meaning(-error)));
+  return out;
 }
 
 void BufferedDevice::choose_channels() {
@@ -131,7 +150,8 @@ void BufferedDevice::set_trigger(const std::string& name) {
   if (error < 0) fail(IMUNOISE_BAD_OPTION, fmt::format("trigger {}: {}", name, meaning(-error)));
 }
 
-// The rate is an attribute of the device, or of its channels.
+// The rate is an attribute of the device, or of its channels. It is left alone where it is right:
+// of some devices it cannot be written.
 void BufferedDevice::set_rate(const std::optional<double>& wanted) {
   const bool of_device = iio_device_find_attr(device_, kRateAttribute) != nullptr;
   const auto with_rate =
@@ -142,23 +162,28 @@ void BufferedDevice::set_rate(const std::optional<double>& wanted) {
   if (!known && wanted)
     fail(IMUNOISE_BAD_OPTION, "its rate cannot be set; it is that of its trigger");
   if (!known) return;
-  if (wanted) {
+  const auto read = [&] {
     const int error = of_device
-                          ? iio_device_attr_write_double(device_, kRateAttribute, *wanted)
-                          : iio_channel_attr_write_double(*with_rate, kRateAttribute, *wanted);
-    if (error < 0) {
-      fail(error == -EACCES ? IMUNOISE_NO_ACCESS : IMUNOISE_BAD_OPTION,
-           fmt::format("rate {:g} Hz: {}; see its attribute sampling_frequency_available", *wanted,
-                       meaning(-error)));
-    }
+                          ? iio_device_attr_read_double(device_, kRateAttribute, &rate_hz_)
+                          : iio_channel_attr_read_double(*with_rate, kRateAttribute, &rate_hz_);
+    if (error < 0) rate_hz_ = 0.0;
+  };
+  read();
+  if (!wanted || rate_hz_ == *wanted) return;
+  const int error = of_device ? iio_device_attr_write_double(device_, kRateAttribute, *wanted)
+                              : iio_channel_attr_write_double(*with_rate, kRateAttribute, *wanted);
+  if (error < 0) {
+    fail(error == -EACCES ? IMUNOISE_NO_ACCESS : IMUNOISE_BAD_OPTION,
+         fmt::format("rate {:g} Hz: {}; see its attribute sampling_frequency_available", *wanted,
+                     meaning(-error)));
   }
-  const int error = of_device ? iio_device_attr_read_double(device_, kRateAttribute, &rate_hz_)
-                              : iio_channel_attr_read_double(*with_rate, kRateAttribute, &rate_hz_);
-  if (error < 0) rate_hz_ = 0.0;
+  read();
 }
 
 void BufferedDevice::start() {
   const double block = std::clamp(std::floor(rate_hz_ * kBlockTime), 1.0, kMostInBlock);
+  const double queue = std::max(kLeastInQueue, rate_hz_ * kQueueTime);
+  iio_device_set_kernel_buffers_count(device_, static_cast<unsigned>(std::ceil(queue / block)));
   buffer_.reset(iio_device_create_buffer(device_, static_cast<std::size_t>(block), false));
   if (!buffer_) {
     const int error = errno;

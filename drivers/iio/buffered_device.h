@@ -37,14 +37,17 @@ class BufferedDevice {
  public:
   explicit BufferedDevice(const Choice& choice);
 
-  /// Name and id: "gyro_3d (iio:device1)".
+  /// The kernel's name: "gyro_3d"; its id where it has none.
   std::string name() const;
+  /// What finds it again after it was unplugged, when its id may be another: its name, or its id
+  /// where several IMUs have that name.
+  std::string lasting_name() const;
   const std::vector<ScanChannel>& channels() const { return channels_; }
   /// 0: it does not say.
   double rate_hz() const { return rate_hz_; }
-  /// Readable when samples are there.
+  /// Readable when samples are there; not when the device disappears: only take() tells.
   int descriptor() const { return descriptor_; }
-  /// All that are there; none after a wake-up without any.
+  /// All that are there, perhaps none.
   std::vector<Scan> take();
 
  private:
@@ -54,6 +57,7 @@ class BufferedDevice {
   };
 
   void find(const std::string& wanted);
+  double attribute(const iio_channel* channel, const char* name, double otherwise) const;
   void choose_channels();
   void set_rate(const std::optional<double>& wanted);
   void set_trigger(const std::string& name);

@@ -2,22 +2,27 @@
 
 #include <chrono>
 #include <utility>
+#include <vector>
 
 namespace imunoise::iio {
 namespace {
 
 constexpr std::chrono::milliseconds kRetry{200};
 
+std::vector<drivers::Channel> channels_of(const BufferedDevice& device) {
+  std::vector<drivers::Channel> out;
+  for (const ScanChannel& channel : device.channels()) out.push_back(describe_channel(channel));
+  return out;
+}
+
 }  // namespace
 
 IioDevice::IioDevice(Choice choice, const plugin::Host& host)
     : choice_(std::move(choice)), host_(host), device_(std::in_place, choice_) {
-  drivers::Stream stream{"imu", {}, device_->rate_hz()};
-  for (const ScanChannel& channel : device_->channels()) {
-    stream.channels.push_back(describe_channel(channel));
-  }
-  info_.streams = {std::move(stream)};
+  info_.streams = {{"imu", channels_of(*device_), device_->rate_hz()}};
   info_.product = device_->name();
+  choice_.device = device_->lasting_name();
+  if (device_->rate_hz() > 0.0) choice_.rate_hz = device_->rate_hz();  // it returns with another
 }
 
 drivers::DeviceInfo IioDevice::describe() { return info_; }
@@ -26,9 +31,10 @@ bool IioDevice::reopen(const plugin::Wait& wait) {
   do {
     try {
       device_.emplace(choice_);
-      if (device_->channels().size() != info_.streams.front().channels.size()) {
-        throw plugin::DeviceError(IMUNOISE_BAD_DEVICE,
-                                  info_.product + ": came back with other channels");
+      if (channels_of(*device_) != info_.streams.front().channels) {
+        throw plugin::DeviceError(
+            IMUNOISE_BAD_DEVICE,
+            info_.product + ": came back with other channels or scales; set them as they were");
       }
       next_flags_ = IMUNOISE_SAMPLE_AFTER_RESTART;
       host_.note(info_.product + ": is back");
@@ -41,11 +47,21 @@ bool IioDevice::reopen(const plugin::Wait& wait) {
   return false;
 }
 
+// The device waited for others to open, and its queue may have been full.
+void IioDevice::drop_early() {
+  if (std::exchange(is_read_, true)) return;
+  while (!device_->take().empty()) {
+  }
+}
+
 void IioDevice::read(plugin::Samples& samples, const plugin::Wait& wait) {
   if (!device_ && !reopen(wait)) return;
-  if (!wait.ready(device_->descriptor())) return;
-  time_.look(host_);
   try {
+    drop_early();
+    wait.ready(device_->descriptor());
+    if (wait.cancelled()) return;
+    time_.look(host_);
+    // Also without samples: it is asked whether it is still there.
     for (const Scan& scan : device_->take()) {
       const std::uint32_t flags = std::exchange(next_flags_, 0);
       plugin::Row row = samples.add(0, {time_.host_time_ns(scan.time_ns), 0, 0, flags});

@@ -10,7 +10,7 @@
 namespace imunoise::iio {
 
 /// One stream "imu" with all channels of an IIO device. A device that goes away is looked for by
-/// its name at every read.
+/// its name at every read, and must come back with the channels, scales and rate that it had.
 class IioDevice final : public plugin::Device {
  public:
   /// Throws as BufferedDevice does.
@@ -21,10 +21,12 @@ class IioDevice final : public plugin::Device {
 
  private:
   bool reopen(const plugin::Wait& wait);
+  void drop_early();
 
   Choice choice_;
   plugin::Host host_;
   std::optional<BufferedDevice> device_;  // none: it is away
+  bool is_read_ = false;                  // since it was opened
   drivers::DeviceInfo info_;
   transport::KernelTime time_;
   std::uint32_t next_flags_ = IMUNOISE_SAMPLE_AFTER_RESTART;

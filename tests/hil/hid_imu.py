@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """An emulated HID sensor hub with a gyroscope and an accelerometer (HID Usage Tables, Sensors page), by /dev/uhid: the kernel makes IIO devices
-of them. Both sample at 100 Hz; the X axes count samples, Y and Z are -1 and 2 times as much.
+of them. Both sample at 100 Hz; the X axes count samples, Y and Z are -1 and 2 times as much. It is unplugged while a file of the name that it was
+given exists; the samples are counted on meanwhile.
 """
 
 import os
 import select
 import struct
+import sys
 import time
 
 CREATE2, DESTROY, OPEN, CLOSE, GET_REPORT, GET_REPLY, INPUT2, SET_REPORT, SET_REPLY = 11, 1, 4, 5, 9, 10, 12, 13, 14
@@ -50,15 +52,24 @@ def answer(device):
         os.write(device, struct.pack("<IIH", SET_REPLY, struct.unpack_from("<I", event, 4)[0], 0))
 
 
+unplugged = sys.argv[1]
 device, count, due = plug(), 0, time.monotonic()
 while True:
     left = due - time.monotonic()
     if left > 0:
-        if select.select([device], [], [], left)[0]:
+        if select.select([device] if device else [], [], [], left)[0]:
             answer(device)
         continue
     due += INTERVAL_MS / 1000
     count += 1
+    if device and os.path.exists(unplugged):
+        os.write(device, struct.pack("<I", DESTROY))
+        os.close(device)
+        device = None
+    elif not device and not os.path.exists(unplugged):
+        device = plug()
+    if not device:
+        continue
     for report in AXES:
         data = bytes([report]) + struct.pack("<iii", count, -count, 2 * count)
         os.write(device, struct.pack("<IH4096s", INPUT2, len(data), data))

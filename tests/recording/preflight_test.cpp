@@ -365,6 +365,18 @@ TEST_F(Odd, SensorsOfTwoRatesInOneTableAreTakenApart) {
   EXPECT_EQ(other->front().channels[0].count, 50U);
 }
 
+// Nanoseconds of such a time do not fit into 64 bits.
+TEST_F(Odd, AFarTimeOfSensorsThatAreTakenApartIsAGap) {
+  const auto got = odd("t [s],wx [rad/s],ax [m/s^2]", [](int i) {
+    return fmt::format("{:.2f},{},{}", 0.01 * i + (i >= 150 ? 1e11 : 0.0), 0.1 * (i % 3),
+                       i % 4 == 0 ? "0.5" : "");
+  });
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->size(), 2U);
+  expect_parts(findings(got->front()), {"gap of"});
+  EXPECT_EQ(findings(got->front()).find("backwards"), std::string::npos) << findings(got->front());
+}
+
 TEST_F(Odd, SensorsInTurnAreJoined) {
   const auto got = odd("t [s],wx [rad/s],ax [m/s^2]", [](int i) {
     return i % 2 == 0 ? fmt::format("{:.3f},{},", 0.005 * i, i)

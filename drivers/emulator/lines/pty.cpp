@@ -17,6 +17,8 @@
 namespace imunoise::emulator {
 namespace {
 
+constexpr std::chrono::seconds kDrainPatience{5};
+
 int checked(int result, const char* what) {
   if (result < 0) throw std::system_error(errno, std::generic_category(), what);
   return result;
@@ -58,15 +60,12 @@ void Pty::write(drivers::Bytes bytes) const {
 }
 
 void Pty::drain() const {
-  // On a busy machine the kernel hands bytes over late: nothing is unread while they wait.
-  constexpr int kQuiet = 10;
-  int quiet = 0;
-  for (int i = 0; quiet < kQuiet && i < 200; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    int unread = 0;
-    checked(::ioctl(host_end_, FIONREAD, &unread), "FIONREAD");
-    quiet = unread > 0 ? 0 : quiet + 1;
-  }
+  // A worker of the kernel hands bytes over, late on a busy machine. poll waits for it; FIONREAD
+  // counts only what it has handed over.
+  pollfd unread = {host_end_, POLLIN, 0};
+  const auto deadline = std::chrono::steady_clock::now() + kDrainPatience;
+  while (::poll(&unread, 1, 0) > 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 std::uint32_t Pty::host_baud() const {

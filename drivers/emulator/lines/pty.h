@@ -23,7 +23,7 @@ class Pty {
   std::size_t read(std::span<std::uint8_t> into, int timeout_ms) const;
   /// Writes what the line has room for; the rest is lost, as on a line without a reader.
   void write(drivers::Bytes bytes) const;
-  /// Waits until the host has read what was written; a second at most.
+  /// Waits until the host has read what was written; five seconds at most.
   void drain() const;
   /// The baud rate that the host has set.
   std::uint32_t host_baud() const;

@@ -15,7 +15,8 @@
 namespace imunoise::recording {
 namespace {
 
-constexpr double kMany = 0.1;  // of the rows
+constexpr double kMany = 0.1;      // of the rows
+constexpr double kFarthest = 4e9;  // s: 127 years. Differences of such times fit into int64 as ns.
 
 struct Missing {
   std::uint64_t which = 14695981039346656037U;  // tells the rows (FNV-1a)
@@ -57,8 +58,10 @@ TimedStream stream_of(const std::vector<Column*>& columns, const Clock& clock) {
   for (std::size_t i = 0; i < clock.size(); ++i) {
     if (has_value(*columns.front(), i)) rows.push_back(i);
   }
-  for (const std::size_t row : rows)
-    out.times.push_back(static_cast<std::int64_t>(std::llround(clock.at(row) * 1e9)));
+  for (const std::size_t row : rows) {
+    const double time = std::clamp(clock.at(row), -kFarthest, kFarthest);
+    out.times.push_back(static_cast<std::int64_t>(std::llround(time * 1e9)));
+  }
   for (Column* const from : columns) {
     out.name += (out.name.empty() ? "" : ",") + from->name;
     Column& to =

@@ -18,6 +18,12 @@ namespace {
 constexpr double kSameRate = 0.01;
 constexpr double kEnough = 0.9;  // of the rows that have a partner
 
+// ns. Times of a damaged file may lie further apart than int64 can say: they wrap.
+double between(std::int64_t begin, std::int64_t end) {
+  return static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(end) -
+                                                       static_cast<std::uint64_t>(begin)));
+}
+
 // ns; of most samples: gaps and bursts hardly change it.
 double usual_step(const TimedStream& one) {
   const std::size_t count = one.times.size();
@@ -25,7 +31,7 @@ double usual_step(const TimedStream& one) {
   const std::size_t stride = std::max<std::size_t>(1, count / 8192);
   std::vector<double> steps;
   for (std::size_t i = 1; i < count; i += stride)
-    steps.push_back(static_cast<double>(one.times[i] - one.times[i - 1]));
+    steps.push_back(between(one.times[i - 1], one.times[i]));
   std::vector<double> sorted = steps;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -69,7 +75,7 @@ double usual_delay(const std::vector<std::int64_t>& first, const std::vector<std
   for (std::size_t i = 0; i < first.size(); i += stride) {
     while (at < second.size() && second[at] < first[i]) ++at;
     if (at == second.size()) break;
-    const double turn = 2.0 * std::numbers::pi * static_cast<double>(second[at] - first[i]) / step;
+    const double turn = 2.0 * std::numbers::pi * between(first[i], second[at]) / step;
     sine += std::sin(turn);
     cosine += std::cos(turn);
   }
@@ -87,7 +93,7 @@ std::vector<Row> partners(const std::vector<std::int64_t>& first,
   if (second.size() >= kAlone) return out;
   Row at = 0;
   const auto away = [&](std::size_t i, Row j) {
-    return std::abs(static_cast<double>(second[j] - first[i]) - delay);
+    return std::abs(between(first[i], second[j]) - delay);
   };
   for (std::size_t i = 0; i < first.size() && at < second.size(); ++i) {
     while (at + 1 < second.size() && away(i, at + 1) <= away(i, at)) ++at;
