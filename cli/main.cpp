@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 #include "cli/commands/commands.h"
@@ -5,6 +7,23 @@
 #include "core/support/parallel.h"
 #include "recording/scratch/large_arrays.h"
 #include "study/cache/cache_folder.h"
+
+namespace {
+
+// Large arrays beyond what the user allows lie in a file.
+imunoise::recording::LargeArrays large_arrays() {
+  imunoise::recording::LargeArrays out{.folder = imunoise::study::user_cache_folder()};
+  const char* const mebibytes =
+      std::getenv("IMUNOISE_MEMORY_MIB");  // NOLINT(concurrency-mt-unsafe)
+  const long given = mebibytes == nullptr ? 0 : std::strtol(mebibytes, nullptr, 10);
+  if (given <= 0) return out;
+  out.in_memory = static_cast<std::size_t>(given) << 20U;
+  out.mapped = std::min(out.mapped, out.in_memory);
+  out.mapped_by_large = std::min(out.mapped_by_large, out.in_memory);
+  return out;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace imunoise;
@@ -15,7 +34,7 @@ int main(int argc, char** argv) {
                      std::holds_alternative<cli::EmulateArguments>(arguments.command);
   if (!lasts) {
     keep_freed_memory();
-    recording::keep_large_arrays({.folder = study::user_cache_folder()});
+    recording::keep_large_arrays(large_arrays());
   }
   std::optional<ThreadLimit> limit;
   if (arguments.threads) limit.emplace(*arguments.threads);

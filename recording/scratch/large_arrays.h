@@ -15,10 +15,10 @@ struct LargeArrays {
   /// Of the file: on a disk. Empty: there is no file.
   std::filesystem::path folder;
   /// Bytes of large arrays that lie in ordinary memory; those that come after lie in the file.
-  std::size_t in_memory = std::size_t{128} << 20U;
+  std::size_t in_memory = std::size_t{1} << 30U;
   /// Bytes of mapped files, programs among them, of which more leave the process's memory within
   /// some ms. They come back when they are used.
-  std::size_t mapped = std::size_t{128} << 20U;
+  std::size_t mapped = std::size_t{512} << 20U;
   /// The same while arrays come and go of which a few, for a transform, would not fit: up to eight
   /// of them.
   std::size_t mapped_by_large = std::size_t{1} << 30U;
