@@ -16,6 +16,11 @@ namespace {
 constexpr std::int64_t kStuckAfter = 60'000'000'000;  // ns
 constexpr double kWarming = 2.0 / 3600.0;             // K/s
 
+// "once", "3 times".
+std::string times(std::size_t count) {
+  return count == 1 ? "once" : fmt::format("{} times", count);
+}
+
 bool of_inertia(Quantity quantity) {
   return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
 }
@@ -202,8 +207,8 @@ void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
   };
   if (const auto since = of.lost.since(of.now_ns)) {
     add(v1::lost_samples, "", *since,
-        fmt::format("samples were rejected or are missing, {} times in the last minutes",
-                    of.lost.count()));
+        fmt::format("samples were rejected or are missing, {} in the last minutes",
+                    times(of.lost.count())));
   }
   for (const Channel& one : of.channels) {
     if (const auto since = one.saturated.since(of.now_ns)) {
@@ -267,8 +272,8 @@ v1::LiveWarning LiveDevice::past_warning() const {
     const v1::RecordedStream& stream = device_.streams(static_cast<int>(s));
     const Stream& of = streams_[s];
     see(v1::lost_samples, of.lost, of,
-        fmt::format("{}: samples were rejected or missing, {} times", stream.name(),
-                    of.lost.count()));
+        fmt::format("{}: samples were rejected or missing, {}", stream.name(),
+                    times(of.lost.count())));
     for (const Channel& one : of.channels) {
       see(v1::saturated, one.saturated, of,
           fmt::format("{}: {} samples were at the limit of the range",
