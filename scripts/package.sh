@@ -21,6 +21,7 @@ package=$(find "$out" -maxdepth 1 -name "*.deb" -newer build/log/package-build.t
 echo
 dpkg-deb --info "$package"
 echo "lintian:"
-lintian --allow-root --fail-on error,warning "$package" && echo "no errors, no warnings"
+lintian --allow-root --fail-on error,warning "$package"
+echo "no errors, no warnings"
 echo
 echo "The package: $package"
