@@ -73,7 +73,8 @@ void put_bench_first(const std::string& bench, std::vector<std::string>& row) {
 Document document(const v1::RecordingList& list, Digits digits) {
   const bool benches = of_benches(list.recordings());
   Table table{"Recordings",
-              {"started (UTC)", "folder", "devices", "replicates", "samples", "MB", "state"},
+              {"started (UTC)", "folder", "devices", "replicates", "samples", "MB", "state",
+               "largest N, B, K"},
               {}};
   if (benches) put_bench_first("bench", table.head);
   Section section;

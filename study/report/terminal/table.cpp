@@ -1,6 +1,7 @@
 #include "study/report/terminal/table.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "study/words/text.h"
@@ -91,6 +92,7 @@ std::string terminal_table(const std::vector<std::string>& head,
   cells.insert(cells.end(), rows.begin(), rows.end());
   std::vector<std::size_t> widths(head.size(), 0);
   for (auto& row : cells) {
+    assert(row.size() <= head.size());
     for (std::size_t c = 0; c < row.size(); ++c) {
       row[c] = terminal_text(row[c], style);
       widths[c] = std::max(widths[c], display_width(row[c]));
