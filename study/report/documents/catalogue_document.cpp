@@ -73,8 +73,7 @@ void put_bench_first(const std::string& bench, std::vector<std::string>& row) {
 Document document(const v1::RecordingList& list, Digits digits) {
   const bool benches = of_benches(list.recordings());
   Table table{"Recordings",
-              {"started (UTC)", "folder", "devices", "replicates", "samples", "MB", "state",
-               "largest N, B, K"},
+              {"started (UTC)", "folder", "devices", "replicates", "samples", "MB", "state"},
               {}};
   if (benches) put_bench_first("bench", table.head);
   Section section;
@@ -83,8 +82,8 @@ Document document(const v1::RecordingList& list, Digits digits) {
     calibrated += one.calibrated() ? 1 : 0;
     table.rows.push_back({minute(one.started_ns()), one.folder(), devices_of(one),
                           std::to_string(one.replicates()), count(one.samples(), digits),
-                          number(static_cast<double>(one.bytes()) / 1e6, 3, digits), state_of(one),
-                          short_words(one.noise(), digits)});
+                          number(static_cast<double>(one.bytes()) / 1e6, 3, digits),
+                          state_of(one)});
     if (benches) put_bench_first(one.bench(), table.rows.back());
     if (!one.trouble().empty()) section.notes.push_back(one.trouble());
   }
