@@ -11,7 +11,23 @@ namespace {
 // No row of a table is this long; a binary file without line ends is.
 constexpr std::size_t kMaximumLine = std::size_t{1} << 20U;
 
+// CR where the beginning of a file has no LF; whatever the size of blocks.
+char ending_of(const File& file) {
+  std::vector<char> beginning(std::min<std::uint64_t>(kBlockBytes, file.size()));
+  const Result<std::size_t> got = file.read_at(0, beginning);
+  const std::string_view read(beginning.data(), got.value_or(0));
+  const bool old = read.find('\n') == std::string_view::npos &&
+                   read.substr(0, read.size() - std::min<std::size_t>(1, read.size())).find('\r') !=
+                       std::string_view::npos;
+  return old ? '\r' : '\n';
+}
+
 }  // namespace
+
+LineReader::LineReader(const File& file, std::size_t block_bytes)
+    : file_(file),
+      block_bytes_(std::min<std::uint64_t>(block_bytes, file.size() + 1)),
+      ending_(ending_of(file)) {}
 
 bool LineReader::load_more() {
   const std::size_t kept = end_ - begin_;
@@ -32,11 +48,6 @@ bool LineReader::load_more() {
     error_ = got.error();
     return false;
   }
-  const std::string_view read(buffer_.data() + kept, *got);
-  if (loaded_ == 0 && read.find('\n') == std::string_view::npos &&
-      read.substr(0, read.size() - std::min<std::size_t>(1, read.size())).find('\r') !=
-          std::string_view::npos)
-    ending_ = '\r';
   loaded_ += *got;
   end_ += *got;
   return *got > 0;

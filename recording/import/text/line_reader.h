@@ -2,7 +2,6 @@
 
 // Lines of a text file of any length, read in blocks of fixed size.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,8 +19,7 @@ inline constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
 class LineReader {
  public:
   /// `block_bytes` (at least 1) is a parameter so that tests can put block borders anywhere.
-  LineReader(const File& file, std::size_t block_bytes)
-      : file_(file), block_bytes_(std::min<std::uint64_t>(block_bytes, file.size() + 1)) {}
+  LineReader(const File& file, std::size_t block_bytes);
 
   /// The next line without its ending (LF, CRLF or CR) and without the byte order mark of UTF-8;
   /// valid until the next call. Nothing at the end of the file or after an error: ask error().
@@ -43,7 +41,7 @@ class LineReader {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uint64_t loaded_ = 0;
-  char ending_ = '\n';
+  char ending_;
   std::size_t line_number_ = 0;
   std::optional<Error> error_;
 };
