@@ -50,7 +50,8 @@ TEST_F(TextProperty, TablesComeBackBitForBit) {
         text += fmt::format(fmt::runtime(format[below(4)]), table[c].back());
       }
       if (r + 1 < rows || below(2) == 0) text += ending;
-      if (below(20) == 0 && text.ends_with(ending)) text += "# a comment, with; delimiters" + ending;
+      if (below(20) == 0 && text.ends_with(ending))
+        text += "# a comment, with; delimiters" + ending;
     }
     const Progress progress;
     std::atomic<double> done = 0.0;
