@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # How memory and time of the whole program grow with the length of a recording: peaks of `imunoise wv`, `fit` and
-# `diagnose` on simulated files. Needs 3 GB of disk, and as much in the cache folder meanwhile.
+# `diagnose` on simulated files, with 128 MiB of large arrays in memory. Needs 3 GB of disk, and as much in the cache
+# folder meanwhile.
 set -euo pipefail
+export IMUNOISE_MEMORY_MIB=128
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
 

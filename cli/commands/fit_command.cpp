@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "cli/commands/commands.h"
-#include "cli/input.h"
+#include "cli/each_channel.h"
 #include "cli/output.h"
-#include "cli/progress_line.h"
 #include "study/analysis/preflights.h"
 #include "study/figure/svg.h"
 #include "study/report/figures/budget_figure.h"
@@ -26,19 +25,6 @@ Result<void> write_pictures(const v1::FitReports& reports, const std::filesystem
   return {};
 }
 
-Result<v1::FitReports> reports_of(const Subjects& subjects, const FitArguments& arguments) {
-  v1::FitReports out;
-  ProgressLine line("fitting");
-  for (std::size_t i = 0; i < subjects.series.size(); ++i) {
-    const study::Series& series = subjects.series[i];
-    const auto done = study::fit_series(series, arguments.fit,
-                                        line.part(i, subjects.series.size(), series.channel));
-    if (!done) return tl::unexpected(done.error());
-    *out.add_channels() = *done;
-  }
-  return out;
-}
-
 int status_of(const v1::FitReports& reports, const FitArguments& arguments) {
   constexpr int kMisfit = 3;
   const bool misfit =
@@ -52,7 +38,10 @@ int status_of(const v1::FitReports& reports, const FitArguments& arguments) {
 int run(const FitArguments& arguments) {
   const auto subjects = read_subjects(arguments.input, named_model(arguments.fit.model));
   if (!subjects) return print_error(subjects.error());
-  auto reports = reports_of(*subjects, arguments);
+  auto reports = each_channel<v1::FitReports>(
+      *subjects, "fitting", [&](const study::Series& series, const Progress& progress) {
+        return study::fit_series(series, arguments.fit, progress);
+      });
   if (!reports) return print_error(reports.error());
   study::add_preflight(subjects->replicates, *reports);
   if (arguments.report) {

@@ -1,32 +1,17 @@
 #include "cli/commands/commands.h"
-#include "cli/input.h"
-#include "cli/progress_line.h"
+#include "cli/each_channel.h"
 #include "cli/show.h"
 #include "study/analysis/preflights.h"
 
 namespace imunoise::cli {
-namespace {
-
-Result<v1::StationarityReports> reports_of(const Subjects& subjects,
-                                           const TestArguments& arguments) {
-  v1::StationarityReports out;
-  ProgressLine line("testing");
-  for (std::size_t i = 0; i < subjects.series.size(); ++i) {
-    const study::Series& series = subjects.series[i];
-    const auto done = study::test_series(series, arguments.test,
-                                         line.part(i, subjects.series.size(), series.channel));
-    if (!done) return tl::unexpected(done.error());
-    *out.add_channels() = *done;
-  }
-  return out;
-}
-
-}  // namespace
 
 int run(const TestArguments& arguments) {
   const auto subjects = read_subjects(arguments.input, named_model(arguments.test.model));
   if (!subjects) return print_error(subjects.error());
-  auto reports = reports_of(*subjects, arguments);
+  auto reports = each_channel<v1::StationarityReports>(
+      *subjects, "testing", [&](const study::Series& series, const Progress& progress) {
+        return study::test_series(series, arguments.test, progress);
+      });
   if (!reports) return print_error(reports.error());
   study::add_preflight(subjects->replicates, *reports);
   return show(*reports, arguments.show);

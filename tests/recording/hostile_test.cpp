@@ -238,8 +238,8 @@ TEST_F(HostileFiles, TakeLittleMemory) {
   }
 }
 
-// Beginnings of a file, `step` bytes apart: an error that names it, or finite numbers, of which a
-// longer beginning has no fewer, but for a last record that is cut.
+// Reads beginnings of a file, `step` bytes apart. Each gives an error that names the file, or
+// finite numbers. A longer beginning gives no fewer numbers, except for a last record that is cut.
 void expect_every_beginning(const std::filesystem::path& file, const std::string& bytes,
                             const ImportOptions& options, std::size_t whole, std::size_t step = 1) {
   std::size_t before = 0;

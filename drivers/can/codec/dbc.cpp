@@ -8,9 +8,9 @@
 #include <cmath>
 #include <set>
 
+#include "core/support/utf8.h"
 #include "drivers/can/codec/dbc_lexer.h"
 #include "drivers/can/codec/identifier.h"
-#include "drivers/can/codec/utf8.h"
 
 namespace imunoise::drivers {
 namespace {
@@ -195,7 +195,7 @@ class Parser {
     expect_mark("|");
     number("a maximum");
     expect_mark("]");
-    out.unit = utf8_text(expect(DbcToken::Kind::kText, "a unit in quotes").text);
+    out.unit = as_utf8(expect(DbcToken::Kind::kText, "a unit in quotes").text);
     expect(DbcToken::Kind::kName, "a receiver's name");
     while (!error_ && token_.is(",")) {
       advance();

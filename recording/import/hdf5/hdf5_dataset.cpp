@@ -14,8 +14,8 @@
 namespace imunoise::recording {
 namespace {
 
-// Of a dataset with so many numbers along its dimension `time`: about a million, and whole chunks,
-// each of which is unpacked as a whole.
+// Of a dataset with so many numbers along its dimension `time`: about a million, in whole chunks,
+// because HDF5 unpacks a chunk as a whole.
 hsize_t numbers_in_piece(hid_t dataset, int time, hsize_t count) {
   constexpr hsize_t kMany = hsize_t{1} << 20U;
   const Hdf5Handle how(H5Dget_create_plist(dataset), H5Pclose);

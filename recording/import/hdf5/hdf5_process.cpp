@@ -273,7 +273,7 @@ class Hdf5Process : public Hdf5Reader {
     if (!in.good() || out.type > 2 || out.count == 0 || out.count > most) return nonsense();
     return out;
   }
-  // Piece by piece, the first of which was announced.
+  // Piece by piece; the child announced the first.
   template <class Number>
   Result<Samples> receive_numbers(std::uint64_t all, Head head) {
     std::vector<Number> out(all);

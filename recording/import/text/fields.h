@@ -16,9 +16,6 @@ std::vector<std::string> split_fields(std::string_view line, char delimiter);
 /// "gyro_x [deg/s]" is one field.
 std::vector<std::string> split_header(std::string_view line, char delimiter);
 
-/// The text itself where it is UTF-8, else its bytes as characters of Latin-1 ("°", "²").
-std::string as_utf8(std::string_view text);
-
 /// A column's name, and its unit where the header states one.
 struct HeaderField {
   std::string name;

@@ -18,7 +18,7 @@ export const Skeleton = ({ lines }: { lines: number }) => (
   </div>
 );
 
-/** A room of which nothing is there yet. */
+/** A room whose data have not arrived yet. */
 export const Loading = () => (
   <>
     <h1 class="visually-hidden">Loading</h1>
