@@ -2,44 +2,27 @@
 
 #include "study/ladder/study.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <map>
-#include <numeric>
-#include <set>
 #include <stop_token>
 #include <thread>
 
 #include "core/model/model.h"
-#include "study/analysis/diagnose_series.h"
-#include "study/analysis/evaluate.h"
 #include "study/analysis/fit_series.h"
 #include "study/ladder/study_file.h"
+#include "tests/study/quantised_recording.h"
+
 namespace imunoise::study {
 namespace {
-
-// Three replicates of white noise and a walk, with quantisation noise that the model lacks.
-Result<std::vector<recording::Replicate>> read(const v1::StudyInput&, const std::string&) {
-  constexpr Hertz kRate{50.0};
-  const Model noise = *parse_model("WN(sigma2=1) + RW(gamma2=1e-5) + QN(q2=0.3)", kRate);
-  std::vector<recording::Replicate> out;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    auto samples = std::make_shared<recording::Samples>(simulate(noise, 4096, 21, k));
-    recording::Channel channel{"gyro_x", samples, 0, 4096, 1.0, 0.0, *parse_unit("rad/s"), kRate};
-    out.push_back({"run" + std::to_string(k + 1), "", kRate, {channel}});
-  }
-  return out;
-}
 
 v1::Study opened() {
   v1::StudyRequest request;
   request.mutable_open()->set_channel("gyro_x");
   request.mutable_open()->set_model("WN + RW");
-  const auto study = apply({}, request, read);
+  const auto study = apply({}, request, read_quantised);
   EXPECT_TRUE(study) << study.error().message;
   return *study;
 }
@@ -63,27 +46,28 @@ TEST(Study, WhatIsAddedMakesTheErrorFallAndCanBeTakenBack) {
 
   v1::StudyRequest seek;
   seek.mutable_candidates();
-  const auto sought = apply(first, seek, read);
+  const auto sought = apply(first, seek, read_quantised);
   ASSERT_TRUE(sought) << sought.error().message;
   EXPECT_EQ(sought->diagnosis().verdict(), v1::found);
   EXPECT_EQ(sought->diagnosis().candidates(0).effect(), "quantisation");
 
-  const auto second = apply(*sought, adding(sought->diagnosis().candidates(0).term()), read);
+  const auto second =
+      apply(*sought, adding(sought->diagnosis().candidates(0).term()), read_quantised);
   ASSERT_TRUE(second) << second.error().message;
   EXPECT_EQ(current_model(*second), "WN + RW + QN");
   EXPECT_FALSE(second->has_diagnosis());  // it was about another model
   EXPECT_LT(second->attempts(1).rung().unexplained(), second->attempts(0).rung().unexplained());
   EXPECT_GT(second->attempts(1).rung().log_likelihood(), 10.0);
 
-  const auto back = apply(*second, undoing(), read);
+  const auto back = apply(*second, undoing(), read_quantised);
   ASSERT_TRUE(back);
   EXPECT_EQ(current_model(*back), "WN + RW");
   EXPECT_TRUE(back->attempts(1).undone());
-  EXPECT_FALSE(apply(*back, undoing(), read));
+  EXPECT_FALSE(apply(*back, undoing(), read_quantised));
 
   v1::StudyRequest branch = adding("line(f=3)");
   branch.mutable_add()->set_branch_from(1);
-  const auto other = apply(*back, branch, read);
+  const auto other = apply(*back, branch, read_quantised);
   ASSERT_TRUE(other) << other.error().message;
   EXPECT_EQ(other->current(), 2u);
   EXPECT_EQ(other->attempts(2).parent(), 1u);
@@ -99,32 +83,32 @@ v1::StudyRequest redoing() {
 
 TEST(Study, WhatWasTakenBackComesAgainInItsOrder) {
   const v1::Study first = opened();
-  EXPECT_FALSE(apply(first, redoing(), read)) << "nothing was undone";
-  v1::Study study = *apply(first, adding("QN"), read);
-  study = *apply(study, adding("ramp"), read);
+  EXPECT_FALSE(apply(first, redoing(), read_quantised)) << "nothing was undone";
+  v1::Study study = *apply(first, adding("QN"), read_quantised);
+  study = *apply(study, adding("ramp"), read_quantised);
   const std::string top = current_model(study);
-  study = *apply(*apply(study, undoing(), read), undoing(), read);
+  study = *apply(*apply(study, undoing(), read_quantised), undoing(), read_quantised);
   EXPECT_EQ(current_model(study), "WN + RW");
 
-  study = *apply(study, redoing(), read);
+  study = *apply(study, redoing(), read_quantised);
   EXPECT_EQ(study.current(), 1U);
   EXPECT_FALSE(study.attempts(1).undone());
   EXPECT_TRUE(study.attempts(2).undone());
-  study = *apply(study, redoing(), read);
+  study = *apply(study, redoing(), read_quantised);
   EXPECT_EQ(current_model(study), top);
-  EXPECT_FALSE(apply(study, redoing(), read)) << "that was the last";
+  EXPECT_FALSE(apply(study, redoing(), read_quantised)) << "that was the last";
 }
 
 TEST(Study, AnotherModelIsTriedBesideTheCurrentOne) {
   v1::StudyRequest request;
   request.mutable_try_model()->set_model("WN");
-  const auto study = apply(opened(), request, read);
+  const auto study = apply(opened(), request, read_quantised);
   ASSERT_TRUE(study) << study.error().message;
   EXPECT_EQ(current_model(*study), "WN");
   EXPECT_EQ(study->attempts(1).parent(), 0U);
   EXPECT_LE(study->attempts(1).rung().log_likelihood(), 0.0) << "it has fewer terms";
   request.mutable_try_model()->set_model("WM");
-  EXPECT_FALSE(apply(*study, request, read));
+  EXPECT_FALSE(apply(*study, request, read_quantised));
 }
 
 TEST(Study, AnAttemptKeepsWhatItsFiguresAreDrawnFrom) {
@@ -148,7 +132,7 @@ TEST(Study, AnAttemptKeepsWhatItsFiguresAreDrawnFrom) {
 
 TEST(Study, ItsNumbersAreThoseOfAFitByLikelihood) {
   const v1::Rung rung = opened().attempts(0).rung();
-  const std::vector<recording::Replicate> replicates = *read({}, "");
+  const std::vector<recording::Replicate> replicates = *read_quantised({}, "");
   const Series series = series_of(replicates, 0);
   FitOptions options;
   options.model = "WN + RW";
@@ -173,14 +157,14 @@ TEST(Study, WhatIsKnownIsNotWorkedOutAgain) {
   const v1::Study first = opened();
   v1::StudyRequest seek;
   seek.mutable_candidates();
-  const auto sought = apply(first, seek, read);
+  const auto sought = apply(first, seek, read_quantised);
   ASSERT_TRUE(sought) << sought.error().message;
   const ReadInput nothing = [](const v1::StudyInput&, const std::string&) {
     return Result<std::vector<recording::Replicate>>(fail("nothing may be read"));
   };
   for (int i = 0; i < 2; ++i) {
     const v1::EffectCandidate& candidate = sought->diagnosis().candidates(i);
-    const auto slow = apply(first, adding(candidate.term()), read);
+    const auto slow = apply(first, adding(candidate.term()), read_quantised);
     const auto quick = apply(*sought, adding(candidate.term()), nothing);
     ASSERT_TRUE(slow && quick) << candidate.term();
     EXPECT_EQ(study_text(*quick), study_text(*slow)) << candidate.term();
@@ -201,7 +185,7 @@ TEST(Study, AStopIsHeededWheneverItComes) {
   v1::StudyRequest seek;
   seek.mutable_candidates();
   const auto begin = Clock::now();
-  ASSERT_TRUE(apply(first, seek, read));
+  ASSERT_TRUE(apply(first, seek, read_quantised));
   const auto whole = Clock::now() - begin;
   for (int moment = 0; moment <= 24; ++moment) {
     std::stop_source source;
@@ -210,7 +194,7 @@ TEST(Study, AStopIsHeededWheneverItComes) {
       std::this_thread::sleep_for(moment * whole / 100);
       source.request_stop();
     });
-    const auto done = apply(first, seek, read, Progress({}, source.get_token()));
+    const auto done = apply(first, seek, read_quantised, Progress({}, source.get_token()));
     ASSERT_FALSE(done) << moment;
     EXPECT_EQ(done.error().message, "stopped") << moment;
   }
@@ -218,13 +202,13 @@ TEST(Study, AStopIsHeededWheneverItComes) {
 
 TEST(Study, ARequestThatCannotBeDoneChangesNothing) {
   const v1::Study study = opened();
-  EXPECT_FALSE(apply(study, adding("line(f=99)"), read));
-  EXPECT_FALSE(apply(study, adding("XYZ"), read));
-  EXPECT_FALSE(apply(study, adding("witness(temperature)"), read));
-  EXPECT_FALSE(apply(study, v1::StudyRequest(), read));
+  EXPECT_FALSE(apply(study, adding("line(f=99)"), read_quantised));
+  EXPECT_FALSE(apply(study, adding("XYZ"), read_quantised));
+  EXPECT_FALSE(apply(study, adding("witness(temperature)"), read_quantised));
+  EXPECT_FALSE(apply(study, v1::StudyRequest(), read_quantised));
   v1::StudyRequest branch = adding("QN");
   branch.mutable_add()->set_branch_from(7);
-  EXPECT_FALSE(apply(study, branch, read));
+  EXPECT_FALSE(apply(study, branch, read_quantised));
 }
 
 TEST(Study, ItsFileIsReadAsItWasWritten) {
@@ -245,7 +229,7 @@ TEST(Study, ItsFileIsReadAsItWasWritten) {
 
 TEST(Study, OtherRecordingsAreRefused) {
   const auto other = [](const v1::StudyInput& input, const std::string& channel) {
-    auto out = read(input, channel);
+    auto out = read_quantised(input, channel);
     out->back().channels[0].count -= 1;
     return out;
   };
@@ -255,7 +239,7 @@ TEST(Study, OtherRecordingsAreRefused) {
 }
 
 TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
-  const auto next = apply(opened(), adding("line(f=7)"), read);
+  const auto next = apply(opened(), adding("line(f=7)"), read_quantised);
   ASSERT_TRUE(next) << next.error().message;
   const v1::Rung& rung = next->attempts(1).rung();
   ASSERT_EQ(rung.effects_size(), 1);
@@ -263,14 +247,14 @@ TEST(Study, AnAttemptTellsTheValuesOfItsEffects) {
   ASSERT_EQ(rung.effects(0).parameters_size(), 1);
   EXPECT_EQ(rung.effects(0).parameters(0).name(), "amplitude");
   EXPECT_NE(rung.fitted_model().find("sigma2="), std::string::npos) << rung.fitted_model();
-  EXPECT_FALSE(apply(*next, adding("line(f=7)"), read)) << "it is there already";
+  EXPECT_FALSE(apply(*next, adding("line(f=7)"), read_quantised)) << "it is there already";
 }
 
 TEST(Study, ModulationIsToldPerUnitOfItsWitness) {
   constexpr Hertz kRate{50.0};
   constexpr double kSlope = 0.3;  // of the logarithm of the variance, 1/K
   const ReadInput warmed = [&](const v1::StudyInput& input, const std::string& channel) {
-    auto recordings = *read(input, channel);
+    auto recordings = *read_quantised(input, channel);
     for (recording::Replicate& one : recordings) {
       auto values = std::get<std::vector<double>>(*one.channels[0].samples);
       std::vector<double> kelvins(values.size());
@@ -295,160 +279,6 @@ TEST(Study, ModulationIsToldPerUnitOfItsWitness) {
   EXPECT_EQ(slope.unit(), "1/K");
   // The error is √(2/12288) over the temperature's deviation of √2 K.
   EXPECT_NEAR(slope.value(), kSlope, 4.0 * std::sqrt(2.0 / 12288.0) / std::sqrt(2.0));
-}
-
-bool tells(const v1::DiagnosisReport& report, const std::string& words) {
-  return std::any_of(report.notes().begin(), report.notes().end(), [&](const std::string& note) {
-    return note.find(words) != std::string::npos;
-  });
-}
-
-TEST(Diagnose, TheShortestRecordingsAreLookedAt) {
-  const auto whole = *read({}, "");
-  for (std::size_t samples = 16; samples <= 80; samples += 3) {
-    auto recordings = whole;
-    for (recording::Replicate& one : recordings) one.channels[0].count = samples;
-    DiagnoseOptions options;
-    options.model = "WN";
-    options.automatic = true;
-    const auto report = diagnose_series(recordings, 0, options);
-    EXPECT_TRUE(report) << samples << ": " << report.error().message;
-  }
-}
-
-// A coupling behind a lag, or squared, is another one, in another unit.
-TEST(Diagnose, LimitsTellWhichCouplingTheyAreOf) {
-  constexpr Hertz kRate{50.0};
-  auto recordings = *read({}, "");
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const Model own = *parse_model("WN(sigma2=1) + RW(gamma2=1e-3)", kRate);
-    auto samples = std::make_shared<recording::Samples>(simulate(own, 4096, 22, k));
-    recordings[k].channels.push_back(
-        {"temperature", samples, 0, 4096, 1.0, 0.0, *parse_unit("K"), kRate});
-  }
-  DiagnoseOptions options;
-  options.model = "WN + RW + QN";
-  const auto report = diagnose_series(recordings, 0, options);
-  ASSERT_TRUE(report) << report.error().message;
-  std::map<std::string, std::string> units;
-  std::set<std::string> ramps;
-  for (const v1::DetectionLimit& one : report->limits()) {
-    if (one.effect() == "line") {
-      EXPECT_EQ(one.term(), "") << "any frequency is meant";
-    }
-    if (one.effect() == "rate_ramp") ramps.insert(one.term());
-    if (one.witness() != "temperature") continue;
-    EXPECT_TRUE(units.emplace(one.term(), one.unit()).second) << one.term() << " twice";
-  }
-  EXPECT_EQ(ramps, (std::set<std::string>{"ramp", "ramp(own)"}));
-  EXPECT_EQ(units["witness(temperature)"], "rad/s/K");
-  EXPECT_EQ(units["witness(temperature, quadratic)"], "rad/s/K²");
-}
-
-TEST(Diagnose, WhatRemainsIsToldOnceEverythingIsAdded) {
-  DiagnoseOptions options;
-  options.model = "WN + RW";
-  options.automatic = true;
-  const auto report = diagnose_series(*read({}, ""), 0, options);
-  ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->verdict(), v1::found);
-  ASSERT_TRUE(report->has_remaining());
-  EXPECT_EQ(report->remaining(), v1::none);
-  EXPECT_NE(report->summary().find("no further effect is missing"), std::string::npos)
-      << report->summary();
-}
-
-TEST(Diagnose, WhatStandsStillIsCutAndTold) {
-  auto recordings = *read({}, "");
-  auto held = std::get<std::vector<double>>(*recordings[1].channels[0].samples);
-  std::fill(held.begin() + 1000, held.begin() + 1400, held[1000]);
-  std::fill(held.begin() + 2000, held.begin() + 2100, held[2000]);
-  recordings[1].channels[0].samples = std::make_shared<recording::Samples>(held);
-  DiagnoseOptions options;
-  options.model = "WN + RW";
-  const auto report = diagnose_series(recordings, 0, options);
-  ASSERT_TRUE(report) << report.error().message;
-  ASSERT_GT(report->integrity_size(), 0);
-  EXPECT_EQ(report->integrity(0).effect(), "stuck");
-  EXPECT_EQ(report->integrity(0).count(), 500U);
-  EXPECT_NE(report->integrity(0).sentence().find("in 2 places, the first from 20.00 s"),
-            std::string::npos)
-      << report->integrity(0).sentence();
-  EXPECT_EQ(report->candidates(0).effect(), "stuck");
-  EXPECT_EQ(report->candidates(1).effect(), "quantisation");  // what the rest lacks
-  ASSERT_EQ(report->compared_before().replicates_size(), 5);
-  EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
-  EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
-  EXPECT_TRUE(tells(*report, "repeats its value for 500 samples in 2 places"));
-}
-
-TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {
-  auto recordings = *read({}, "");
-  auto held = std::get<std::vector<double>>(*recordings[1].channels[0].samples);
-  std::fill(held.begin() + 1000, held.begin() + 1500, held[1000]);
-  for (std::size_t t = 3000; t < held.size(); ++t) held[t] += 2.0;
-  recordings[1].channels[0].samples = std::make_shared<recording::Samples>(held);
-  DiagnoseOptions options;
-  options.model = "WN + RW + QN";
-  const auto report = diagnose_series(recordings, 0, options);
-  ASSERT_TRUE(report) << report.error().message;
-  const v1::EffectCandidate& step = report->candidates(1);
-  ASSERT_EQ(step.effect(), "step");
-  EXPECT_EQ(step.parameters(0).name(), "time_s");
-  EXPECT_NEAR(step.parameters(0).value(), 60.0, 1.0);
-  EXPECT_EQ(step.parameters(1).value(), 2.0);
-  EXPECT_NE(step.term().find("replicate=2"), std::string::npos) << step.term();
-  // The term that was printed means the same when it is read.
-  const auto look = prepare_channel(recordings, 0, {});
-  ASSERT_TRUE(look) << look.error().message;
-  const auto with = evaluate("WN + RW + QN + " + step.term(), look->prepared, {});
-  ASSERT_TRUE(with) << with.error().message;
-  const auto nats = [](const v1::Rung& rung) {
-    return std::accumulate(rung.heldout_nats().begin(), rung.heldout_nats().end(), 0.0);
-  };
-  EXPECT_NEAR(nats(*with) - nats(report->ladder(0)), step.heldout_gain_nats(), 0.5);
-  // Stretches of time are those of the recording, too.
-  EXPECT_NEAR(report->compared_before().times(32).from(), 30.0, 1e-9);
-  EXPECT_EQ(report->compared_before().times(32).replicate(), "run2#2");
-  for (const char* nowhere : {"step(replicate=2, t=25)", "step(replicate=4, t=10)"}) {
-    options.model = fmt::format("WN + RW + QN + {}", nowhere);
-    EXPECT_FALSE(diagnose_series(recordings, 0, options)) << nowhere;
-  }
-}
-
-TEST(Diagnose, WhatClocksAndCountersShowedIsToldButIsNoVerdict) {
-  auto recordings = *read({}, "");
-  recordings[0].timing = {.gaps = 2, .lost = 17};
-  recordings[1].timing = {.jitter = 0.25};
-  recordings[2].timing = {.jitter = 0.04};
-  DiagnoseOptions options;
-  options.model = "WN + RW + QN";
-  const auto report = diagnose_series(recordings, 0, options);
-  ASSERT_TRUE(report) << report.error().message;
-  ASSERT_EQ(report->integrity_size(), 2);
-  EXPECT_EQ(report->integrity(0).effect(), "lost_samples");
-  EXPECT_EQ(report->integrity(0).count(), 17U);
-  EXPECT_EQ(report->integrity(1).effect(), "clock_jitter");
-  EXPECT_EQ(report->integrity(1).replicate(), "run2");
-  EXPECT_EQ(report->verdict(), v1::none);
-}
-
-TEST(Diagnose, WhatRepeatsIsMendedAndTold) {
-  auto recordings = *read({}, "");
-  for (recording::Replicate& one : recordings) {
-    auto twice = std::get<std::vector<double>>(*one.channels[0].samples);
-    for (std::size_t t = 7; t < twice.size(); t += 61) twice[t] = twice[t - 1];
-    one.channels[0].samples = std::make_shared<recording::Samples>(twice);
-  }
-  DiagnoseOptions options;
-  options.model = "WN + RW + QN";  // all there is
-  const auto report = diagnose_series(recordings, 0, options);
-  ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->candidates(0).effect(), "duplicated_samples");
-  EXPECT_TRUE(tells(*report, "each is replaced by a draw"));
-  EXPECT_NE(report->summary().find("mended"), std::string::npos) << report->summary();
-  EXPECT_EQ(report->ladder_size(), 1)
-      << "a cause was found for what was mended: " << report->candidates(1).sentence();
 }
 
 }  // namespace
