@@ -1,8 +1,5 @@
 #include "core/process/finite_memory.h"
 
-#include <cmath>
-#include <complex>
-#include <numbers>
 #include <utility>
 
 namespace imunoise {
@@ -39,12 +36,6 @@ Eigen::ArrayXd FiniteMemory::slope(HalfWidths m, std::size_t k) const {
     if (k >= h) gamma_slope[h] += taps_[k - h];
   }
   return variance_of(gamma_slope, m);
-}
-
-double FiniteMemory::spectrum(const Frequency& f) const {
-  std::complex<double> response = 0.0;
-  for (std::size_t i = taps_.size(); i-- > 0;) response = response * f.turn() + taps_[i];
-  return std::norm(response);
 }
 
 SumCovariance FiniteMemory::sum_covariance() const {

@@ -24,7 +24,6 @@ class FiniteMemory {
   Eigen::ArrayXd variance(HalfWidths m) const;
   /// dν / d tap k.
   Eigen::ArrayXd slope(HalfWidths m, std::size_t k) const;
-  double spectrum(const Frequency& f) const;
   SumCovariance sum_covariance() const;
 
   class Recursion {

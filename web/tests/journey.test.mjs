@@ -75,7 +75,7 @@ test("from an empty bench to a model that holds the hidden effect", { timeout: 4
   await picture(page, "journey_missing");
   await lookOn(t, url, page.url());
   await page.getByRole("button", { name: "+ add a term" }).click();
-  await page.getByLabel("term").fill("lime(f=7)");
+  await page.getByLabel("term", { exact: true }).fill("lime(f=7)");
   await page.locator(".model").getByRole("button", { name: "Add", exact: true }).click();
   await page.getByRole("alert").getByText(/line/).waitFor();
   assert.deepEqual(await violations(page), []);

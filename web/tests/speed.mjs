@@ -83,7 +83,7 @@ test("a study of 6,000,000 samples", { timeout: 900_000 }, async (t) => {
   const add = [];
   for (let k = 0; k < kTimes; ++k) {
     await page.getByRole("button", { name: "+ add a term" }).click();
-    await page.getByLabel("term").fill(`line(f=${(3.1 + 0.7 * k).toFixed(1)})`);
+    await page.getByLabel("term", { exact: true }).fill(`line(f=${(3.1 + 0.7 * k).toFixed(1)})`);
     await page.evaluate(() => document.querySelector(".figure-canvas svg").classList.add("before"));
     add.push(await timed(`document.querySelector(".model button.main").click()`,
       `document.querySelectorAll(".step").length === 2 && document.querySelector(".figure-canvas svg:not(.before)") !== null`));
