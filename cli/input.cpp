@@ -61,21 +61,47 @@ Result<std::vector<recording::Replicate>> joined(const InputArguments& arguments
   return std::move(all.replicates);
 }
 
-// What was recognised, and every finding, before anything is computed.
+// A sentence, and the files that it is about.
+struct Said {
+  std::string text;
+  std::string first;
+  std::string last;
+  std::size_t files = 1;
+};
+
+void say(std::string text, const std::string& file, std::vector<Said>& all) {
+  const auto same =
+      std::find_if(all.begin(), all.end(), [&](const Said& one) { return one.text == text; });
+  if (same == all.end()) {
+    all.push_back({std::move(text), file, file});
+  } else if (same->last != file) {
+    ++same->files;
+    same->last = file;
+  }
+}
+
+std::string files_of(const Said& one) {
+  if (one.files == 1) return one.first;
+  return fmt::format("{} and {} more file{}", one.first, one.files - 1, one.files > 2 ? "s" : "");
+}
+
+// What was recognised, and every finding, before anything is computed. What holds for many files
+// is said once.
 void tell_preflight(const std::vector<recording::Replicate>& replicates) {
   const recording::Preflight* before = nullptr;
+  std::vector<Said> all;
   for (const recording::Replicate& one : replicates) {
     const recording::Preflight* const found = one.preflight.get();
     if (found == nullptr || found == before) continue;
     before = found;
-    for (const std::string& said : found->recognised)
-      fmt::print(stderr, "{}: {}\n", found->file, said);
-    for (const recording::Finding& finding : found->findings)
-      fmt::print(stderr, "{}: {}\n", found->file, finding.text);
+    for (const std::string& said : found->recognised) say(said, found->file, all);
+    for (const recording::Finding& finding : found->findings) say(finding.text, found->file, all);
     if (found->used < found->samples)
-      fmt::print(stderr, "{}: {} of {} samples used, in {} stretches\n", found->file, found->used,
-                 found->samples, found->stretches);
+      say(fmt::format("{} of {} samples used, in {} stretches", found->used, found->samples,
+                      found->stretches),
+          found->file, all);
   }
+  for (const Said& one : all) fmt::print(stderr, "{}: {}\n", files_of(one), one.text);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ struct PseudoInverse {
 };
 
 /// Inverts after scaling to a unit diagonal; eigenvalues below `tolerance` (relative) count as
-/// zero.
+/// zero. Parts of the matrix that nothing joins are inverted one by one.
 PseudoInverse pseudo_inverse(const MatrixRef& symmetric, double tolerance = 1e-11);
 
 /// Inverse of a symmetric positive definite matrix. Where it is not positive definite, the

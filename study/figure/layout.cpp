@@ -13,8 +13,9 @@ constexpr double kMinorGap = 14.0;   // px from 1 to 2 where minor ticks do not 
 constexpr double kKeySign = 24.0;    // px of a sign in the key
 constexpr double kKeyGap = 14.0;     // px between entries
 constexpr double kRow = 26.0;        // px, of a row with a name
-constexpr double kMostRows = 780.0;  // px, of all rows together
-constexpr double kLeastRow = 4.0;    // px
+constexpr double kMostRows = 440.0;  // px, of all rows together, as long as they are not lower than
+constexpr double kLeastRow = 16.0;   // px, with a name each
+constexpr double kLeastCell = 2.0;   // px, where colours are compared
 constexpr double kMostName = 0.4;    // of the width, for the names of rows
 constexpr double kMarkRow = 14.0;    // px
 constexpr double kMarkGap = 4.0;     // px beside the words of a mark
@@ -46,7 +47,9 @@ double label_height(const Axis& axis, double height) {
 double frame_height(const Panel& panel, bool narrow, double stretch) {
   if (has_rows(panel)) {
     const auto rows = static_cast<double>(panel.y.categories.size());
-    return rows * std::clamp(kMostRows / rows, kLeastRow, kRow);
+    const bool cells = std::any_of(panel.layers.begin(), panel.layers.end(),
+                                   [](const Layer& one) { return one.shape == Shape::kCells; });
+    return rows * std::clamp(kMostRows / rows, cells ? kLeastCell : kLeastRow, kRow);
   }
   const double own =
       narrow ? std::min(panel.height, std::max(0.75 * panel.height, 96.0)) : panel.height;

@@ -12,7 +12,8 @@ constexpr double kSideMargin = 0.035;   // the same of an x-axis
 constexpr double kRoomForNames = 0.06;  // on the right, where lines have names
 constexpr double kRoomToLeave = 0.12;   // below, where lines leave the panel
 constexpr double kMostStretch = 5.0;    // an interval's end over its value, on a logarithmic axis
-constexpr double kMostRoom = 1.0;       // for intervals on either side, over the values' range
+constexpr double kMostRoom = 1.0;       // for intervals on either side, over the values' range,
+constexpr double kMostMedian = 1.5;     // or over half an interval, the median
 constexpr double kLeastRange = 0.02;    // of the largest value
 constexpr double kLeastReach = 4.0;     // of an axis of standard deviations
 
@@ -31,6 +32,7 @@ class Reach {
     if (kind_ != AxisKind::kLogarithmic || !has_place(kind_, value)) {
       ends_low_ = std::min(ends_low_, end);
       ends_high_ = std::max(ends_high_, end);
+      if (has_place(kind_, value)) halves_.push_back(std::abs(end - value));
     } else {
       add(std::clamp(end, value / kMostStretch, value * kMostStretch));
     }
@@ -55,13 +57,23 @@ class Reach {
   std::array<double, 2> ends() const {
     if (low_ > high_) return {ends_low_, ends_high_};
     const double size = std::max(std::abs(low_), std::abs(high_));
-    const double room = kMostRoom * std::max(high_ - low_, kLeastRange * size);
+    const double room = std::max(kMostRoom * std::max(high_ - low_, kLeastRange * size),
+                                 kMostMedian * median_half());
     return {std::min(low_, std::max(ends_low_, low_ - room)),
             std::max(high_, std::min(ends_high_, high_ + room))};
   }
 
  private:
+  double median_half() const {
+    if (halves_.empty()) return 0.0;
+    std::vector<double> sorted = halves_;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return *middle;
+  }
+
   AxisKind kind_;
+  std::vector<double> halves_;  // of intervals about values
   double low_ = INFINITY;
   double high_ = -INFINITY;
   double ends_low_ = INFINITY;

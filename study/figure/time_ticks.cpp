@@ -47,9 +47,15 @@ int month_step(double least) {
   return 12 * static_cast<int>(std::lround(std::max(1.0, round_step(months / 12.0))));
 }
 
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds)) * 1'000'000'000;
+}
+
+// Of a clock; seconds where they differ.
 std::string moment(double seconds, double step) {
-  const auto ns = static_cast<std::int64_t>(std::llround(seconds)) * 1'000'000'000;
-  return step < kDay ? report::minute(ns) : report::day(ns);
+  const std::string minute = report::minute(nanoseconds(seconds)).substr(11);
+  if (step >= kMinute) return minute;
+  return fmt::format("{}:{:02}", minute, std::llround(seconds) % 60);
 }
 
 }  // namespace
@@ -73,10 +79,18 @@ double clock_step(double least) {
 
 std::vector<Tick> time_ticks(double low, double high, double least) {
   if (least > kMostDays) return month_ticks(low, high, month_step(least));
-  const double step = clock_step(least);
+  const double step = std::max(1.0, clock_step(least));
   std::vector<Tick> out;
-  for (double k = std::ceil(low / step); k * step <= high; k += 1.0)
-    out.push_back({k * step, true, moment(k * step, step)});
+  std::string before;
+  for (double k = std::ceil(low / step); k * step <= high; k += 1.0) {
+    std::string label = report::day(nanoseconds(k * step));
+    if (step < kDay) {
+      const bool same = label == before;
+      before = label;
+      label = same ? moment(k * step, step) : label + " " + moment(k * step, step);
+    }
+    out.push_back({k * step, true, std::move(label)});
+  }
   return out;
 }
 

@@ -15,7 +15,8 @@ double round_step(double least);
 double clock_step(double least);
 
 /// Ticks between two times in seconds since 1970-01-01 UTC, at least `least` seconds apart:
-/// moments, days, or beginnings of months and years, with labels that say as much.
+/// moments, days, or beginnings of months and years, with labels that say as much. Of moments the
+/// first, and the first of another day, say the day.
 std::vector<Tick> time_ticks(double low, double high, double least);
 
 }  // namespace imunoise::figure

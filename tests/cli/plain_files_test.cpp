@@ -42,6 +42,14 @@ class PlainFiles : public testing::Program {
   }
 };
 
+TEST_F(PlainFiles, SaysOnceWhatHoldsForManyFiles) {
+  for (const char* const name : {"a.csv", "b.csv", "c.csv"}) write_imu(name, 4000);
+  const Outcome done = run("wv a.csv b.csv c.csv --channel wx");
+  ASSERT_EQ(done.status, 0) << done.errors;
+  EXPECT_NE(done.errors.find("a.csv and 2 more files: time:"), std::string::npos) << done.errors;
+  EXPECT_EQ(done.errors.find("b.csv"), std::string::npos) << done.errors;
+}
+
 TEST_F(PlainFiles, EveryJsonHasThePreflight) {
   write_imu("a.csv", 4000);
   for (const std::string command :

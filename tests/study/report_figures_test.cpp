@@ -139,6 +139,12 @@ TEST(Scale, TicksAreWhatPeopleCountIn) {
       labels(Scale(AxisKind::kTime, 20000.2 * kDay, 20003.1 * kDay).ticks(600.0, 130.0, 14.0)),
       (std::vector<std::string>{"2024-10-05", "2024-10-06", "2024-10-07"}));
   EXPECT_EQ(
+      labels(Scale(AxisKind::kTime, 20000.9 * kDay, 20001.2 * kDay).ticks(600.0, 130.0, 14.0)),
+      (std::vector<std::string>{"2024-10-04 22:00", "2024-10-05 00:00", "02:00", "04:00"}));
+  EXPECT_EQ(labels(Scale(AxisKind::kTime, 20000.0 * kDay + 1.0, 20000.0 * kDay + 100.0)
+                       .ticks(600.0, 130.0, 14.0)),
+            (std::vector<std::string>{"2024-10-04 00:00:30", "00:01:00", "00:01:30"}));
+  EXPECT_EQ(
       labels(Scale(AxisKind::kTime, 20000.0 * kDay, 20400.0 * kDay).ticks(800.0, 130.0, 14.0)),
       (std::vector<std::string>{"2025-01", "2025-04", "2025-07", "2025-10"}));
   EXPECT_EQ(labels(Scale(AxisKind::kTime, 0.0, 20000.0 * kDay).ticks(800.0, 130.0, 14.0)),

@@ -58,9 +58,10 @@ test("a campaign records, is stopped knowingly and started again", { timeout: 90
   await signIn(page, url, operator);
   await page.locator(".devices tbody tr").first().waitFor({ timeout: 30_000 });
   assert.deepEqual(await violations(page), []);
-  await picture(page, "bench");
   await look(page);
   await page.getByRole("link", { name: "The bench" }).click();
+  await page.locator(".devices tbody tr path").first().waitFor({ state: "attached" });
+  await picture(page, "bench");
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   await page.getByText("This ends recording").waitFor();
   await picture(page, "stop");

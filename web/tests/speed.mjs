@@ -40,7 +40,7 @@ test("a live page", { timeout: 120_000 }, async (t) => {
   await shares("A live device");
 });
 
-test("a study of 6,000,000 samples", { timeout: 900_000 }, async (t) => {
+test("a study of 6,000,000 samples", { timeout: 1_800_000 }, async (t) => {
   const where = folder();
   simulate(where, "--model", "WN(sigma2=2.5e-7) + RW(gamma2=1e-14) + line(f=19.9, amplitude=2e-5)", "--rate", "100", "--samples", "1000000",
     "--replicates", "6", "--seed", "4", "--unit", "rad/s", "--channel", "gyro_z", "--out", "g.h5");

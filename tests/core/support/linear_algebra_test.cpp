@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace imunoise {
@@ -64,6 +65,30 @@ TEST(PseudoInverse, TellsWhatCannotBeToldApart) {
   EXPECT_NEAR(inverse.null_share(0), 0.0, 1e-12);
   EXPECT_NEAR(inverse.null_share(1), 0.5, 1e-9);
   EXPECT_NEAR(inverse.null_share(2), 0.5, 1e-9);
+}
+
+// Parts that nothing joins, interleaved: small and singular, large and sound, large and singular.
+TEST(PseudoInverse, OfPartsIsThatOfTheWhole) {
+  constexpr int kParts = 3;
+  const std::array<int, kParts> sizes{3, 40, 40};
+  const Eigen::Index n = 120;
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n, n);
+  for (int p = 0; p < kParts; ++p) {
+    const int size = sizes[static_cast<std::size_t>(p)];
+    Eigen::MatrixXd a = random_matrix(2 * size, size, static_cast<unsigned>(p) + 11);
+    if (p != 1) a.col(size - 1) = 2.0 * a.col(0);
+    const auto rows = Eigen::seqN(p, size, kParts);
+    whole(rows, rows) = a.transpose() * a;
+  }
+  const PseudoInverse found = pseudo_inverse(whole);
+  EXPECT_EQ(found.rank, 2 + 40 + 39);
+  const Eigen::MatrixXd again = whole * found.matrix * whole;
+  EXPECT_LT((again - whole).cwiseAbs().maxCoeff(), 1e-9 * whole.cwiseAbs().maxCoeff());
+  EXPECT_LT((found.matrix - found.matrix.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_NEAR(found.null_share(0), 0.5, 1e-9);   // doubles the third of its part
+  EXPECT_NEAR(found.null_share(1), 0.0, 1e-12);  // of the sound part
+  EXPECT_NEAR(found.null_share(2), 0.5, 1e-9);
+  EXPECT_NEAR(found.null_share(9), 1.0, 1e-12);  // a row of zeros
 }
 
 // Where no matrix is singular a number is zero exactly, and the slopes of all else vanish.

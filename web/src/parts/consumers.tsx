@@ -39,7 +39,7 @@ export function Consumers({ path, fields, asked }: { path: string; fields: Field
       </div>
       <p class="soft">{one.title} holds {one.holds}.{one.remark && ` ${one.remark}`}</p>
       {trouble && <Trouble sentence={trouble} onClose={() => tell("")} />}
-      {text && <pre class="mono file" tabIndex={0} aria-label={`values for ${one.title}`}>{text}</pre>}
+      {text && <pre class="mono values" tabIndex={0} aria-label={`values for ${one.title}`}>{text}</pre>}
     </div>
   );
 }

@@ -46,9 +46,13 @@ export function Progress({ job }: { job: Job }) {
   );
 }
 
-export const Trouble = ({ sentence, onClose }: { sentence: string; onClose: () => void }) => (
-  <div class="trouble" role="alert">
-    <span>{sentence}</span>
-    <button type="button" onClick={onClose}>Close</button>
-  </div>
-);
+/** What follows the first line points at a place in what was asked. */
+export function Trouble({ sentence, onClose }: { sentence: string; onClose: () => void }) {
+  const [said, ...place] = sentence.split("\n");
+  return (
+    <div class="trouble" role="alert">
+      <span>{said}{place.length > 0 && <pre class="mono">{place.join("\n")}</pre>}</span>
+      <button type="button" onClick={onClose}>Close</button>
+    </div>
+  );
+}

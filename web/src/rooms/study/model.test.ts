@@ -40,6 +40,10 @@ describe("a study", () => {
     expect(surety(best, best).words).toBe("sure");
     expect(surety(candidate(2000, 1e-9), best).words).toBe("explains less");
     expect(surety(candidate(2999, 0.01), best).words).toBe("likely");
+    // More terms explain more of what they were fitted to: what they foretell counts.
+    const told = { ...best, heldout_gain_nats: 2900 };
+    expect(surety({ ...candidate(3100, 1e-9), heldout_gain_nats: 2500 }, told).words).toBe("explains less");
+    expect(surety({ ...candidate(2000, 1e-9), heldout_gain_nats: 2899 }, told).words).toBe("sure");
   });
   test("is judged by what was found", () => {
     expect(verdict(forked).mood).toBe("plain");

@@ -90,12 +90,20 @@ export interface Surety {
   readonly mood: "good" | "doubt" | "plain";
 }
 
+/** What it gains on replicates that it was not fitted to, where both were asked, else on those that it was fitted to. */
+const gains = (one: EffectCandidate, other: EffectCandidate): [number, number] =>
+  one.heldout_gain_nats !== undefined && other.heldout_gain_nats !== undefined
+    ? [one.heldout_gain_nats, other.heldout_gain_nats]
+    : [one.likelihood_gain_nats, other.likelihood_gain_nats];
+
 /** How sure a candidate is: by its rivals, by how much less it explains than the best one, and by the chance that noise alone looks this good. */
 export function surety(candidate: EffectCandidate, best: EffectCandidate | undefined): Surety {
   if (candidate.confused_with.length > 0) return { words: "or a rival", mood: "doubt" };
   const clearly = 5; // nats
-  if (best && best !== candidate && best.likelihood_gain_nats > candidate.likelihood_gain_nats + clearly)
-    return { words: "explains less", mood: "plain" };
+  if (best && best !== candidate) {
+    const [most, here] = gains(best, candidate);
+    if (most > here + clearly) return { words: "explains less", mood: "plain" };
+  }
   return { words: candidate.familywise_p < 1e-3 ? "sure" : "likely", mood: "good" };
 }
 
