@@ -12,7 +12,7 @@ namespace {
 
 // `mean`: what was taken off.
 Eigen::VectorXd centred_samples(const Signal& signal, double& mean) {
-  Eigen::VectorXd out = samples_of(std::span(&signal, 1)).col(0);  // from the first sample on
+  Eigen::VectorXd out = samples_of(signal);  // from the first sample on
   const double rest = out.mean();
   mean = signal.value(0) + rest;
   out.array() -= rest;

@@ -1,36 +1,67 @@
 #include "core/spectrum/banded_power.h"
 
-#include <cassert>
+#include <cmath>
 
+#include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/cross_power.h"
+#include "core/spectrum/roots_of_unity.h"
 
 namespace imunoise {
 namespace {
 
-// Of a series (n × 1).
-BandedPower banded(const Eigen::MatrixXd& series, Hertz rate) {
-  const Eigen::Index n = series.rows();
-  Eigen::MatrixXd with_ramp(n, 2);
-  with_ramp << series, Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
-  const CrossPower both = cross_power(with_ramp, rate);
-  const auto entry = [&](Eigen::Index row, Eigen::Index column) {
-    Eigen::ArrayXd out(both.frequency.size());
-    for (Eigen::Index b = 0; b < out.size(); ++b)
-      out(b) = both.power[static_cast<std::size_t>(b)](row, column);
-    return out;
-  };
-  return {both.frequency, both.count, entry(0, 0), entry(0, 1), entry(1, 1), both.samples, rate};
-}
+using Index = Eigen::Index;
+
+// Of a ramp of slope 1: the k-th coefficient is √(2/n) Σ_t t cos(πk(t + ½)/n), which is zero for
+// even k and -√(2/n) cos φ / (2 sin² φ), φ = πk/2n, for odd ones (the derivative of Σ_t sin(x(t +
+// ½)) = sin²(nx/2) / sin(x/2) at x = πk/n).
+class RampTransform {
+ public:
+  explicit RampTransform(std::size_t n)
+      : roots_(4 * n), half_scale_(-std::sqrt(0.5 / static_cast<double>(n))) {}
+  double operator()(Index k) const {
+    if (k % 2 == 0) return 0.0;
+    const std::complex<double> root = roots_(static_cast<std::size_t>(k));
+    return half_scale_ * root.real() / (root.imag() * root.imag());
+  }
+
+ private:
+  RootsOfUnity roots_;
+  double half_scale_;
+};
 
 }  // namespace
 
 BandedPower bands_of(std::size_t n, Hertz rate) {
-  return banded(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(quick_length(n)), 1), rate);
+  const std::size_t quick = quick_length(n);
+  const Bands bands(static_cast<Index>(quick));
+  const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(bands.size());
+  BandedPower out{bands.frequency, bands.count, zero, zero, zero, quick, rate};
+  const RampTransform ramp(quick);
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index end = bands.edges[static_cast<std::size_t>(b) + 1];
+    for (Index place = bands.edges[static_cast<std::size_t>(b)]; place < end; ++place)
+      out.ramp_power(b) += ramp(place + 1) * ramp(place + 1);
+  }
+  out.ramp_power /= bands.count;
+  return out;
 }
 
 BandedPower banded_power(const Signal& signal) {
-  return banded(samples_of(std::span(&signal, 1)), signal.rate());
+  BandedPower out = bands_of(signal.size(), signal.rate());
+  const Eigen::VectorXd cosines = cosine_transform(samples_of(signal));
+  const Bands bands(cosines.size() + 1);
+  const RampTransform ramp(out.samples);
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    const Index end = bands.edges[static_cast<std::size_t>(b) + 1];
+    out.power(b) = cosines.segment(begin, end - begin).squaredNorm();
+    for (Index place = begin; place < end; ++place)
+      out.ramp_cross(b) += cosines(place) * ramp(place + 1);
+  }
+  out.power /= bands.count;
+  out.ramp_cross /= bands.count;
+  return out;
 }
 
 }  // namespace imunoise

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "core/spectrum/fourier.h"
@@ -22,6 +23,34 @@ bool quick(std::size_t n) {
 // mirrored series (Makhoul 1980).
 std::size_t folded_place(std::size_t t, std::size_t n) {
   return t % 2 == 0 ? t / 2 : n - 1 - t / 2;
+}
+
+// A series less its mean.
+std::vector<double> folded(const VectorRef& x) {
+  const auto n = static_cast<std::size_t>(x.size());
+  assert(n >= 2 && quick_length(n) == n);
+  const double mean = x.mean();
+  std::vector<double> out(n);
+  for (std::size_t t = 0; t < n; ++t)
+    out[folded_place(t, n)] = x(static_cast<Eigen::Index>(t)) - mean;
+  return out;
+}
+
+Eigen::VectorXd of_folded(std::vector<double> series) {
+  const std::size_t n = series.size();
+  const std::vector<std::complex<double>> spectrum = half_spectrum(std::move(series));
+  const RootsOfUnity roots(4 * n);
+  const double scale = std::sqrt(2.0 / static_cast<double>(n));
+  Eigen::VectorXd out(static_cast<Eigen::Index>(n) - 1);
+  // c_k = Re(e^{-iπk/2n} V_k), and V_{n-k} is the conjugate of V_k.
+  for (std::size_t k = 1; k < spectrum.size(); ++k) {
+    const std::complex<double> root = roots(k);
+    const double real = scale * spectrum[k].real();
+    const double imag = scale * spectrum[k].imag();
+    out(static_cast<Eigen::Index>(n - k) - 1) = real * root.imag() - imag * root.real();
+    out(static_cast<Eigen::Index>(k) - 1) = real * root.real() + imag * root.imag();
+  }
+  return out;
 }
 
 template <class Number>
@@ -57,26 +86,10 @@ std::size_t next_quick_length(std::size_t n) {
   return n;
 }
 
-Eigen::VectorXd cosine_transform(const VectorRef& x) {
-  const auto n = static_cast<std::size_t>(x.size());
-  assert(n >= 2 && quick_length(n) == n);
-  const double mean = x.mean();
-  std::vector<double> folded(n);
-  for (std::size_t t = 0; t < n; ++t)
-    folded[folded_place(t, n)] = x(static_cast<Eigen::Index>(t)) - mean;
-  const std::vector<std::complex<double>> spectrum = half_spectrum(std::move(folded));
-  const RootsOfUnity roots(4 * n);
-  const double scale = std::sqrt(2.0 / static_cast<double>(n));
-  Eigen::VectorXd out(x.size() - 1);
-  // c_k = Re(e^{-iπk/2n} V_k), and V_{n-k} is the conjugate of V_k.
-  for (std::size_t k = 1; k < spectrum.size(); ++k) {
-    const std::complex<double> root = roots(k);
-    const double real = scale * spectrum[k].real();
-    const double imag = scale * spectrum[k].imag();
-    out(static_cast<Eigen::Index>(n - k) - 1) = real * root.imag() - imag * root.real();
-    out(static_cast<Eigen::Index>(k) - 1) = real * root.real() + imag * root.imag();
-  }
-  return out;
+Eigen::VectorXd cosine_transform(Eigen::VectorXd x) {
+  std::vector<double> series = folded(x);
+  x.resize(0);  // its memory goes back, where it was given away
+  return of_folded(std::move(series));
 }
 
 Eigen::VectorXd inverse_cosine_transform(const VectorRef& c) { return inverse<double>(c); }

@@ -20,7 +20,7 @@ std::size_t next_quick_length(std::size_t n);
 /// sin²(πk/2n)) exactly; those of a stationary process are nearly so, with its spectrum. A Fourier
 /// transform has neither: a walk leaks from its ends into every frequency. By one complex FFT of
 /// length n (Makhoul 1980). Precondition: n is a quick_length().
-Eigen::VectorXd cosine_transform(const VectorRef& x);
+Eigen::VectorXd cosine_transform(Eigen::VectorXd x);
 
 /// The series of mean zero whose cosine_transform() is c: n samples of n - 1 coefficients.
 Eigen::VectorXd inverse_cosine_transform(const VectorRef& c);

@@ -7,23 +7,28 @@
 
 namespace imunoise {
 
+Eigen::VectorXd samples_of(const Signal& signal) {
+  assert(signal.size() >= kFewestSamples);
+  Eigen::VectorXd out(static_cast<Eigen::Index>(quick_length(signal.size())));
+  std::visit(
+      [&](auto samples) {
+        for (Eigen::Index t = 0; t < out.size(); ++t) {
+          out(t) = signal.scale() * (static_cast<double>(samples[static_cast<std::size_t>(t)]) -
+                                     static_cast<double>(samples[0]));
+        }
+      },
+      signal.samples());
+  return out;
+}
+
 Eigen::MatrixXd samples_of(std::span<const Signal> signals) {
-  assert(!signals.empty() && signals.front().size() >= kFewestSamples);
+  assert(!signals.empty());
   const auto n = static_cast<Eigen::Index>(quick_length(signals.front().size()));
   Eigen::MatrixXd out(n, static_cast<Eigen::Index>(signals.size()));
   Eigen::Index column = 0;
   for (const Signal& signal : signals) {
     assert(signal.size() == signals.front().size());
-    std::visit(
-        [&](auto samples) {
-          for (Eigen::Index t = 0; t < n; ++t) {
-            out(t, column) =
-                signal.scale() * (static_cast<double>(samples[static_cast<std::size_t>(t)]) -
-                                  static_cast<double>(samples[0]));
-          }
-        },
-        signal.samples());
-    ++column;
+    out.col(column++) = samples_of(signal);
   }
   return out;
 }

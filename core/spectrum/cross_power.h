@@ -24,6 +24,9 @@ struct CrossPower {
 /// Series shorter than this are not worth a spectrum.
 inline constexpr std::size_t kFewestSamples = 16;
 
+/// Its first quick_length() samples in SI units, less the first of them. Precondition: there are
+/// kFewestSamples.
+Eigen::VectorXd samples_of(const Signal& signal);
 /// The first quick_length() samples of signals of equal length ≥ kFewestSamples, each less its
 /// first one: samples × signals, in SI units.
 Eigen::MatrixXd samples_of(std::span<const Signal> signals);

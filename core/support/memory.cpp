@@ -5,7 +5,7 @@
 namespace imunoise {
 
 void keep_freed_memory() {
-  constexpr int kLongestKept = 32 << 20;  // bytes at once; the most that malloc takes
+  constexpr int kLongestKept = 16 << 20;  // bytes at once
   constexpr int kKept = 1 << 30;
   mallopt(M_MMAP_THRESHOLD, kLongestKept);
   mallopt(M_TRIM_THRESHOLD, kKept);

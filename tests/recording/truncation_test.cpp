@@ -82,11 +82,12 @@ class Truncation : public FileTest {
 #define SKIP_WITHOUT(FILE, WRITER) \
   if ((FILE).empty()) GTEST_SKIP() << "no independent writer here: " << (WRITER)
 
+// Records of MATLAB begin at multiples of 8 bytes.
 TEST_F(Truncation, OfMatlab) {
   for (const std::string kind : {"matlab5", "matlab5-struct", "matlab5-packed"}) {
     const std::string file = written("write_arrays.py", kind + " " + path("whole").string());
     SKIP_WITHOUT(file, "SciPy");
-    read_of(file, "cut.mat", {.step = 1});
+    read_of(file, "cut.mat", {.step = 4});
   }
 }
 
@@ -118,7 +119,7 @@ TEST_F(Truncation, OfBagsOfRos1) {
 TEST_F(Truncation, OfBagsInSqlite) {
   const std::string file = written("write_db3.py", path("whole").string() + " 20");
   SKIP_WITHOUT(file, "Python");
-  read_of(file, "cut.db3", {.step = 1});
+  read_of(file, "cut.db3", {});
 }
 
 TEST_F(Truncation, OfLogsOfPx4) {

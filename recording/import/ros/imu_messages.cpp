@@ -60,6 +60,11 @@ std::optional<ImuFrame> cdr_frame(std::string_view bytes) {
   return ImuFrame{seconds * 1'000'000'000 + nanoseconds, fields, swap};
 }
 
+// Zeros before a row.
+void fill(std::size_t rows, Blocks<double>& values) {
+  while (values.size() < rows) values.push(0.0);
+}
+
 }  // namespace
 
 bool is_imu_type(std::string_view type) {
@@ -135,7 +140,9 @@ void ImuCollector::add(std::uint64_t number, Encoding encoding, std::string_view
   source.has_acc = source.has_acc || std::any_of(values.begin() + 3, values.end(), moves);
   source.times.push(source.header_time ? message->stamp : received);
   for (std::size_t c = 0; c < kNames.size(); ++c) {
-    if (!kept_[c]) continue;
+    // A sensor that a topic lacks takes no memory.
+    if (!kept_[c] || (values[c] == 0.0 && source.values[c].size() == 0)) continue;
+    fill(source.times.size() - 1, source.values[c]);
     source.values[c].push(std::isfinite(values[c]) ? values[c]
                                                    : std::numeric_limits<double>::quiet_NaN());
   }
@@ -198,6 +205,7 @@ TimedStream ImuCollector::stream_of(const std::string& name, Source& source) con
     const bool there = gyro ? source.first.has_gyro && (none || source.has_gyro)
                             : source.first.has_acc && (none || source.has_acc);
     if (!kept_[c] || (!there && !named)) continue;
+    fill(source.times.size(), source.values[c]);
     out.columns.push_back(
         {std::string(kNames[c]), source.values[c].take(), 1.0, 0.0, gyro ? "rad/s" : "m/s^2"});
   }

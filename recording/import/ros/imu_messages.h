@@ -66,7 +66,7 @@ class ImuCollector {
     bool has_gyro = false;  // a rate that is not 0
     bool has_acc = false;
     Blocks<std::int64_t> times;  // ns
-    std::array<Blocks<double>, 6> values;
+    std::array<Blocks<double>, 6> values;  // from the first on that is not 0
   };
   Result<void> check_topics() const;
   bool is_one_imu() const;

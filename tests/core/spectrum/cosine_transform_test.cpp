@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/spectrum/banded_power.h"
+#include "core/spectrum/cross_power.h"
 #include "core/spectrum/roots_of_unity.h"
 
 namespace imunoise {
@@ -149,6 +150,24 @@ TEST(BandedPower, ARampOfSlopeOneIsItsOwnRamp) {
   const BandedPower bands = banded_power(Signal(std::span<const double>(x), Hertz{1.0}));
   EXPECT_NEAR(bands.ramp_cross(0) / bands.ramp_power(0), -3.0, 1e-12);
   EXPECT_NEAR(bands.power(0) / bands.ramp_power(0), 9.0, 1e-12);
+}
+
+// The transform of a ramp in closed form, against that of its samples.
+TEST(BandedPower, KnowsTheTransformOfARamp) {
+  for (const Eigen::Index n : {64, 1001, 4096, 30'000}) {
+    Eigen::MatrixXd both(n, 2);
+    both << some_series(n), Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
+    const CrossPower plain = cross_power(both, Hertz{1.0});
+    const std::span<const double> samples(both.col(0).data(), static_cast<std::size_t>(n));
+    const BandedPower bands = banded_power(Signal(samples, Hertz{1.0}));
+    for (Eigen::Index b = 0; b < bands.power.size(); ++b) {
+      const Eigen::MatrixXd& at = plain.power[static_cast<std::size_t>(b)];
+      const double size = std::sqrt(at(0, 0) * at(1, 1));
+      EXPECT_NEAR(bands.power(b), at(0, 0), 1e-12 * at(0, 0));
+      EXPECT_NEAR(bands.ramp_cross(b), at(0, 1), 1e-9 * size) << n << " " << b;
+      EXPECT_NEAR(bands.ramp_power(b), at(1, 1), 1e-9 * at(1, 1)) << n << " " << b;
+    }
+  }
 }
 
 }  // namespace

@@ -133,6 +133,21 @@ TEST(MomentCovariance, QuadratureAgreesWithPlainSummation) {
   expect_close(fast, moment_covariance(process, scales, samples), 1e-9, "mixture");
 }
 
+// Sums of shapes that are kept, against those of this very process.
+TEST(MomentCovariance, OfFlickerNoiseIsMadeOfKeptSums) {
+  const std::size_t samples = 3000;
+  const Scales scales = Scales::for_samples(samples, 2);
+  for (const double flicker : {1e-3, 1.0}) {
+    SumCovariance process = sum_covariance(WhiteNoise{1.0});
+    process += sum_covariance(RandomWalk{1e-5});
+    process += sum_covariance(Flicker{flicker});
+    process += sum_covariance(RateRamp{1e-4});
+    const Eigen::MatrixXd kept = moment_covariance(process, scales, samples);
+    process.near = {0.0};  // no longer made of those shapes alone
+    expect_close(kept, moment_covariance(process, scales, samples), 1e-9, "kept");
+  }
+}
+
 TEST(MomentCovariance, Golden) {
   IMUNOISE_NEEDS("golden/reference.json");
   const auto golden = testing::read_json("golden/reference.json");
