@@ -53,9 +53,10 @@ std::int64_t nanoseconds(double seconds) {
 
 // Of a clock; seconds where they differ.
 std::string moment(double seconds, double step) {
-  const std::string minute = report::minute(nanoseconds(seconds)).substr(11);
-  if (step >= kMinute) return minute;
-  return fmt::format("{}:{:02}", minute, std::llround(seconds) % 60);
+  const auto whole = std::llround(seconds);
+  const auto in_day = (whole % 86400 + 86400) % 86400;
+  const std::string minute = fmt::format("{:02}:{:02}", in_day / 3600, in_day / 60 % 60);
+  return step < kMinute ? fmt::format("{}:{:02}", minute, in_day % 60) : minute;
 }
 
 }  // namespace

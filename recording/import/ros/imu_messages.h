@@ -65,7 +65,7 @@ class ImuCollector {
     ImuMessage first{};
     bool has_gyro = false;  // a rate that is not 0
     bool has_acc = false;
-    Blocks<std::int64_t> times;  // ns
+    Blocks<std::int64_t> times;            // ns
     std::array<Blocks<double>, 6> values;  // from the first on that is not 0
   };
   Result<void> check_topics() const;
