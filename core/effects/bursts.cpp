@@ -32,7 +32,7 @@ std::shared_ptr<const Subject> without_bursts(const EffectTerm& term, const Curr
   auto found = std::make_shared<FoundBursts>();
   found->ratio = powers.ratio();
   auto out = reshaped(current, [&](const Eigen::VectorXd& white, std::size_t k) {
-    return Reshaping{powers.factor(k, white.size()), powers.gain_in(k)};
+    return Reshaping{powers.factor(k, white), powers.gain_in(k)};
   });
   out->keep(term, std::move(found));
   return out;
@@ -60,6 +60,10 @@ Suggestions search_bursts(const SearchView& view) {
        .added = EffectTerm(bursts(), "", {{"length", times.length_s}, {"every", times.every_s}}),
        .score_nats = powers.ratio() > kLeastRatio ? std::max(0.0, gain) : 0.0,
        .dof = 3.0}};
+}
+
+void review_bursts(const Current& current, TriedTerm& tried) {
+  if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
 }
 
 std::vector<ReportedNumber> bursts_numbers(const FittedEffect& effect) {
@@ -104,6 +108,7 @@ const Effect& bursts() {
       .cleaned = without_bursts,
       .simulate = simulate_bursts,
       .search = search_bursts,
+      .review = review_bursts,
       .numbers = bursts_numbers,
   };
   return kBursts;

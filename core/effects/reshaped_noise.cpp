@@ -15,7 +15,32 @@ struct Squares {
   double after = 0.0;
 };
 
+// Kurtosis less 3, each replicate against its own level; and of how many innovations.
+struct Tails {
+  double excess = 0.0;
+  double samples = 0.0;
+};
+
+Tails tails_of(const Innovations& innovations) {
+  Tails out;
+  for (const Eigen::VectorXd& white : innovations.white) {
+    const auto n = static_cast<double>(white.size());
+    const double level = white.squaredNorm() / n;
+    out.excess += white.array().square().square().sum() / (level * level);
+    out.samples += n;
+  }
+  out.excess = out.excess / out.samples - 3.0;
+  return out;
+}
+
 }  // namespace
+
+bool worsens_tails(const Current& before, const FittedModel& after) {
+  constexpr double kSurely = 4.0;  // standard errors
+  const Tails was = tails_of(innovations(before.regression, before.fit));
+  const Tails is = tails_of(innovations(after.regression, after.fit));
+  return std::abs(is.excess) - std::abs(was.excess) > kSurely * std::sqrt(24.0 / is.samples);
+}
 
 std::shared_ptr<Subject> reshaped(
     const Current& current,

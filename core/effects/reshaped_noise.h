@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/regression/current.h"
+#include "core/regression/fitted_model.h"
 
 namespace imunoise {
 
@@ -19,5 +20,10 @@ struct Reshaping {
 std::shared_ptr<Subject> reshaped(
     const Current& current,
     const std::function<Reshaping(const Eigen::VectorXd& white, std::size_t replicate)>& reshape);
+
+/// Whether what a fit with noise of changing power leaves has tails that are surely further from
+/// normal ones than before. Power that changes makes large deviations more frequent; where it came
+/// and went without them, a spectrum is not right, whose noise is no independent draws.
+bool worsens_tails(const Current& before, const FittedModel& after);
 
 }  // namespace imunoise

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/support/distributions.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -37,7 +38,7 @@ TwoPowers TwoPowers::of(const Innovations& innovations, Hertz rate,
     // Each replicate against its own level: whether these differ is another question.
     const double mean = power.size() > 0 ? power.mean() : 0.0;
     if (!(mean > 0.0)) return {};
-    start.replicates_.push_back({power / mean, {}});
+    start.replicates_.push_back({power / mean, mean, {}});
   }
   const auto begun = [&](double stretches_loud, double stretches_every) {
     TwoPowers out = start;
@@ -164,15 +165,29 @@ double TwoPowers::gain_in(std::size_t replicate) const {
   return replicates_.empty() ? 0.0 : replicates_[replicate].gain;
 }
 
-Eigen::ArrayXd TwoPowers::factor(std::size_t replicate, Index samples) const {
-  if (replicates_.empty()) return Eigen::ArrayXd::Ones(samples);
-  const Replicate& one = replicates_[replicate];
-  const double loud = 1.0 / std::sqrt(ratio());
-  Eigen::ArrayXd out = Eigen::ArrayXd::Ones(samples);
-  const Index n = one.loud.size();
-  for (Index t = 0; n > 0 && t < samples; ++t) {
-    const double share = one.loud(std::min(n - 1, t / kBurstStretch));
-    out(t) = 1.0 - share + share * loud;
+Eigen::ArrayXd TwoPowers::factor(std::size_t replicate, const Eigen::VectorXd& white) const {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Ones(white.size());
+  if (replicates_.empty()) return out;
+  constexpr double kRarest = 1e-280;  // chance that a double holds
+  const double quiet = std::sqrt(variance_[0] * replicates_[replicate].mean);
+  const double ratio_of_deviations = std::sqrt(ratio());
+  const double per_square = 0.5 * (1.0 - 1.0 / ratio());
+  const double per_sample = 0.5 * std::log(ratio());
+  double loud = change_[0] / (change_[0] + change_[1]);  // chance, given all before
+  for (Index begin = 0; begin < white.size(); begin += kBurstStretch) {
+    if (begin > 0) loud = (1.0 - loud) * change_[0] + loud * (1.0 - change_[1]);
+    double log_odds = std::log(loud / (1.0 - loud));
+    const Index end = std::min(begin + kBurstStretch, white.size());
+    for (Index t = begin; t < end; ++t) {
+      const double size = std::abs(white(t)) / quiet;
+      const double rarer =
+          (1.0 - loud) * normal_tail(size) + loud * normal_tail(size / ratio_of_deviations);
+      constexpr double kTiny = 1e-6;  // where the factor is that at 0
+      out(t) = size < kTiny ? 1.0 - loud + loud / ratio_of_deviations
+                            : -normal_quantile(std::max(rarer, kRarest)) / size;
+      log_odds += per_square * size * size - per_sample;
+      loud = 1.0 / (1.0 + std::exp(-log_odds));
+    }
   }
   return out;
 }

@@ -27,14 +27,17 @@ class TwoPowers {
   double gain_in(std::size_t replicate) const;
   BurstTimes times() const;
   double ratio() const { return variance_[1] / variance_[0]; }
-  /// By what each sample of a replicate is multiplied to have the smaller power all the
-  /// time.
-  Eigen::ArrayXd factor(std::size_t replicate, Eigen::Index samples) const;
+  /// By what each innovation of a replicate is multiplied to be a normal number of the smaller
+  /// power: the one that is passed as rarely, given all before it (Rosenblatt 1952, Ann. Math.
+  /// Stat. 23:470). What is known only afterwards must not count: powers divided by the course
+  /// that explains them best would be too even.
+  Eigen::ArrayXd factor(std::size_t replicate, const Eigen::VectorXd& white) const;
 
  private:
   struct Replicate {
     Eigen::ArrayXd power;  // mean squares of the stretches, over their mean
-    Eigen::ArrayXd loud;   // chance that the stretch has the larger power
+    double mean = 1.0;
+    Eigen::ArrayXd loud;  // chance that the stretch has the larger power
     double likelihood = 0.0;
     double gain = 0.0;
     double starts = 0.0;  // expected number of bursts that begin,

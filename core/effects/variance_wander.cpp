@@ -79,7 +79,8 @@ Suggestions search_variance_wander(const SearchView& view) {
 }
 
 // The search knows what it gains beside a witness. Whatever it follows may be unrecorded.
-void review_variance_wander(const Current&, TriedTerm& tried) {
+void review_variance_wander(const Current& current, TriedTerm& tried) {
+  if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
   tried.likelihood_gain = std::min(tried.likelihood_gain, tried.suggestion.score_nats);
   tried.could_be.push_back("modulated_variance");
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/process/parameter_scale.h"
 #include "core/support/distributions.h"
@@ -37,9 +36,10 @@ double find(const std::vector<DerivedQuantity>& all, Coefficient coefficient, do
 // probability left outside (Weinstein, Fithian & Benjamini 2013, J. Am. Stat. Assoc. 108:165), over
 // the one without selection. `ratio`: the estimate in standard errors, above z.
 double selection_factor(double ratio, double z) {
-  const auto tail = [](double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); };
-  const double outside = tail(z);
-  const auto excess = [&](double mean) { return tail(ratio - mean) - outside * tail(z - mean); };
+  const double outside = normal_tail(z);
+  const auto excess = [&](double mean) {
+    return normal_tail(ratio - mean) - outside * normal_tail(z - mean);
+  };
   if (excess(0.0) >= 0.0) return 0.0;
   return std::min(1.0, root_between(excess, 0.0, ratio) / (ratio - z));
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 #include "core/support/distributions.h"
 #include "core/support/linear_algebra.h"
@@ -86,8 +85,6 @@ Prediction predicted(const std::vector<double>& x, const std::vector<bool>& know
   const Eigen::VectorXd weights = solve_symmetric(all, with);
   return {weights.dot(values), std::sqrt(covariance[0] - weights.dot(with))};
 }
-
-double normal_tail(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
 
 // A normal number; beyond `least` if it is to be on that side of it.
 double draw(RandomStream& random, const Prediction& from, double least, int beyond) {

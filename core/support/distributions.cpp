@@ -6,6 +6,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace imunoise {
 
@@ -50,6 +51,8 @@ double log_f_tail(double value, double first, double second) {
 double normal_quantile(double probability) {
   return boost::math::quantile(boost::math::normal(), probability);
 }
+
+double normal_tail(double value) { return 0.5 * std::erfc(value / std::numbers::sqrt2); }
 
 double student_quantile(double probability, double dof) {
   return boost::math::quantile(boost::math::students_t(dof), probability);

@@ -22,6 +22,9 @@ double log_f_tail(double value, double first, double second);
 /// Quantile of the standard normal law, 0 < probability < 1.
 double normal_quantile(double probability);
 
+/// P(x > value) of the standard normal law.
+double normal_tail(double value);
+
 /// Quantile of Student's law with `dof` > 0 degrees of freedom, 0 < probability < 1.
 double student_quantile(double probability, double dof);
 
