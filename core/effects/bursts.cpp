@@ -62,8 +62,14 @@ Suggestions search_bursts(const SearchView& view) {
        .dof = 3.0}};
 }
 
+// A few bursts may be the highest of a power that wanders.
 void review_bursts(const Current& current, TriedTerm& tried) {
   if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
+  constexpr double kMany = 20.0;
+  double seconds = 0.0;
+  for (std::size_t k = 0; k < current.subject().replicates(); ++k)
+    seconds += current.subject().seconds(k);
+  if (seconds < kMany * (*tried.term())[kBurstsEvery]) tried.could_be.push_back("variance_wander");
 }
 
 std::vector<ReportedNumber> bursts_numbers(const FittedEffect& effect) {
