@@ -77,7 +77,7 @@ async function samples(page) {
   await picture(page, "recording_close");
   await page.getByText("Noise values for a program").click();
   await page.getByRole("button", { name: "Show" }).click();
-  await page.locator("pre.file").waitFor();
+  await page.locator("pre.values").waitFor();
   assert.deepEqual(await violations(page), []);
 }
 
