@@ -178,6 +178,7 @@ test("200 replicates under a name of 80 characters; enlarged, and on paper", { t
   await page.setViewportSize({ width: 1000, height: 1400 });
   await page.emulateMedia({ media: "print" });
   assert.ok(await page.locator(".bar").isHidden());
+  for (const kept of [".candidates .title", ".ladder .step"]) assert.ok(await page.locator(kept).first().isVisible(), `${kept} is printed`);
   await picture(page, "print");
   await page.emulateMedia({ media: "screen" });
   assert.deepEqual(problems, []);
