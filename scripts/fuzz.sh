@@ -29,8 +29,11 @@ configure asan
 compile asan fuzzers
 programs=build/asan/tests/fuzz
 kept=build/asan/fuzz
-(($# > 0)) || mapfile -t names < <(find "$programs" -maxdepth 1 -name 'fuzz_*' -type f | sed 's/.*fuzz_//' | sort)
-(($# > 0)) && names=("$@")
+mkdir -p "$kept"
+names=("$@")
+if (($# == 0)); then
+  mapfile -t names < <(find "$programs" -maxdepth 1 -name 'fuzz_*' -type f | sed 's/.*fuzz_//' | sort)
+fi
 
 # fuzz NAME: one parser.
 fuzz() {

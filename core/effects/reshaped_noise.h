@@ -21,9 +21,10 @@ std::shared_ptr<Subject> reshaped(
     const Current& current,
     const std::function<Reshaping(const Eigen::VectorXd& white, std::size_t replicate)>& reshape);
 
-/// Whether what a fit with noise of changing power leaves has tails that are surely further from
-/// normal ones than before. Power that changes makes large deviations more frequent; where it came
-/// and went without them, a spectrum is not right, whose noise is no independent draws.
+/// Whether the innovations of a fit with changing noise power have tails significantly further from
+/// normal ones than before it. Changing power makes large deviations more frequent. If the power
+/// changed without them, the spectrum of the model is wrong, and its innovations are not
+/// independent.
 bool worsens_tails(const Current& before, const FittedModel& after);
 
 }  // namespace imunoise

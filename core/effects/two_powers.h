@@ -27,10 +27,10 @@ class TwoPowers {
   double gain_in(std::size_t replicate) const;
   BurstTimes times() const;
   double ratio() const { return variance_[1] / variance_[0]; }
-  /// By what each innovation of a replicate is multiplied to be a normal number of the smaller
-  /// power: the one that is passed as rarely, given all before it (Rosenblatt 1952, Ann. Math.
-  /// Stat. 23:470). What is known only afterwards must not count: powers divided by the course
-  /// that explains them best would be too even.
+  /// The factor that turns each innovation of a replicate into a normal number of the smaller
+  /// power: the number with the same tail probability, given all earlier innovations (Rosenblatt
+  /// 1952, Ann. Math. Stat. 23:470). Later innovations must not count: they would make the power
+  /// too even.
   Eigen::ArrayXd factor(std::size_t replicate, const Eigen::VectorXd& white) const;
 
  private:

@@ -30,9 +30,9 @@ class FaultyDisk : public ::testing::Test {
   void command(const std::string& word) const {
     ASSERT_EQ(std::system((script_ + " " + word).c_str()), 0) << word;
   }
-  // Recordings, each of which meets the trouble at a random moment: of every four, one while it
-  // begins, the others once something was acknowledged. `before`: only what was acknowledged
-  // before the trouble counts, because a disk without power takes everything.
+  // Each recording meets the trouble at a random moment: one in four possibly while it starts, the
+  // others after their first acknowledged block. `before`: count only blocks that were acknowledged
+  // before the trouble, because a disk without power accepts everything.
   void meet(const std::string& trouble, bool before, int cycles) {
     const ThreadLimit single(1);  // no thread but ours when it forks
     std::uint64_t told = 0;
