@@ -101,7 +101,7 @@ void tell_preflight(const std::vector<recording::Replicate>& replicates) {
                       found->stretches),
           found->file, all);
   }
-  for (const Said& one : all) fmt::print(stderr, "{}: {}\n", files_of(one), one.text);
+  for (const Said& one : all) fmt::print(stderr, "{}: {}\n", files_of(one), printable(one.text));
 }
 
 }  // namespace
@@ -122,9 +122,10 @@ Result<std::vector<recording::Replicate>> read_input(const InputArguments& argum
   if (is_recording(arguments)) {
     const recording::ImportOptions& options = arguments.import;
     if (options.time_unit || options.from || options.until || !options.exclude.empty() ||
-        options.use_disturbed || options.strict)
+        options.use_disturbed || options.strict || !options.units.empty())
       return fail(
-          "--time-unit, --from, --until, --exclude and --strict are for files, not for folders");
+          "--unit, --time-unit, --from, --until, --exclude and --strict are for files, not for "
+          "folders");
     ProgressLine line("reading");
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
                                        arguments.import, line.progress());

@@ -77,8 +77,17 @@ void tell(std::string_view text) {
   std::fflush(stderr);
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    out += report::clean_text(text.substr(0, end)) + '\n';
+    text.remove_prefix(end + 1);
+  }
+  return out + report::clean_text(text);
+}
+
 int print_error(const Error& error) {
-  tell(fmt::format("imunoise: {}\n", error.message));
+  tell(fmt::format("imunoise: {}\n", printable(error.message)));
   return 1;
 }
 

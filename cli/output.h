@@ -19,6 +19,8 @@ bool try_print(std::string_view text);
 void tell(std::string_view text);
 /// "imunoise: message" on standard error; returns the exit status of a failed command.
 int print_error(const Error& error);
+/// Lines of text, without what would steer a terminal (report::clean_text()).
+std::string printable(std::string_view text);
 
 /// OUT_word.svg of OUT.svg.
 std::filesystem::path with_word(const std::filesystem::path& path, const std::string& word);

@@ -5,11 +5,13 @@
 
 #include <cmath>
 
+#include "core/support/nearest_word.h"
 #include "python/job.h"
 #include "study/analysis/arrays/array_series.h"
 #include "study/analysis/diagnose_series.h"
 #include "study/analysis/fit_series.h"
 #include "study/analysis/preflights.h"
+#include "study/deviation/deviations.h"
 #include "study/export/export.h"
 #include "study/export/known_consumers.h"
 #include "study/export/sha256.h"
@@ -70,6 +72,18 @@ std::string wavelet_variance(const Recording& recording, std::size_t channel,
   const auto measured =
       run([&](const Progress& told) { return study::measure(of, options, told); }, progress);
   v1::WaveletVarianceReport out = study::wavelet_report(of, measured);
+  study::add_preflight(recording.replicates, out);
+  return report::to_json(out);
+}
+
+std::string deviation(const Recording& recording, std::size_t channel, const std::string& kind,
+                      double confidence) {
+  const study::Series of = series(recording, channel);
+  const auto which = choose<DeviationKind>(
+      "kind", kind, {{"allan", DeviationKind::kAllan}, {"hadamard", DeviationKind::kHadamard}});
+  const double at = level("confidence", confidence);
+  v1::DeviationReport out =
+      run([&](const Progress&) { return study::deviations(of, which, at); }, py::none());
   study::add_preflight(recording.replicates, out);
   return report::to_json(out);
 }
@@ -153,8 +167,13 @@ std::string export_noise(const std::string& fits, const std::string& to, const T
                          bool conservative, std::pair<double, double> horizon,
                          std::optional<double> step, const std::string& source) {
   const study::Consumer* const consumer = study::consumer_called(to);
-  if (consumer == nullptr)
-    throw Failure(fmt::format("to: '{}' is none of {}", to, study::consumer_names()));
+  if (consumer == nullptr) {
+    Words names;
+    for (const study::Consumer* const one : study::known_consumers()) names.emplace_back(one->name);
+    const std::string meant = did_you_mean(to, names);
+    throw Failure(fmt::format("to: '{}' is none of {}{}", to, study::consumer_names(),
+                              meant.empty() ? "" : "; " + meant));
+  }
   study::ExportOptions options;
   if (axis)
     options.axes = choose<study::AxisRule>("axis", *axis,

@@ -26,6 +26,10 @@ using Words = std::vector<std::string>;
 std::string wavelet_variance(const Recording& recording, std::size_t channel,
                              const Measuring& measuring, const pybind11::object& progress);
 
+/// As `imunoise wv --allan --json`; `kind`: "allan" or "hadamard".
+std::string deviation(const Recording& recording, std::size_t channel, const std::string& kind,
+                      double confidence);
+
 std::string fit(const Recording& recording, std::size_t channel, const Text& model,
                 const std::string& estimator, const std::string& weights,
                 const Measuring& measuring, const pybind11::object& progress);

@@ -121,6 +121,7 @@ PYBIND11_MODULE(_imunoise, module) {
   module.def("from_arrays", &from_arrays);
   module.def("simulated", &simulated);
   module.def("wavelet_variance", &wavelet_variance);
+  module.def("deviation", &deviation);
   module.def("fit", &fit);
   module.def("diagnose", &diagnose);
   module.def("array", &array);

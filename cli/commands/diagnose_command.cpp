@@ -1,16 +1,32 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "cli/commands/commands.h"
 #include "cli/input.h"
+#include "cli/output.h"
 #include "cli/progress_line.h"
 #include "cli/show.h"
 #include "recording/import/table/names.h"
 #include "study/analysis/preflights.h"
+#include "study/calibration/calibrate.h"
 #include "study/figure/svg.h"
 #include "study/report/figures/diagnosis_pictures.h"
 
 namespace imunoise::cli {
 namespace {
 
-// The numbers of the channels to be diagnosed: those named, or all of the first one's quantity.
+// Angular rates and accelerations; where there are none, what the first channel measures.
+bool by_default(const recording::Channel& one, const recording::Replicate& in) {
+  const auto inertial = [](const recording::Channel& channel) {
+    return of_inertia(channel.unit.quantity);
+  };
+  if (one.interpolated) return false;
+  if (std::any_of(in.channels.begin(), in.channels.end(), inertial)) return inertial(one);
+  return one.unit.quantity == in.channels[0].unit.quantity;
+}
+
+// The numbers of the channels to be diagnosed.
 Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
                                           const std::vector<std::string>& wanted) {
   std::vector<std::size_t> out;
@@ -27,10 +43,21 @@ Result<std::vector<std::size_t>> subjects(const recording::Replicate& first,
   }
   if (!out.empty()) return out;
   for (std::size_t c = 0; c < first.channels.size(); ++c) {
-    const recording::Channel& one = first.channels[c];
-    if (one.unit.quantity == first.channels[0].unit.quantity && !one.interpolated) out.push_back(c);
+    if (by_default(first.channels[c], first)) out.push_back(c);
   }
   return out;
+}
+
+// Names the axes without a unit, which are not diagnosed.
+void tell_left_out(const std::vector<recording::Replicate>& replicates,
+                   const std::vector<std::size_t>& channels) {
+  std::vector<std::string> names = study::axes_without_unit({replicates});
+  for (const std::size_t c : channels) std::erase(names, replicates.front().channels[c].name);
+  if (!names.empty())
+    tell(
+        fmt::format("{}: not diagnosed, because no unit is stated; give one with --unit, or name "
+                    "the channels with --channel\n",
+                    fmt::join(names, ", ")));
 }
 
 Result<v1::DiagnosisReports> reports_of(const std::vector<recording::Replicate>& replicates,
@@ -68,6 +95,7 @@ int run(const DiagnoseArguments& arguments) {
   if (!replicates) return print_error(replicates.error());
   const auto channels = subjects(replicates->front(), arguments.channels);
   if (!channels) return print_error(channels.error());
+  if (arguments.channels.empty()) tell_left_out(*replicates, *channels);
   auto done = reports_of(*replicates, *channels, arguments);
   if (!done) return print_error(done.error());
   v1::DiagnosisReports& reports = *done;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -82,6 +83,7 @@ study::CalibrateOptions calibrate_options(const ExportArguments& arguments) {
   study::CalibrateOptions out;
   out.models = arguments.models;
   out.channels = arguments.input.import.channels;
+  out.explain = false;  // an export has only numbers
   out.diagnose = false;
   out.bootstrap.sets = 0;
   return out;
@@ -99,6 +101,12 @@ Result<Fits> fits_of_files(const ExportArguments& arguments) {
   };
   const auto streams = read_streams(arguments.input);
   if (!streams) return give_up(streams.error());
+  // A file that lacks one of its sensors would look whole.
+  if (const auto silent = study::axes_without_unit(*streams); !silent.empty())
+    return give_up(Error{fmt::format(
+        "{}: no unit is stated; give it, such as --unit 'gyro_*=deg/s,acc_*=g', or name other "
+        "channels with --channel",
+        fmt::join(silent, ", "))});
   const auto done = [&] {
     ProgressLine line("fitting");
     return study::calibrate_files(*streams, calibrate_options(arguments),
@@ -149,7 +157,12 @@ Result<Fits> fits_of_json(const std::vector<std::filesystem::path>& paths) {
 Result<Fits> read_fits(const ExportArguments& arguments) {
   const auto& files = arguments.input.files;
   if (is_recording(arguments.input)) return fits_of_recording(arguments);
-  if (std::all_of(files.begin(), files.end(), is_json)) return fits_of_json(files);
+  const auto json = std::count_if(files.begin(), files.end(), is_json);
+  if (json == static_cast<std::ptrdiff_t>(files.size())) return fits_of_json(files);
+  if (json > 0)
+    return fail(
+        "some of these files are results of imunoise and some are recordings; export one "
+        "kind at a time");
   return fits_of_files(arguments);
 }
 

@@ -58,11 +58,25 @@ void walk(const CommandText& command, Lists& out) {
   }
 }
 
+// Finds the command that the words lead to; a program without commands has none.
+std::string way_to_command(const std::string& patterns) {
+  if (patterns.empty()) return "";
+  return "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
+         "    case \"$command:${COMP_WORDS[i]}\" in\n"
+         "      " +
+         patterns +
+         ")\n"
+         "        command=${command:+$command }${COMP_WORDS[i]} ;;\n"
+         "    esac\n"
+         "  done\n";
+}
+
 }  // namespace
 
 std::string bash_completion(const CommandText& program) {
   Lists lists;
   walk(program, lists);
+  const std::string function = "_" + program.name;  // both programs' may be loaded at once
   return "# Completion of " + program.name +
          " for bash.\n\n"
          "_imunoise_words() {\n"
@@ -72,21 +86,13 @@ std::string bash_completion(const CommandText& program) {
          "_imunoise_folders() {\n"
          "  compopt -o filenames 2>/dev/null\n"
          "  mapfile -t COMPREPLY < <(compgen -d -- \"$word\")\n"
-         "}\n\n"
-         "_imunoise() {\n"
+         "}\n\n" +
+         function +
+         "() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
          "  local command=\"\" parts=\"\" options=\"\" i\n"
-         "  COMPREPLY=()\n"
-         "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
-         "    case \"$command:${COMP_WORDS[i]}\" in\n"
-         "      " +
-         lists.commands +
-         ")\n"
-         "        command=${command:+$command }${COMP_WORDS[i]} ;;\n"
-         "    esac\n"
-         "  done\n"
-         "  case \"$command:$before\" in\n" +
-         lists.values +
+         "  COMPREPLY=()\n" +
+         way_to_command(lists.commands) + "  case \"$command:$before\" in\n" + lists.values +
          "  esac\n"
          "  case \"$command\" in\n" +
          lists.words +
@@ -97,8 +103,8 @@ std::string bash_completion(const CommandText& program) {
          "    _imunoise_words \"$parts\"\n"
          "  fi\n"
          "}\n\n"
-         "complete -o bashdefault -o default -F _imunoise " +
-         program.name + "\n";
+         "complete -o bashdefault -o default -F " +
+         function + " " + program.name + "\n";
 }
 
 }  // namespace imunoise::manual

@@ -45,6 +45,7 @@ ParsedCommand calibrate_command(CLI::App& program) {
   const auto raw = std::make_shared<RawAnalysis>();
   const auto options = std::make_shared<study::CalibrateOptions>();
   add_input(*calibrate, raw->input);
+  by_default_of_inertia(*calibrate);
   const auto array_model = std::make_shared<std::string>();
   calibrate
       ->add_option("--model", options->models,

@@ -54,6 +54,7 @@ ParsedCommand diagnose_command(CLI::App& program) {
   const auto raw = std::make_shared<RawAnalysis>();
   const auto options = std::make_shared<study::DiagnoseOptions>();
   add_input(*diagnose, raw->input);
+  by_default_of_inertia(*diagnose);
   add_json(*diagnose, *raw);
   add_report(*diagnose, *raw);
   add_model(*diagnose, *raw, "chosen by cross-validation");

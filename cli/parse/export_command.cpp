@@ -87,6 +87,7 @@ ParsedCommand export_command(CLI::App& program) {
   command->footer(kExportExamples + consumer_list());
   const auto raw = std::make_shared<RawExport>();
   add_input(*command, raw->analysis.input);
+  by_default_of_inertia(*command);
   command->add_option("--to", raw->arguments.to, "Program to write for")
       ->type_name("PROGRAM")
       ->check(CLI::IsMember(consumer_choices()))

@@ -28,6 +28,10 @@ CLI::Validator zero_or_above() {
                       [](double value) { return std::isfinite(value) && value >= 0.0; });
 }
 
+void by_default_of_inertia(CLI::App& command) {
+  command.get_option("--channel")->default_str("angular rates and accelerations");
+}
+
 void add_input(CLI::App& command, RawInput& raw) {
   command
       .add_option("FILES", raw.files,

@@ -35,6 +35,8 @@ CLI::Validator zero_or_above();
 
 /// Adds FILES and the options that say how to read them.
 void add_input(CLI::App& command, RawInput& raw);
+/// Says that the command takes just these channels where none is named.
+void by_default_of_inertia(CLI::App& command);
 /// Adds the number of scales of the wavelet variance.
 void add_scales(CLI::App& command, RawInput& raw);
 /// Adds all options of the wavelet variance.

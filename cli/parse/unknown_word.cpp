@@ -47,9 +47,15 @@ std::string with_nearest_choice(std::string text) {
   std::string_view list = std::string_view(text).substr(at + between.size());
   list.remove_suffix(1);
   const std::vector<std::string> choices = CLI::detail::split(std::string(list), ',');
-  const std::string meant = did_you_mean(text.substr(begin + 2, at - begin - 2), choices);
-  if (!meant.empty()) text += "; " + meant;
-  return text;
+  const std::string word = text.substr(begin + 2, at - begin - 2);
+  const std::string meant = did_you_mean(word, choices);
+  if (!meant.empty()) return text + "; " + meant;
+  // "kf" of kf-json, kf-numpy, ...
+  std::string longer;
+  for (const std::string& one : choices) {
+    if (one.starts_with(word + "-")) longer += (longer.empty() ? "" : ", ") + one;
+  }
+  return longer.empty() ? text : text + "; choose one of " + longer;
 }
 
 std::string sentence(const CLI::App& program, const CLI::Error& error) {

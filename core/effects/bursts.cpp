@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/effect/columns.h"
+#include "core/effects/distributions/two_powers.h"
 #include "core/effects/draws.h"
 #include "core/effects/reshaped_noise.h"
-#include "core/effects/two_powers.h"
 #include "core/search/search_view.h"
 
 namespace imunoise::effects {

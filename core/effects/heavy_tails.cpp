@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/effect/columns.h"
+#include "core/effects/distributions/tails.h"
 #include "core/effects/reshaped_noise.h"
-#include "core/effects/student.h"
 #include "core/search/search_view.h"
 
 namespace imunoise::effects {
@@ -51,6 +51,11 @@ Suggestions search_heavy_tails(const SearchView& view) {
            .power = true}};
 }
 
+void review_heavy_tails(const Current& current, TriedTerm& tried) {
+  const SizeCounts sizes = count_sizes(innovations(current.regression, current.fit).white);
+  if (!compare_tails(sizes).rules_out_mixture()) tried.could_be.push_back("outliers");
+}
+
 // Standard deviation of the innovations, all of which have such tails: from the mean logarithm of
 // the spectrum (Szegő and Kolmogorov: Brockwell & Davis 1991, Theorem 5.8.1).
 std::vector<ReportedNumber> heavy_tails_numbers(const FittedEffect& effect) {
@@ -90,6 +95,7 @@ const Effect& heavy_tails() {
       .cleaned = of_normal_tails,
       .simulate = simulate_heavy_tails,
       .search = search_heavy_tails,
+      .review = review_heavy_tails,
       .numbers = heavy_tails_numbers,
   };
   return kHeavyTails;

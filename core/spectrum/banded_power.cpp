@@ -1,6 +1,8 @@
 #include "core/spectrum/banded_power.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
@@ -45,6 +47,39 @@ BandedPower bands_of(std::size_t n, Hertz rate) {
   }
   out.ramp_power /= bands.count;
   return out;
+}
+
+BandedPower in_wider_bands(const BandedPower& fine) {
+  constexpr double kBandsPerFrequency = 64.0;
+  std::vector<Index> edges = {0};  // places of the first band of each wider one, and the end
+  double below = 0.0;              // coefficients below it
+  double here = 0.0;
+  for (Index b = 0; b < fine.count.size(); ++b) {
+    here += fine.count(b);
+    if (here < 1.0 + std::floor(below / kBandsPerFrequency)) continue;
+    edges.push_back(b + 1);
+    below += std::exchange(here, 0.0);
+  }
+  if (edges.back() < fine.count.size()) edges.push_back(fine.count.size());
+  const auto size = static_cast<Index>(edges.size()) - 1;
+  const auto joined = [&](const Eigen::ArrayXd& of_bands, bool mean) {
+    Eigen::ArrayXd out(size);
+    for (Index b = 0; b < size; ++b) {
+      const Index begin = edges[static_cast<std::size_t>(b)];
+      const Index count = edges[static_cast<std::size_t>(b) + 1] - begin;
+      const auto weights = fine.count.segment(begin, count);
+      out(b) =
+          mean ? (weights * of_bands.segment(begin, count)).sum() / weights.sum() : weights.sum();
+    }
+    return out;
+  };
+  return {joined(fine.frequency.cycles(), true),
+          joined(fine.count, false),
+          joined(fine.power, true),
+          joined(fine.ramp_cross, true),
+          joined(fine.ramp_power, true),
+          fine.samples,
+          fine.rate};
 }
 
 BandedPower banded_power(const Signal& signal) {

@@ -23,6 +23,10 @@ struct BandedPower {
 /// Bands of n samples without a signal: power and ramp_cross are zero.
 BandedPower bands_of(std::size_t n, Hertz rate);
 
+/// The same in wider bands: the first 64 coefficients alone, a band above about 1/64 of its
+/// frequency wide. Spectra that follow a power of frequency are straight over that to 2e-4.
+BandedPower in_wider_bands(const BandedPower& fine);
+
 /// Power of the first quick_length() samples of a signal of at least kFewestSamples.
 BandedPower banded_power(const Signal& signal);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
+#include "core/spectrum/many_transforms.h"
 #include "core/spectrum/roots_of_unity.h"
 
 namespace imunoise {
@@ -60,42 +61,83 @@ std::size_t middle_divisor(std::size_t n) {
   return out;
 }
 
+void many(const Row<double>* x, std::size_t n, bool inverse, Row<double>* out) {
+  many_transforms().of_doubles(x, n, inverse, out);
+}
+void many(const Row<float>* x, std::size_t n, bool inverse, Row<float>* out) {
+  many_transforms().of_floats(x, n, inverse, out);
+}
+
+// Up to kMost series of n complex numbers, each a lane of a group, and their transforms.
+template <class Number>
+class Series {
+ public:
+  static constexpr std::size_t kMost = 16;
+
+  explicit Series(std::size_t n) : n_(n), from_(kGroups * 2 * n), to_(kGroups * 2 * n) {}
+
+  void set(std::size_t series, std::size_t j, Complex<Number> x) {
+    Row<Number>* const row = &from_[place(series, j)];
+    row[0].lanes[series % kLanes] = x.real();
+    row[1].lanes[series % kLanes] = x.imag();
+  }
+  Complex<Number> get(std::size_t series, std::size_t j) const {
+    const Row<Number>* const row = &to_[place(series, j)];
+    return {row[0].lanes[series % kLanes], row[1].lanes[series % kLanes]};
+  }
+  // The first `count` series; lanes without one are transformed for nothing.
+  void transform(std::size_t count, bool inverse) {
+    for (std::size_t begin = 0; begin < count; begin += kLanes)
+      many(&from_[place(begin, 0)], n_, inverse, &to_[place(begin, 0)]);
+  }
+
+ private:
+  static constexpr std::size_t kLanes = Row<Number>::kLanes;
+  static constexpr std::size_t kGroups = kMost / kLanes;
+  std::size_t place(std::size_t series, std::size_t j) const {
+    return 2 * (series / kLanes * n_ + j);
+  }
+
+  std::size_t n_;
+  std::vector<Row<Number>> from_;
+  std::vector<Row<Number>> to_;
+};
+
 // The same, x being overwritten. Of many numbers the transform does not fit the cache: laid out as
 // rows × columns it is a transform of each column, a rotation of each number and a transform of
-// each row, read out by columns (Bailey 1990); a few columns, or rows, are gathered at a time.
+// each row, read out by columns (Bailey 1990); a few columns, or rows, are transformed at once.
 template <class Number>
 void transform(Complex<Number>* x, std::size_t n, bool inverse, Complex<Number>* out) {
   constexpr std::size_t kFits = 4096;
   const std::size_t rows = middle_divisor(n);
   if (n <= kFits || rows == 1) return transform_at_once(x, n, inverse, out);
-  constexpr std::size_t kGathered = 16;
+  constexpr std::size_t kMost = Series<Number>::kMost;
   const std::size_t columns = n / rows;
   const RootsOfUnity roots(n);
-  std::vector<Complex<Number>> gathered(kGathered * columns);
-  std::vector<Complex<Number>> one(rows);
-  for (std::size_t begin = 0; begin < columns; begin += kGathered) {
-    const std::size_t count = std::min(kGathered, columns - begin);
+  Series<Number> down(rows);
+  for (std::size_t begin = 0; begin < columns; begin += kMost) {
+    const std::size_t count = std::min(kMost, columns - begin);
     for (std::size_t r = 0; r < rows; ++r) {
-      for (std::size_t c = 0; c < count; ++c) gathered[c * rows + r] = x[r * columns + begin + c];
+      for (std::size_t c = 0; c < count; ++c) down.set(c, r, x[r * columns + begin + c]);
     }
-    for (std::size_t c = 0; c < count; ++c) {
-      transform_at_once(&gathered[c * rows], rows, inverse, one.data());
-      for (std::size_t r = 0; r < rows; ++r) {
+    down.transform(count, inverse);
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t c = 0; c < count; ++c) {
         const std::complex<double> root = roots(r * (begin + c));
-        gathered[c * rows + r] =
-            one[r] * static_cast<Complex<Number>>(inverse ? root : std::conj(root));
+        x[r * columns + begin + c] =
+            down.get(c, r) * static_cast<Complex<Number>>(inverse ? root : std::conj(root));
       }
     }
-    for (std::size_t r = 0; r < rows; ++r) {
-      for (std::size_t c = 0; c < count; ++c) x[r * columns + begin + c] = gathered[c * rows + r];
-    }
   }
-  for (std::size_t begin = 0; begin < rows; begin += kGathered) {
-    const std::size_t count = std::min(kGathered, rows - begin);
-    for (std::size_t r = 0; r < count; ++r)
-      transform_at_once(x + (begin + r) * columns, columns, inverse, &gathered[r * columns]);
+  Series<Number> across(columns);
+  for (std::size_t begin = 0; begin < rows; begin += kMost) {
+    const std::size_t count = std::min(kMost, rows - begin);
+    for (std::size_t r = 0; r < count; ++r) {
+      for (std::size_t c = 0; c < columns; ++c) across.set(r, c, x[(begin + r) * columns + c]);
+    }
+    across.transform(count, inverse);
     for (std::size_t c = 0; c < columns; ++c) {
-      for (std::size_t r = 0; r < count; ++r) out[c * rows + begin + r] = gathered[r * columns + c];
+      for (std::size_t r = 0; r < count; ++r) out[c * rows + begin + r] = across.get(r, c);
     }
   }
 }

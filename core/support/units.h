@@ -29,6 +29,11 @@ enum class Quantity {
   kVoltage,
 };
 
+/// What an inertial sensor measures.
+constexpr bool of_inertia(Quantity quantity) {
+  return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
+}
+
 /// A unit of measurement: value in SI = value · to_si + si_offset.
 struct Unit {
   std::string symbol;  ///< As people write it, e.g. "deg/s".

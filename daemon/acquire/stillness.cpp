@@ -11,8 +11,7 @@ constexpr std::size_t kMostDisturbances = 1000;
 
 bool watched(const v1::RecordedChannel& channel) {
   const auto unit = parse_unit(channel.units());
-  return unit &&
-         (unit->quantity == Quantity::kAngularRate || unit->quantity == Quantity::kAcceleration);
+  return unit && of_inertia(unit->quantity);
 }
 
 double quantum_of(const v1::RecordedChannel& channel) {

@@ -21,10 +21,6 @@ std::string times(std::size_t count) {
   return count == 1 ? "once" : fmt::format("{} times", count);
 }
 
-bool of_inertia(Quantity quantity) {
-  return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
-}
-
 double number_at(const recording::Numbers& numbers, std::size_t i) {
   return std::visit([i](const auto& values) { return static_cast<double>(values[i]); }, numbers);
 }

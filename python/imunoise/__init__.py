@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
@@ -26,7 +27,7 @@ from ._imunoise import Error
 
 __version__: str = _imunoise.version
 __all__ = ["Error", "Recording", "Study", "allan_deviation", "array", "diagnose", "export", "fit", "from_arrays",
-           "limit_threads", "read", "simulate", "wavelet_variance"]
+           "hadamard_deviation", "limit_threads", "read", "simulate", "wavelet_variance"]
 
 Progress = Callable[[float], None]
 Document = dict[str, Any]
@@ -127,15 +128,21 @@ def read(*files: Path, channels: Sequence[str] = (), rate: float | None = None,
         beside: with `channels`, keep all other channels too: diagnose() and Study use them as witnesses.
         progress: called with the fraction done.
 
+    Each doubt and each fault of a file is a warning; the property `preflight` has them, too.
+
     Raises:
         Error: a file that cannot be read, and how to mend it.
     """
     if time_unit is not None and time_unit not in _TIME_UNITS:
         raise Error(f"time_unit: '{time_unit}' is none of {', '.join(_TIME_UNITS)}")
     rules = list(units.items()) if isinstance(units, Mapping) else [("*", units)] if units else []
-    return Recording(_imunoise.read([os.fspath(one) for one in files], list(channels), beside, rate, rules,
-                                    _TIME_UNITS[time_unit] if time_unit else None, start, until, list(exclude),
-                                    strict, topic, dbc, split_into, progress))
+    out = Recording(_imunoise.read([os.fspath(one) for one in files], list(channels), beside, rate, rules,
+                                   _TIME_UNITS[time_unit] if time_unit else None, start, until, list(exclude),
+                                   strict, topic, dbc, split_into, progress))
+    for file in out.preflight:
+        for finding in file.get("findings", []):
+            warnings.warn(f"{file['file']}: {finding['text']}", stacklevel=2)
+    return out
 
 
 def from_arrays(channels: Mapping[str, npt.ArrayLike | Sequence[npt.ArrayLike]], rate: float,
@@ -207,20 +214,31 @@ def wavelet_variance(recording: Recording, channel: str | None = None, *, per_oc
                  lambda c: _imunoise.wavelet_variance(recording._core, c, measuring, progress))
 
 
-def allan_deviation(recording: Recording, channel: str, *, per_octave: int = 1, robust: float | None = None,
-                    confidence: float = 0.95, progress: Progress | None = None) -> Document:
-    """Overlapping Allan deviation: √(2·wavelet variance) at τ = m samples, half the averaging time of the wavelet
-    (Percival and Walden 2000, ch. 8.6). Arguments as wavelet_variance().
+def _deviation(recording: Recording, channel: str, kind: str, confidence: float) -> Document:
+    if not isinstance(channel, str):
+        raise Error("channel: expected the name of one channel")
+    core = recording._core
+    document = json.loads(_imunoise.deviation(core, core.channel_called(channel), kind, confidence))
+    points = document.pop("points")
+    for name in ("tau_s", "deviation", "lower", "upper", "degrees_of_freedom"):
+        document[name] = np.array([one[name] for one in points], dtype=float)
+    document["noise"] = [one["noise"] for one in points]
+    return document
+
+
+def allan_deviation(recording: Recording, channel: str, *, confidence: float = 0.95) -> Document:
+    """Overlapping Allan deviation of all replicates at the customary averaging times, as `imunoise wv --allan`.
 
     Returns:
-        "tau_s" (s), "deviation", "lower", "upper" (unit of the channel), each of shape (scales,).
+        "tau_s" (s), "deviation", "lower", "upper" (unit of the channel) and "degrees_of_freedom", each of shape
+        (times,); "noise", the law at each time ("WN", "RW", "QN"); "minimum", where the deviation is smallest.
     """
-    measured = wavelet_variance(recording, channel, per_octave=per_octave, robust=robust, confidence=confidence,
-                                progress=progress)
-    out: Document = {"channel": measured["channel"], "unit": measured["unit"], "tau_s": measured["scales_s"] / 2}
-    for name, of in (("deviation", "variance"), ("lower", "lower"), ("upper", "upper")):
-        out[name] = np.sqrt(2 * measured[of])
-    return out
+    return _deviation(recording, channel, "allan", confidence)
+
+
+def hadamard_deviation(recording: Recording, channel: str, *, confidence: float = 0.95) -> Document:
+    """The same by third differences, blind to a ramp, as `imunoise wv --hadamard`."""
+    return _deviation(recording, channel, "hadamard", confidence)
 
 
 def fit(recording: Recording, model: str | None = None, channel: str | None = None, *,

@@ -14,6 +14,7 @@
 #include "recording/import/pieces.h"
 #include "recording/import/preflight/preflight.h"
 #include "recording/import/table/format.h"
+#include "recording/import/table/select.h"
 #include "recording/import/table/table.h"
 
 namespace imunoise::recording {
@@ -21,6 +22,15 @@ namespace {
 
 // Clocks of one kind of device differ by less; a wrong rate differs by more.
 constexpr double kRateTolerance = 1e-3;
+
+// Of what the preflight is to judge by, what is as long as the channels that are wanted.
+void drop_other_lengths(std::size_t wanted, Table& table) {
+  const std::size_t rows = size(table.columns.front().samples);
+  const auto first = table.columns.begin() + static_cast<std::ptrdiff_t>(wanted);
+  table.columns.erase(std::remove_if(first, table.columns.end(),
+                                     [&](const Column& one) { return size(one.samples) != rows; }),
+                      table.columns.end());
+}
 
 Result<void> check_lengths(const std::string& file, const Table& table) {
   const Column& first = table.columns.front();
@@ -42,6 +52,23 @@ Result<Table> read_as_it_is(const std::filesystem::path& path, const ImportOptio
   const Result<const ImportFormat*> format = detect_format(path);
   if (!format) return tl::make_unexpected(format.error());
   return (*format)->read(path, options, progress);
+}
+
+// Names of the columns that are wanted; those behind them are to judge by.
+Result<std::vector<std::string>> wanted_of(const std::string& file, const Table& table,
+                                           ImportOptions options) {
+  std::vector<Offer> offers;
+  for (const Column& one : table.columns) offers.push_back({one.name});
+  std::vector<std::string> out;
+  if (options.axes_to_judge) {
+    options.axes_to_judge = false;
+    const auto wanted = select_columns(file, offers, options);
+    if (!wanted) return tl::make_unexpected(wanted.error());
+    for (const std::size_t c : *wanted) out.push_back(offers[c].name);
+  } else {
+    for (Offer& one : offers) out.push_back(std::move(one.name));
+  }
+  return out;
 }
 
 // Of a file, packed as a whole or not.
@@ -125,9 +152,12 @@ Result<Judged> read_table(const std::filesystem::path& path, const ImportOptions
   Result<Table> table = pieces.empty() ? read_content(path, options, progress)
                                        : read_pieces(path, pieces, options, progress);
   if (!table) return tl::make_unexpected(table.error());
+  const auto wanted = wanted_of(path.string(), *table, options);
+  if (!wanted) return tl::make_unexpected(wanted.error());
+  drop_other_lengths(wanted->size(), *table);
   if (auto even = check_lengths(path.string(), *table); !even)
     return tl::make_unexpected(even.error());
-  return judge(path.string(), std::move(*table), options);
+  return judge(path.string(), std::move(*table), *wanted, options);
 }
 
 // The edge where exceptions of libraries (no memory above all) become errors.
@@ -244,6 +274,9 @@ void add_replicates(const std::filesystem::path& path, const std::string& name, 
 Result<void> check_options(std::span<const std::filesystem::path> paths,
                            const ImportOptions& options) {
   if (paths.empty()) return fail("no file is named; name at least one");
+  if (options.from && options.until && *options.from >= *options.until)
+    return fail(
+        fmt::format("--from {:g} is not before --until {:g}", *options.from, *options.until));
   if (options.split_into == 0)
     return fail("cannot split into 0 replicates; --split-into starts at 1");
   if (options.rate && (!std::isfinite(options.rate->value) || options.rate->value <= 0.0)) {
@@ -256,8 +289,9 @@ Result<void> check_options(std::span<const std::filesystem::path> paths,
 }  // namespace
 
 Result<std::vector<Replicate>> import_files(std::span<const std::filesystem::path> paths,
-                                            const ImportOptions& options,
-                                            const Progress& progress) {
+                                            const ImportOptions& given, const Progress& progress) {
+  ImportOptions options = given;
+  options.axes_to_judge = !options.channels.empty() && !options.beside;
   if (const Result<void> sound = check_options(paths, options); !sound) {
     return tl::make_unexpected(sound.error());
   }

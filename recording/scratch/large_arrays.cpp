@@ -71,17 +71,10 @@ std::size_t mapped_now(int statm) {
 }
 
 [[noreturn]] void watch(ScratchFile& file, const LargeArrays& how) {
-  constexpr std::size_t kTogether = 8;  // arrays, of two transforms at a time
   const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   for (;;) {
     std::this_thread::sleep_for(kLook);
-    const std::size_t now = mapped_now(statm);
-    if (now <= how.mapped) continue;
-    // Of arrays that are larger still, too few would stay to be of use.
-    const std::size_t largest = file.largest_given_back(2 * how.mapped_by_large / kTogether);
-    const std::size_t at_work = std::min(kTogether * largest, how.mapped_by_large);
-    const std::size_t most = std::max(how.mapped, at_work);
-    if (now > most) file.shrink(most / 2);
+    if (mapped_now(statm) > how.mapped) file.shrink(how.mapped / 2);
   }
 }
 

@@ -15,13 +15,10 @@ struct LargeArrays {
   /// Of the file: on a disk. Empty: there is no file.
   std::filesystem::path folder;
   /// Bytes of large arrays that lie in ordinary memory; those that come after lie in the file.
-  std::size_t in_memory = std::size_t{1} << 30U;
+  std::size_t in_memory = std::size_t{512} << 20U;
   /// Bytes of mapped files (the program itself included) that may stay in the process's memory.
   /// What exceeds them leaves it within some ms, and comes back when it is used.
   std::size_t mapped = std::size_t{512} << 20U;
-  /// The same while the program works on arrays so large that the few that a transform needs would
-  /// not fit: eight of them, up to this many bytes.
-  std::size_t mapped_by_large = std::size_t{1} << 30U;
 };
 
 /// From now on, what `new` and `malloc` in this program give for large arrays lies in an unnamed

@@ -133,7 +133,6 @@ void ScratchFile::give_back(void* piece) {
     assert(found != taken_.end());
     gap = {found->second.bytes, stored_gaps_ + found->second.bytes <= kMostGaps};
     taken_.erase(found);
-    given_back_.insert(gap.bytes);
     if (gap.stored) {
       stored_gaps_ += gap.bytes;
       return add_gap(offset, gap);
@@ -164,12 +163,6 @@ void ScratchFile::add_gap(std::size_t offset, Gap gap) {
     }
   }
   gaps_.emplace(offset, gap);
-}
-
-std::size_t ScratchFile::largest_given_back(std::size_t most) const {
-  const std::lock_guard lock(mutex_);
-  const auto above = given_back_.upper_bound(most);
-  return above == given_back_.begin() ? 0 : *std::prev(above);
 }
 
 void ScratchFile::shrink(std::size_t bytes) {

@@ -6,7 +6,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 
 namespace imunoise::recording {
 
@@ -34,10 +33,6 @@ class ScratchFile {
   }
   /// Size of a piece that was taken.
   std::size_t size_of(const void* piece) const;
-
-  /// Size of the largest piece of at most so many bytes that was given back: what work is done on,
-  /// unlike what lies here for long.
-  std::size_t largest_given_back(std::size_t most) const;
 
   /// Takes all out of this process's memory but the pieces that were taken last, up to so many
   /// bytes: those are most likely in use.
@@ -78,7 +73,6 @@ class ScratchFile {
   std::map<std::size_t, Piece> taken_;  // by offset
   std::map<std::size_t, Gap> gaps_;     // between them, by offset; neighbours alike are joined
   std::size_t stored_gaps_ = 0;         // bytes
-  std::set<std::size_t> given_back_;    // sizes
 };
 
 }  // namespace imunoise::recording

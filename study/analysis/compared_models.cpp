@@ -19,6 +19,12 @@ std::multiset<std::size_t> kinds_of(const Model& model) {
   return out;
 }
 
+const Model& largest(const std::vector<Model>& models) {
+  return *std::max_element(models.begin(), models.end(), [](const Model& a, const Model& b) {
+    return free_parameters(a) < free_parameters(b);
+  });
+}
+
 Model freed(Model model) {
   for (Term& term : model.terms) term.given.assign(term.given.size(), false);
   return model;
@@ -27,23 +33,24 @@ Model freed(Model model) {
 }  // namespace
 
 void Comparisons::add(const std::vector<Model>& models, const Progress& progress) {
-  const std::size_t before = fits_.size();
-  for (std::size_t c = 0; c < models.size() && !progress.stopped(); ++c) {
-    const auto at = static_cast<double>(c) / static_cast<double>(models.size());
-    fits_.push_back(mugmwm(models[c], measured_, Weighting::kFull, progress.part(at, at)));
-  }
+  const std::size_t before = models_.size();
+  models_.insert(models_.end(), models.begin(), models.end());
   if (parts_.empty()) return;
-  held_.resize(fits_.size());
-  for_each_index(fits_.size() - before, [&](std::size_t i) {
-    held_[before + i] = held_out_fit(fits_[before + i].model, parts_);
+  const Progress silent({}, progress.stop_token());
+  if (weight_roots_.empty())
+    weight_roots_ = mugmwm(largest(models), measured_, Weighting::kFull, silent).weight_roots;
+  held_.resize(models_.size());
+  for_each_index(models.size(), [&](std::size_t i) {
+    if (silent.stopped()) return;
+    const Problem problem = tied_problem(models[i], measured_, weight_roots_);
+    held_[before + i] = held_out_fit(sorted(minimise(problem, silent).model), parts_);
   });
+  progress.report(1.0);
 }
 
-std::size_t Comparisons::best() const { return simplest_of_best(held_); }
-
 bool Comparisons::is_known(const Model& model) const {
-  return std::any_of(fits_.begin(), fits_.end(),
-                     [&](const Estimate& one) { return kinds_of(one.model) == kinds_of(model); });
+  return std::any_of(models_.begin(), models_.end(),
+                     [&](const Model& one) { return kinds_of(one) == kinds_of(model); });
 }
 
 std::vector<Model> Comparisons::near(const Model& model) const {
@@ -52,8 +59,7 @@ std::vector<Model> Comparisons::near(const Model& model) const {
     const bool twice = std::any_of(out.begin(), out.end(), [&](const Model& other) {
       return kinds_of(other) == kinds_of(one);
     });
-    if (!twice && !is_known(one) && can_be_fitted(one, {measured_.begin(), measured_.end()}))
-      out.push_back(std::move(one));
+    if (!twice && !is_known(one) && can_be_fitted(one, measured_)) out.push_back(std::move(one));
   };
   for (const Process& process :
        {Process(Flicker{}), Process(QuantisationNoise{}), Process(RateRamp{})}) {
@@ -72,12 +78,12 @@ std::vector<Model> Comparisons::near(const Model& model) const {
 
 void Comparisons::search_on(const Progress& progress) {
   for (int round = 0; round < kMostRounds && !held_.empty() && !progress.stopped(); ++round) {
-    const std::size_t from = best();
-    const std::vector<Model> models = near(fits_[from].model);
+    const std::size_t from = best_place();
+    const std::vector<Model> models = near(held_[from].model);
     if (models.empty()) return;
     add(models, progress.part(static_cast<double>(round) / kMostRounds,
                               static_cast<double>(round + 1) / kMostRounds));
-    if (best() == from) return;
+    if (progress.stopped() || best_place() == from) return;
   }
 }
 

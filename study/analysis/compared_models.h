@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/estimate/estimators.h"
@@ -9,12 +9,12 @@
 
 namespace imunoise::study {
 
-/// Candidates of a choice, fitted to the moments of all replicates and held out part by part.
+/// Candidates of a choice, each fitted to all parts of the data but one and compared on that one.
 class Comparisons {
  public:
-  /// Without parts the likelihood is left out. `measured` must outlive it.
-  Comparisons(std::span<const WaveletVariance> measured, std::vector<BandedPower> parts)
-      : measured_(measured), parts_(std::move(parts)) {}
+  /// Without parts there is no likelihood, and candidates are kept as they are.
+  Comparisons(std::vector<WaveletVariance> measured, std::vector<BandedPower> parts)
+      : measured_(std::move(measured)), parts_(std::move(parts)) {}
 
   void add(const std::vector<Model>& models, const Progress& progress = {});
   /// Tries what is near the best: flicker, quantisation noise or a ramp beside its terms, or one of
@@ -22,17 +22,21 @@ class Comparisons {
   /// clearly. Nothing without parts.
   void search_on(const Progress& progress = {});
 
-  const std::vector<Estimate>& fits() const { return fits_; }
-  const std::vector<HeldOutFit>& held() const { return held_; }  ///< one a fit, or none
+  const std::vector<WaveletVariance>& measured() const { return measured_; }
+  const std::vector<Model>& models() const { return models_; }    ///< as they were added
+  const std::vector<HeldOutFit>& held() const { return held_; }   ///< one a model, or none
+  const HeldOutFit& best() const { return held_[best_place()]; }  ///< Precondition: held()
 
  private:
-  std::size_t best() const;
+  std::size_t best_place() const { return simplest_of_best(held_); }
   std::vector<Model> near(const Model& model) const;
   bool is_known(const Model& model) const;
 
-  std::span<const WaveletVariance> measured_;
+  std::vector<WaveletVariance> measured_;
   std::vector<BandedPower> parts_;
-  std::vector<Estimate> fits_;
+  std::vector<Model> models_;
+  /// Of the moments, where the likelihood of every candidate begins: those of the largest one.
+  std::vector<Eigen::MatrixXd> weight_roots_;
   std::vector<HeldOutFit> held_;
 };
 

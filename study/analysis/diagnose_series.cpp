@@ -79,10 +79,7 @@ std::string names_of(const std::vector<Witness>& witnesses) {
 }  // namespace
 
 Result<std::string> model_for(const RecordedChannel& look, const Progress& progress) {
-  const Result<v1::ChoiceReport> choice =
-      select_model(series_of(look.parts.replicates, look.channel), {}, progress);
-  if (!choice) return tl::unexpected(choice.error());
-  return model_to_use(*choice).model();
+  return chosen_model(series_of(look.parts.replicates, look.channel), {}, progress);
 }
 
 Result<v1::DiagnosisReport> diagnose_series(const std::vector<recording::Replicate>& recorded,

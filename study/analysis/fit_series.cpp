@@ -8,6 +8,7 @@
 #include "core/spectrum/cross_power.h"
 #include "study/analysis/compared_models.h"
 #include "study/analysis/prepare.h"
+#include "study/analysis/test_series.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
@@ -68,6 +69,22 @@ bool seen_badly_by_moments(const Model& model) {
   });
 }
 
+// What the next power-on may have.
+void compare_replicates(const Model& model, const std::vector<WaveletVariance>& measured,
+                        const Progress& progress, v1::FitReport& to) {
+  constexpr std::size_t kFewest = 3;
+  constexpr std::size_t kMost = 50;  // each costs a fit
+  if (measured.size() < kFewest || measured.size() > kMost) return;
+  const NearStationarity result = near_stationarity(model, measured, {.sets = 0}, progress);
+  add_spread(result, measured.front().quantity, *to.mutable_spread());
+  const std::string moving = moving_words(to.spread());
+  if (!moving.empty())
+    to.add_notes(
+        fmt::format("Between replicates, parameters differ beyond chance: {}; see imunoise "
+                    "test.",
+                    moving));
+}
+
 }  // namespace
 
 Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options,
@@ -81,7 +98,7 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
     if (auto able = check_likelihood(left.series, options.measure); !able)
       return tl::unexpected(able.error());
   }
-  const Progress fitting = progress.part(0.6, 0.9);
+  const Progress fitting = progress.part(0.6, 0.8);
   const Result<Fit> fit = estimate(left.series, model, measured, options, fitting);
   if (progress.stopped()) return fail("stopped");
   if (!fit) return tl::unexpected(fit.error());
@@ -98,6 +115,8 @@ Result<v1::FitReport> fit_series(const Series& series, const FitOptions& options
         "model fits.");
   }
   if (auto note = quantisation_note(fit->estimate.model)) out.add_notes(std::move(*note));
+  if (options.compare) compare_replicates(model, measured, progress.part(0.8, 1.0), out);
+  if (progress.stopped()) return fail("stopped");
   progress.report(1.0);
   return out;
 }

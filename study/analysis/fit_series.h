@@ -18,6 +18,7 @@ struct FitOptions {
   std::optional<std::string> model;  ///< in the grammar; unset: kDefaultModel
   Estimator estimator = Estimator::kMuGmwm;
   Weighting weighting = Weighting::kFull;
+  bool compare = true;  ///< parameters of 3 to 50 replicates with each other
   MeasureOptions measure;
   double confidence = 0.95;  ///< of the intervals of the fit; the estimate does not depend on it
 };

@@ -32,13 +32,30 @@ Series in_blocks(const Series& series) {
   return out;
 }
 
+// Whether the spectrum of a process is straight over any narrow band.
+bool is_straight(const Process& process) {
+  return std::holds_alternative<WhiteNoise>(process) ||
+         std::holds_alternative<QuantisationNoise>(process) ||
+         std::holds_alternative<RandomWalk>(process) || std::holds_alternative<RateRamp>(process) ||
+         std::holds_alternative<Ar1>(process) || std::holds_alternative<GaussMarkov>(process) ||
+         std::holds_alternative<Flicker>(process) || std::holds_alternative<PowerLaw>(process);
+}
+
+bool are_straight(const std::vector<FullModel>& models) {
+  return std::all_of(models.begin(), models.end(), [](const FullModel& one) {
+    return std::all_of(one.noise.terms.begin(), one.noise.terms.end(),
+                       [](const Term& term) { return is_straight(term.process); });
+  });
+}
+
 // What is held out of the likelihood, one at a time: replicates, or of a single one every sixth
 // band. Empty where a replicate is too short for a likelihood.
-std::vector<BandedPower> parts_of(const Series& series) {
+std::vector<BandedPower> parts_of(const Series& series, bool straight) {
   std::vector<BandedPower> out;
   for (const Signal& one : series.replicates) {
     if (one.size() < kFewestSamples) return {};
     out.push_back(banded_power(one));
+    if (straight) out.back() = in_wider_bands(out.back());
   }
   return out.size() == 1 ? dealt_out(out.front(), kBlocks) : out;
 }
@@ -149,10 +166,15 @@ void add_likelihoods(const std::vector<HeldOutFit>& held, const std::vector<std:
   }
 }
 
-}  // namespace
+struct Compared {
+  LessEffects left;
+  bool blocks = false;  // of a single recording
+  Series series;        // replicates, or blocks
+  Comparisons candidates;
+};
 
-Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& options,
-                                      const Progress& progress) {
+Result<Compared> compare(const Series& given, const SelectOptions& options,
+                         const Progress& progress) {
   const bool blocks = given.replicates.size() == 1;
   if (blocks && given.replicates.front().size() < kBlocks * kLeastSamples) {
     return fail(fmt::format(
@@ -170,25 +192,32 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   if (texts.empty()) texts.emplace_back(kDefaultModel);
   auto named = read_models(texts, given.replicates.front().rate());
   if (!named) return tl::unexpected(named.error());
-  const auto left = take_out_effects(given, largest(*named), progress.part(0.0, 0.3));
+  auto left = take_out_effects(given, largest(*named), progress.part(0.0, 0.3));
   if (!left) return tl::unexpected(left.error());
-  const Series series = blocks ? in_blocks(left->series) : left->series;
-  const auto measured = measured_replicates(series, options.measure, progress.part(0.3, 0.5));
+  Series series = blocks ? in_blocks(left->series) : left->series;
+  auto measured = measured_replicates(series, options.measure, progress.part(0.3, 0.5));
   if (!measured) return tl::unexpected(measured.error());
   if (auto enough = all_have_scales(*named, *measured); !enough)
     return tl::unexpected(enough.error());
-  Comparisons compared(*measured, parts_of(left->series));
+  Comparisons candidates(std::move(*measured), parts_of(left->series, are_straight(*named)));
   std::vector<Model> models;
   for (const FullModel& one : *named) models.push_back(one.noise);
-  compared.add(models.size() == 1 ? sub_models(models.front()) : models, progress.part(0.5, 0.8));
-  if (options.search_on || options.models.empty()) compared.search_on(progress.part(0.8, 0.95));
+  candidates.add(models.size() == 1 ? sub_models(models.front()) : models, progress.part(0.5, 0.8));
+  if (options.search_on || options.models.empty()) candidates.search_on(progress.part(0.8, 1.0));
   if (progress.stopped()) return fail("stopped");
-  const ModelChoice choice = choose_model(compared.fits(), *measured, options.choice);
-  progress.report(1.0);
+  return Compared{std::move(*left), blocks, std::move(series), std::move(candidates)};
+}
+
+Result<v1::ChoiceReport> choice_report(const Compared& compared, const SelectOptions& options,
+                                       const Progress& progress) {
+  const auto& [left, blocks, series, candidates] = compared;
+  const std::vector<WaveletVariance>& measured = candidates.measured();
+  const ModelChoice choice = choose_model(candidates.models(), measured, options.choice, progress);
+  if (progress.stopped()) return fail("stopped");
 
   v1::ChoiceReport out;
   out.set_channel(series.channel);
-  out.set_unit(std::string(si_symbol(measured->front().quantity)));
+  out.set_unit(std::string(si_symbol(measured.front().quantity)));
   out.set_rate_hz(series.replicates.front().rate().value);
   out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
   out.set_contiguous_blocks(blocks);
@@ -198,12 +227,12 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   out.set_weights(options.choice.weighting == Weighting::kFull ? "full" : "diag");
   std::vector<std::size_t> place;
   for (const Candidate& candidate : choice.candidates) {
-    add_candidate(candidate, left->effects, out);
+    add_candidate(candidate, left.effects, out);
     place.push_back(candidate.place);
   }
-  if (!compared.held().empty()) add_likelihoods(compared.held(), place, out);
-  for (const v1::FittedEffect& one : left->numbers) *out.add_effects() = one;
-  if (!left->effects.empty()) out.add_notes(taken_out_note(*left));
+  if (!candidates.held().empty()) add_likelihoods(candidates.held(), place, out);
+  for (const v1::FittedEffect& one : left.numbers) *out.add_effects() = one;
+  if (!left.effects.empty()) out.add_notes(taken_out_note(left));
   const v1::CandidateModel& best = out.candidates(0);
   out.set_far_from_floor(best.merit() > kFarFromFloor && best.merit_lower() > 1.0);
   out.set_summary(summary_of(out));
@@ -228,10 +257,30 @@ Result<v1::ChoiceReport> select_model(const Series& given, const SelectOptions& 
   }
   const std::string& used = model_to_use(out).model();
   for (const Candidate& one : choice.candidates) {
-    if (model_text(one.model, left->effects) != used) continue;
+    if (model_text(one.model, left.effects) != used) continue;
     if (auto note = quantisation_note(one.model)) out.add_notes(std::move(*note));
   }
   return out;
+}
+
+}  // namespace
+
+Result<v1::ChoiceReport> select_model(const Series& series, const SelectOptions& options,
+                                      const Progress& progress) {
+  const auto compared = compare(series, options, progress.part(0.0, 0.6));
+  if (!compared) return tl::unexpected(compared.error());
+  return choice_report(*compared, options, progress.part(0.6, 1.0));
+}
+
+Result<std::string> chosen_model(const Series& series, const SelectOptions& options,
+                                 const Progress& progress) {
+  const auto compared = compare(series, options, progress);
+  if (!compared) return tl::unexpected(compared.error());
+  if (!compared->candidates.held().empty())
+    return model_text(compared->candidates.best().model, compared->left.effects);
+  const auto choice = choice_report(*compared, options, progress);
+  if (!choice) return tl::unexpected(choice.error());
+  return model_to_use(*choice).model();
 }
 
 const v1::CandidateModel& model_to_use(const v1::ChoiceReport& choice) {

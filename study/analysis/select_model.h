@@ -29,6 +29,11 @@ struct SelectOptions {
 Result<v1::ChoiceReport> select_model(const Series& series, const SelectOptions& options,
                                       const Progress& progress = {});
 
+/// The text of the model that model_to_use() takes from select_model(). Where the held-out
+/// likelihood decides, CV-WVIC is not computed. Errors as there.
+Result<std::string> chosen_model(const Series& series, const SelectOptions& options,
+                                 const Progress& progress = {});
+
 /// The model to go on with: the one that the held-out likelihood chose. Where replicates are too
 /// short for that, and in files of earlier versions: the simplest of which CV-WVIC cannot say that
 /// it is worse than the best; the best itself where every model is bad and "equivalent" means

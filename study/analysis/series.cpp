@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/support/nearest_word.h"
 #include "recording/import/table/names.h"
 
 namespace imunoise::study {
@@ -43,7 +44,11 @@ Result<std::size_t> channel_called(const std::string& name, const recording::Rep
   std::string known;
   for (const recording::Channel& one : channels) known += (known.empty() ? "" : ", ") + one.name;
   if (name.empty()) return fail(fmt::format("name one channel with --channel: {}", known));
-  return fail(fmt::format("channel '{}': there is none in {}; there are {}", name, in.name, known));
+  std::vector<std::string> names;
+  for (const recording::Channel& one : channels) names.push_back(one.name);
+  const std::string meant = did_you_mean(name, names);
+  return fail(fmt::format("channel '{}': there is none in {}; there are {}{}", name, in.name, known,
+                          meant.empty() ? "" : "; " + meant));
 }
 
 }  // namespace imunoise::study

@@ -19,40 +19,6 @@ void fill(const BootstrappedTest& from, v1::TestResult& to) {
   to.set_rejected(from.p_value() <= kLevel);
 }
 
-void add_spread(const NearStationarity& result, Quantity quantity, v1::StationarityReport& out) {
-  const Model& model = result.pooled.model;
-  for (const ParameterSpread& from : result.spread) {
-    const ParameterInfo about = parameters(model.terms[from.term].process)[from.parameter];
-    v1::ParameterSpread& to = *out.add_spread();
-    to.set_term(label_of(model, from.term));
-    to.set_parameter(about.name);
-    to.set_unit(unit_of(about.dimension, quantity));
-    to.set_replicates(static_cast<std::uint32_t>(from.replicates));
-    to.set_mean(from.mean);
-    to.set_spread(from.spread);
-    to.set_lower(from.lower);
-    to.set_upper(from.upper);
-    to.set_relative(from.relative);
-    to.set_relative_lower(from.relative_lower);
-    to.set_relative_upper(from.relative_upper);
-    to.set_p_value(from.p_value);
-    to.set_moves(from.moves());
-  }
-}
-
-// "sigma2 of AR1 by 29 %, 1 - phi of AR1 by 40 %".
-std::string moving(const v1::StationarityReport& report) {
-  std::string out;
-  for (const v1::ParameterSpread& one : report.spread()) {
-    if (!one.moves()) continue;
-    const bool decays = one.parameter() == "phi" || one.parameter() == "r";
-    const bool near_one = decays && one.mean() > 0.5;
-    out += fmt::format("{}{}{} of {} by {:.2g} %", out.empty() ? "" : ", ", near_one ? "1 - " : "",
-                       one.parameter(), one.term(), 100.0 * one.relative());
-  }
-  return out;
-}
-
 // Where there is nothing to ask one of the questions about.
 std::string half_summary(const v1::StationarityReport& report, const std::string& misfit,
                          const std::string& differ) {
@@ -81,7 +47,7 @@ std::string summary_of(const v1::StationarityReport& report, const NearStationar
       report.heterogeneity().degrees_of_freedom() == 0) {
     return half_summary(report, misfit, differ);
   }
-  const std::string who = moving(report);
+  const std::string who = moving_words(report.spread());
   const std::string moves =
       who.empty() ? "No single parameter stands out." : "Different: " + who + ".";
   if (!report.misfit().rejected() && !report.heterogeneity().rejected()) {
@@ -111,6 +77,40 @@ std::string summary_of(const v1::StationarityReport& report, const NearStationar
 }
 
 }  // namespace
+
+void add_spread(const NearStationarity& result, Quantity quantity,
+                google::protobuf::RepeatedPtrField<v1::ParameterSpread>& out) {
+  const Model& model = result.pooled.model;
+  for (const ParameterSpread& from : result.spread) {
+    const ParameterInfo about = parameters(model.terms[from.term].process)[from.parameter];
+    v1::ParameterSpread& to = *out.Add();
+    to.set_term(label_of(model, from.term));
+    to.set_parameter(about.name);
+    to.set_unit(unit_of(about.dimension, quantity));
+    to.set_replicates(static_cast<std::uint32_t>(from.replicates));
+    to.set_mean(from.mean);
+    to.set_spread(from.spread);
+    to.set_lower(from.lower);
+    to.set_upper(from.upper);
+    to.set_relative(from.relative);
+    to.set_relative_lower(from.relative_lower);
+    to.set_relative_upper(from.relative_upper);
+    to.set_p_value(from.p_value);
+    to.set_moves(from.moves());
+  }
+}
+
+std::string moving_words(const google::protobuf::RepeatedPtrField<v1::ParameterSpread>& spread) {
+  std::string out;
+  for (const v1::ParameterSpread& one : spread) {
+    if (!one.moves()) continue;
+    const bool decays = one.parameter() == "phi" || one.parameter() == "r";
+    const bool near_one = decays && one.mean() > 0.5;
+    out += fmt::format("{}{}{} of {} by {:.2g} %", out.empty() ? "" : ", ", near_one ? "1 - " : "",
+                       one.parameter(), one.term(), 100.0 * one.relative());
+  }
+  return out;
+}
 
 Result<v1::StationarityReport> test_series(const Series& series, const TestOptions& options,
                                            const Progress& progress) {
@@ -146,7 +146,7 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
   if (result.published_p_value) out.set_published_p_value(*result.published_p_value);
   out.set_bootstrap_sets(static_cast<std::uint32_t>(options.bootstrap.sets));
   out.set_seed(options.bootstrap.seed);
-  add_spread(result, prepared->measured.front().quantity, out);
+  add_spread(result, prepared->measured.front().quantity, *out.mutable_spread());
   out.set_summary(summary_of(out, result));
   if (series.replicates.size() < 5) {
     out.add_notes(fmt::format(

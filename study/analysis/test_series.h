@@ -21,4 +21,11 @@ struct TestOptions {
 Result<v1::StationarityReport> test_series(const Series& series, const TestOptions& options,
                                            const Progress& progress = {});
 
+/// How each parameter differs between replicates.
+void add_spread(const NearStationarity& result, Quantity quantity,
+                google::protobuf::RepeatedPtrField<v1::ParameterSpread>& to);
+
+/// "sigma2 of AR1 by 29 %, 1 - phi of AR1 by 40 %": those that differ beyond chance; empty: none.
+std::string moving_words(const google::protobuf::RepeatedPtrField<v1::ParameterSpread>& spread);
+
 }  // namespace imunoise::study

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/effects/parse_full_model.h"
+#include "recording/import/table/names.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/reading/places.h"
 #include "recording/store/reading/replicates.h"
@@ -24,10 +25,9 @@ using recording::Replicate;
 // A stream with the channels that are wanted of it.
 using Task = recording::ImportedStream;
 
-bool of_inertia(const std::string& units) {
+bool in_unit_of_inertia(const std::string& units) {
   const auto unit = parse_unit(units);
-  return unit &&
-         (unit->quantity == Quantity::kAngularRate || unit->quantity == Quantity::kAcceleration);
+  return unit && of_inertia(unit->quantity);
 }
 
 Result<std::vector<Task>> tasks_of(const std::string& folder, const v1::Manifest& manifest,
@@ -40,7 +40,8 @@ Result<std::vector<Task>> tasks_of(const std::string& folder, const v1::Manifest
     for (const recording::ImportedChannel& channel : stream.channels) {
       known += (known.empty() ? "" : ", ") + channel.name;
       const bool named = missing.erase(channel.name) > 0;
-      if (wanted.empty() ? of_inertia(channel.units) : named) task.channels.push_back(channel);
+      if (wanted.empty() ? in_unit_of_inertia(channel.units) : named)
+        task.channels.push_back(channel);
     }
     if (!task.channels.empty()) out.push_back(std::move(task));
   }
@@ -219,6 +220,18 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
   return out;
 }
 
+std::vector<std::string> axes_without_unit(const std::vector<std::vector<Replicate>>& streams) {
+  std::vector<std::string> out;
+  for (const std::vector<Replicate>& replicates : streams) {
+    for (const recording::Channel& one : replicates.front().channels) {
+      const recording::Role role = recording::role_of(one.name);
+      const bool axis = of_inertia(role.quantity) && role.axis != ' ';
+      if (axis && one.unit.quantity == Quantity::kUnknown) out.push_back(one.name);
+    }
+  }
+  return out;
+}
+
 Result<v1::Calibration> calibrate_files(const std::vector<std::vector<Replicate>>& streams,
                                         const CalibrateOptions& options, const Progress& progress) {
   if (auto readable = check_models(options); !readable) return tl::unexpected(readable.error());
@@ -227,7 +240,7 @@ Result<v1::Calibration> calibrate_files(const std::vector<std::vector<Replicate>
   for (const std::vector<Replicate>& replicates : streams) {
     Task& task = tasks.emplace_back();
     for (const recording::Channel& one : replicates.front().channels) {
-      if (!options.channels.empty() || of_inertia(one.unit.symbol))
+      if (!options.channels.empty() || of_inertia(one.unit.quantity))
         task.channels.push_back({one.name, one.unit.symbol});
     }
     channels += task.channels.size();
@@ -245,6 +258,14 @@ Result<v1::Calibration> calibrate_files(const std::vector<std::vector<Replicate>
   out.set_version(kCalibrationVersion);
   out.set_made_ns(options.made_ns);
   *out.mutable_settings() = settings_of(options);
+  const auto silent =
+      options.channels.empty() ? axes_without_unit(streams) : std::vector<std::string>();
+  for (const std::string& name : silent) {
+    v1::ChannelCalibration& one = *out.add_channels();
+    one.set_channel(name);
+    add_trouble("unit", Error{"states no unit; give it, such as --unit 'gyro_*=deg/s,acc_*=g'"},
+                *one.mutable_troubles());
+  }
   double begin = 0.0;
   for (std::size_t s = 0; s < streams.size() && !progress.stopped(); ++s) {
     out.mutable_preflight()->MergeFrom(preflights(streams[s]));

@@ -22,6 +22,7 @@ struct CalibrateOptions {
   std::optional<std::string> array_model;  ///< unset: kDefaultArrayModel
   /// As import_recording() calls them; empty: all angular rates and accelerations.
   std::vector<std::string> channels;
+  bool explain = true;         ///< what the choice of the model rests on, and what it lacks
   bool diagnose = true;        ///< which effect the model lacks
   bool array = false;          ///< channels of one quantity in a stream as an array, too
   BootstrapOptions bootstrap;  ///< of the test between replicates
@@ -40,9 +41,13 @@ Result<v1::Calibration> calibrate(const recording::FileSystem& files,
                                   const std::filesystem::path& folder,
                                   const CalibrateOptions& options, const Progress& progress = {});
 
+/// Names of the channels that are called angular rates or accelerations and have no known unit.
+std::vector<std::string> axes_without_unit(
+    const std::vector<std::vector<recording::Replicate>>& streams);
+
 /// The same for replicates of plain files, one stream after the other: all angular rates and
-/// accelerations, or options.channels. Error: none of them, a model that cannot be read, or the
-/// caller stopped it.
+/// accelerations, or options.channels; axes_without_unit() have a trouble each. Error: none of
+/// them, a model that cannot be read, or the caller stopped it.
 Result<v1::Calibration> calibrate_files(
     const std::vector<std::vector<recording::Replicate>>& streams, const CalibrateOptions& options,
     const Progress& progress = {});

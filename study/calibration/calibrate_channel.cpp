@@ -51,21 +51,21 @@ std::string what_is_missing(const Series& series, const std::string& model,
   SelectOptions select;
   select.models = {model};
   select.search_on = true;
-  const auto choice = select_model(series, select, progress.part(0.0, 0.7));
-  if (!choice) return {};
-  const std::string better = model_to_use(*choice).model();
+  const auto better = chosen_model(series, select, progress.part(0.0, 0.7));
+  if (!better) return {};
   FitOptions fit;
-  fit.model = better;
+  fit.model = *better;
+  fit.compare = false;
   const auto fitted = fit_series(series, fit, progress.part(0.7, 1.0));
-  if (!fitted || better == model)
+  if (!fitted || *better == model)
     return "no noise process that imunoise knows makes the model fit; find the missing effect with "
            "imunoise diagnose";
   if (report::verdict(*fitted) == report::Verdict::kFails)
     return fmt::format(
         "{} predicts better, but does not fit either ({}); find the missing effect with imunoise "
         "diagnose",
-        better, chance_words(fitted->p_value()));
-  return fmt::format("{} fits ({})", better, chance_words(fitted->p_value()));
+        *better, chance_words(fitted->p_value()));
+  return fmt::format("{} fits ({})", *better, chance_words(fitted->p_value()));
 }
 
 }  // namespace
@@ -92,15 +92,22 @@ v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>
   } else {
     SelectOptions select;
     select.models = options.models;
-    if (keep(select_model(series, select, progress.part(0.1, 0.3)), "select", out,
-             &Calibration::mutable_choice)) {
+    if (!options.explain) {
+      auto chosen = chosen_model(series, select, progress.part(0.1, 0.3));
+      if (chosen)
+        model = *std::move(chosen);
+      else
+        add_trouble("select", chosen.error(), *out.mutable_troubles());
+    } else if (keep(select_model(series, select, progress.part(0.1, 0.3)), "select", out,
+                    &Calibration::mutable_choice)) {
       model = model_to_use(out.choice()).model();
     }
   }
   FitOptions fit;
   fit.model = model;
+  fit.compare = false;  // the test does
   keep(fit_series(series, fit, progress.part(0.3, 0.35)), "fit", out, &Calibration::mutable_fit);
-  if (out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails)
+  if (options.explain && out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails)
     out.set_missing(what_is_missing(series, out.fit().model(), progress.part(0.35, 0.4)));
   if (replicates.size() > 1) {
     TestOptions test;

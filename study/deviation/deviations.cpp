@@ -34,12 +34,37 @@ std::string law_name(NoiseType law) {
   return law == NoiseType::kWhite ? "WN" : "RW";
 }
 
-// Slope of log variance over log τ, from the neighbours of a point.
-double slope_at(const std::vector<std::pair<double, double>>& points, std::size_t i) {
-  const auto& [left, low] = points[i > 0 ? i - 1 : i];
-  const auto& [right, high] = points[std::min(i + 1, points.size() - 1)];
-  if (!(low > 0.0 && high > 0.0) || left == right) return -1.0;
-  return std::log(high / low) / std::log(right / left);
+double degrees_of(const Series& series, DeviationKind kind, NoiseType law, std::size_t m) {
+  double out = 0.0;
+  for (const Signal& signal : series.replicates) {
+    if (difference_count(kind, signal.size(), m) > 0)
+      out += deviation_degrees(kind, law, signal.size(), m);
+  }
+  return out;
+}
+
+struct Point {
+  std::size_t m = 0;
+  double variance = 0.0;
+  double white_degrees = 0.0;  // of freedom, if the noise is white
+};
+
+// By the slope of log variance over log τ, from the neighbours of a point. Rounding has by far the
+// most degrees of freedom: it has to be steeper than white noise beyond chance.
+NoiseType law_at(const std::vector<Point>& points, std::size_t i) {
+  constexpr double kBeyondChance = 3.0;
+  const Point& left = points[i > 0 ? i - 1 : i];
+  const Point& right = points[std::min(i + 1, points.size() - 1)];
+  if (!(left.variance > 0.0 && right.variance > 0.0) || left.m == right.m) return NoiseType::kWhite;
+  const double width = std::log(static_cast<double>(right.m) / static_cast<double>(left.m));
+  const double slope = std::log(right.variance / left.variance) / width;
+  const double error = std::sqrt(2.0 / left.white_degrees + 2.0 / right.white_degrees) / width;
+  const NoiseType law = nearest_law(slope);
+  constexpr double kKnown = 30.0;  // degrees of freedom
+  const bool few = std::min(left.white_degrees, right.white_degrees) < kKnown;
+  const bool chance =
+      law == NoiseType::kQuantisation && (few || slope > -1.0 - kBeyondChance * error);
+  return chance ? NoiseType::kWhite : law;
 }
 
 void add_minimum(v1::DeviationReport& to) {
@@ -67,20 +92,17 @@ Result<v1::DeviationReport> deviations(const Series& series, DeviationKind kind,
   out.set_kind(kind == DeviationKind::kAllan ? "Allan" : "Hadamard");
   out.set_confidence(confidence);
   out.set_replicates(static_cast<std::uint32_t>(series.replicates.size()));
-  std::vector<std::pair<double, double>> curve;
+  std::vector<Point> curve;
   for (const auto& [m, sum] : pooled)
-    curve.emplace_back(static_cast<double>(m), sum.variance / sum.weight);
+    curve.push_back({m, sum.variance / sum.weight, degrees_of(series, kind, NoiseType::kWhite, m)});
   const double tail = 0.5 * (1.0 - confidence);
-  std::size_t i = 0;
-  for (const auto& [m, sum] : pooled) {
-    const NoiseType law = nearest_law(slope_at(curve, i));
-    double degrees = 0.0;
-    for (const Signal& signal : series.replicates)
-      if (difference_count(kind, signal.size(), m) > 0)
-        degrees += deviation_degrees(kind, law, signal.size(), m);
-    const double variance = curve[i++].second;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const auto& [m, variance, white_degrees] = curve[i];
+    const NoiseType law = law_at(curve, i);
+    const double degrees =
+        law == NoiseType::kWhite ? white_degrees : degrees_of(series, kind, law, m);
     v1::DeviationPoint& point = *out.add_points();
-    point.set_samples(m);
+    point.set_samples(static_cast<std::uint32_t>(m));
     point.set_tau_s(static_cast<double>(m) / first.rate().value);
     point.set_deviation(std::sqrt(variance));
     point.set_lower(std::sqrt(variance * degrees / chi_square_quantile(1.0 - tail, degrees)));

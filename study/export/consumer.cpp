@@ -80,7 +80,10 @@ std::string commented(const Sheet& sheet, std::string_view prefix) {
 std::string json_comment(const Sheet& sheet, std::string_view indent) {
   std::string out = fmt::format("{}\"comment\": [", indent);
   const char* separator = "\n";
-  for (const std::string& line : sheet.heading) {
+  std::vector<std::string> lines = sheet.heading;
+  for (const Field& one : sheet.fields)
+    lines.push_back(fmt::format("{}: {}", one.key, field_words(one)));
+  for (const std::string& line : lines) {
     if (line.empty()) continue;
     out += fmt::format("{}{}  {}", separator, indent, json_string(line));
     separator = ",\n";

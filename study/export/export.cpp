@@ -93,13 +93,21 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizo
       fmt::format("{}: N and K bound the integrated error of the whole model over {}; they "
                   "overstate it by a factor of up to {:.2f} ({:.2f} in the mean square)",
                   axis.channel, horizon_words(horizon), bound.most, bound.usual));
-  for (const ParameterDraw& one : axis.draws)
-    axis.remarks.push_back(fmt::format("  {}", one.words));
-  if (!axis.draws.empty())
-    axis.remarks.push_back(fmt::format(
-        "  these parameters differ between replicates: N and K bound {:g} % of power-ons at each "
-        "averaging time",
-        100.0 * kNextPowerOn));
+  if (axis.draws.empty()) return;
+  const double average = std::sqrt((variance(*axis.bound, m) / variance(axis.noise, m)).maxCoeff());
+  axis.remarks.push_back(fmt::format(
+      "  the bound is that of {:g} % of power-ons at each averaging time, up to {:.2f} times the "
+      "error of the average one",
+      100.0 * kNextPowerOn, average));
+}
+
+// How replicates differ is shown, whatever is written.
+void tell_draws(const AxisNoise& axis, bool bounded, std::vector<std::string>& remarks) {
+  if (axis.draws.empty()) return;
+  remarks.push_back(fmt::format(
+      "{}: parameters differ between replicates beyond chance{}:", axis.channel,
+      bounded ? "" : "; the values are their average (--conservative bounds the next power-on)"));
+  for (const ParameterDraw& one : axis.draws) remarks.push_back(fmt::format("  {}", one.words));
 }
 
 // Where a bias may be a Markov process: the random walk or the slowest Markov process, whichever
@@ -207,7 +215,7 @@ std::vector<std::string> origin_words(std::string_view of, const Consumer& to,
 Result<ImuNoise> imu_noise(const std::vector<SourceFit>& fits) {
   ImuNoise out;
   std::set<std::pair<Quantity, char>> seen;
-  for (const auto& [device, fit, stationarity] : fits) {
+  for (const auto& [device, fit] : fits) {
     const auto unit = parse_unit(fit.unit());
     SensorNoise* const sensor = !unit                                       ? nullptr
                                 : unit->quantity == Quantity::kAngularRate  ? &out.gyro
@@ -216,7 +224,7 @@ Result<ImuNoise> imu_noise(const std::vector<SourceFit>& fits) {
     if (sensor == nullptr) continue;
     auto axis = axis_of(fit, unit->quantity);
     if (!axis) return tl::unexpected(axis.error());
-    axis->draws = moving_parameters(axis->noise, stationarity);
+    axis->draws = moving_parameters(axis->noise, fit.spread());
     const bool twice = axis->axis != ' ' && !seen.emplace(unit->quantity, axis->axis).second;
     sensor->axes.push_back(std::move(*axis));
     if (!twice && sensor->axes.size() <= 3) continue;
@@ -250,6 +258,7 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
   for (const auto& [from, into] : sensors) {
     SensorNoise all = *from;
     for (AxisNoise& axis : all.axes) {
+      tell_draws(axis, options.conservative, axis.remarks);
       if (options.conservative) {
         make_conservative(axis, all.quantity, options.horizon);
       } else if (to.holding == Holding::kDensities) {

@@ -40,10 +40,10 @@ Model drawn(Model noise, const std::vector<ParameterDraw>& draws, RandomStream& 
 
 }  // namespace
 
-std::vector<ParameterDraw> moving_parameters(const Model& noise,
-                                             const v1::StationarityReport& report) {
+std::vector<ParameterDraw> moving_parameters(
+    const Model& noise, const google::protobuf::RepeatedPtrField<v1::ParameterSpread>& spread) {
   std::vector<ParameterDraw> out;
-  for (const v1::ParameterSpread& from : report.spread()) {
+  for (const v1::ParameterSpread& from : spread) {
     if (!from.moves() || from.replicates() < 3) continue;
     for (std::size_t t = 0; t < noise.terms.size(); ++t) {
       const std::vector<ParameterInfo> about = parameters(noise.terms[t].process);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/model/model.h"
-#include "imunoise/v1/inference.pb.h"
+#include "imunoise/v1/noise.pb.h"
 
 namespace imunoise::study {
 
@@ -23,9 +23,9 @@ struct ParameterDraw {
   std::string words;  ///< "sigma2 of WN: mean 2.5e-07, between 6 replicates ±9.2 % (5.1 … 24 %)"
 };
 
-/// The parameters that differ between replicates at 5 %, of a test's report on the same model.
-std::vector<ParameterDraw> moving_parameters(const Model& noise,
-                                             const v1::StationarityReport& report);
+/// The parameters that differ between replicates at 5 %, of a report on the same model.
+std::vector<ParameterDraw> moving_parameters(
+    const Model& noise, const google::protobuf::RepeatedPtrField<v1::ParameterSpread>& spread);
 
 /// Allan variance at `samples` that the next power-on exceeds with probability 1 - level, at each
 /// averaging time: the quantile over 2,000 draws from Student's t of replicates - 1 degrees of

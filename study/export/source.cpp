@@ -25,8 +25,9 @@ std::vector<SourceFit> fits_of(const v1::Calibration& calibration) {
   std::vector<SourceFit> out;
   for (const v1::ChannelCalibration& one : calibration.channels()) {
     if (!one.has_fit()) continue;
-    out.push_back({one.device(), one.fit(), one.stationarity()});
+    out.push_back({one.device(), one.fit()});
     out.back().fit.set_channel(one.channel());
+    *out.back().fit.mutable_spread() = one.stationarity().spread();
   }
   return out;
 }
@@ -38,9 +39,9 @@ Result<std::vector<SourceFit>> parse_fits(const std::string& text) {
   if (const auto calibration = parse_calibration(text)) {
     out = fits_of(*calibration);
   } else if (reads(text, one)) {
-    out.push_back({"", one, {}});
+    out.push_back({"", one});
   } else if (reads(text, several)) {
-    for (const v1::FitReport& fit : several.channels()) out.push_back({"", fit, {}});
+    for (const v1::FitReport& fit : several.channels()) out.push_back({"", fit});
   } else {
     return fail(
         "not the JSON of imunoise calibrate, fit or array; write it with imunoise calibrate "

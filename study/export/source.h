@@ -17,7 +17,6 @@ namespace imunoise::study {
 struct SourceFit {
   std::string device;  ///< its name in the recording; empty for plain files
   v1::FitReport fit;
-  v1::StationarityReport stationarity{};  ///< of the replicates; empty where there is only one
 };
 
 /// The fits of a calibration; channels without one are left out.

@@ -27,7 +27,7 @@ TEST_F(WvDeviation, NistPoints) {
   const auto report = nlohmann::json::parse(allan.out);
   EXPECT_EQ(report["kind"], "Allan");
   const auto& points = report["points"];
-  EXPECT_EQ(points[3]["samples"], "10");
+  EXPECT_EQ(points[3]["samples"], 10);
   EXPECT_NEAR(points[0]["deviation"].get<double>(), 2.922319e-1, 5e-8);
   EXPECT_NEAR(points[3]["deviation"].get<double>(), 9.159953e-2, 5e-9);
   EXPECT_LT(points[3]["lower"].get<double>(), 9.159953e-2);

@@ -23,7 +23,10 @@ Lines lines_of(const std::string& text) {
 
 class Manual : public Program {
  protected:
-  Manual() { EXPECT_EQ(run("--write-manual manual").status, 0); }
+  Manual() {
+    EXPECT_EQ(run("--write-manual manual").status, 0);
+    EXPECT_EQ(shell(IMUNOISED " --write-manual manual"), "");
+  }
 
   // Every command, "batch new" included: those whose pages were written.
   std::vector<std::string> commands() const {
@@ -46,12 +49,14 @@ class Manual : public Program {
     return out;
   }
 
-  // What bash offers for the last of the words.
-  std::set<std::string> offered(const std::string& words) const {
+  // What bash offers for the last of the words, with the completions of both programs loaded.
+  std::set<std::string> offered(const std::string& words,
+                                const std::string& program = "imunoise") const {
+    const std::string folder = ". manual/bash-completion/completions/";
     const std::string out =
-        shell("bash -c '. manual/bash-completion/completions/imunoise; COMP_WORDS=(" + words +
-              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _imunoise; "
-              "printf \"%s\\n\" \"${COMPREPLY[@]}\"'");
+        shell("bash -c '" + folder + "imunoise; " + folder + "imunoised; COMP_WORDS=(" + words +
+              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); $(complete -p " + program +
+              " | grep -o \"_imunoise[a-z]*\"); printf \"%s\\n\" \"${COMPREPLY[@]}\"'");
     const Lines all = lines_of(out);
     return {all.begin(), all.end()};
   }
@@ -142,8 +147,6 @@ TEST_F(Manual, EveryOptionHasTheSameForm) {
 
 TEST_F(Manual, PagesHaveNoWarnings) {
   if (shell("command -v man").empty()) GTEST_SKIP() << "man is not installed";
-  std::filesystem::create_directories(folder_ / "manual");
-  ASSERT_EQ(shell("'" IMUNOISED "' --write-manual manual"), "");
   const std::string warnings =
       shell("LC_ALL=C.UTF-8 MANROFFSEQ= man --warnings -E UTF-8 -l -P cat manual/man/man*/* >text");
   EXPECT_EQ(warnings, "");
@@ -157,7 +160,8 @@ TEST_F(Manual, PagesHaveNoWarnings) {
 }
 
 TEST_F(Manual, BashCompletesCommandsOptionsAndValues) {
-  EXPECT_EQ(shell("bash -n manual/bash-completion/completions/imunoise"), "");
+  for (const std::string program : {"imunoise", "imunoised"})
+    EXPECT_EQ(shell("bash -n manual/bash-completion/completions/" + program), "");
   using Words = std::set<std::string>;
   EXPECT_EQ(offered("imunoise fa"), Words({"faults"}));
   EXPECT_EQ(offered("imunoise --threads 2 batch s"), Words({"shard", "status"}));
@@ -167,6 +171,7 @@ TEST_F(Manual, BashCompletesCommandsOptionsAndValues) {
   EXPECT_EQ(offered("imunoise batch run --engine s"), Words({"slurm"}));
   EXPECT_EQ(offered("imunoise fit --rate \"\""), Words({""}));
   EXPECT_EQ(offered("'" IMUNOISE_BINARY "' record x --device x"), Words({"xsens"}));
+  EXPECT_EQ(offered("imunoised --che", "imunoised"), Words({"--check-config"}));
 }
 
 TEST_F(Manual, ZshParsesItsCompletion) {
@@ -174,7 +179,8 @@ TEST_F(Manual, ZshParsesItsCompletion) {
   EXPECT_NE(script.find("_imunoise_batch_run() {"), std::string::npos);
   EXPECT_NE(script.find(":xbus|candump|adis16405:(xbus candump adis16405)'"), std::string::npos);
   if (shell("command -v zsh").empty()) GTEST_SKIP() << "zsh is not installed";
-  EXPECT_EQ(shell("zsh -n manual/zsh/vendor-completions/_imunoise"), "");
+  for (const std::string program : {"imunoise", "imunoised"})
+    EXPECT_EQ(shell("zsh -n manual/zsh/vendor-completions/_" + program), "");
 }
 
 // A real zsh, to which the words and the tabulator key are typed.

@@ -153,6 +153,19 @@ TEST_F(MemoryTest, FitOfEightHundredMegabytes) {
   EXPECT_LE(peak.bytes, bound(arguments));
 }
 
+// Of itself, an export takes 64 MiB of large arrays.
+TEST_F(MemoryTest, ExportOfOneHundredSixtyMegabytes) {
+  constexpr std::size_t kRows = 20'000'000;
+  write_hdf5("long.h5", kRows);
+  const std::vector<std::string> arguments = {"export", "long.h5", "--rate", "100",
+                                              "--unit", "*=deg/s", "--to",   "csv"};
+  const std::size_t most = bound(arguments) - 2 * kAllowed;
+  ::unsetenv("IMUNOISE_MEMORY_MIB");
+  const Peak peak = peak_of(arguments);
+  EXPECT_EQ(peak.status, 0);
+  EXPECT_LE(peak.bytes, most);
+}
+
 TEST_F(MemoryTest, DiagnosisOfThirtyMillionNumbers) {
   constexpr std::size_t kRows = 10'000'000;
   write_npy("long.npy", kRows, 3);

@@ -137,6 +137,9 @@ class Samples(unittest.TestCase):
     def test_allan_deviation_is_that_of_its_definition(self):
         x = imunoise.simulate("WN(sigma2=1) + RW(gamma2=0.01)", 10, 4096, seed=3)
         found = imunoise.allan_deviation(x, "x")
+        self.assertEqual(round(found["tau_s"][2] * 10), 4)  # the customary times: 1, 2, 4, 10, ...
+        self.assertTrue(np.all(np.diff(found["degrees_of_freedom"]) < 0.0))
+        self.assertEqual(len(imunoise.hadamard_deviation(x, "x")["deviation"]), len(found["deviation"]) - 1)
         sums = np.concatenate([[0.0], np.cumsum(x.samples("x"))])
         for tau, deviation in zip(found["tau_s"], found["deviation"]):
             m = round(tau * 10)
@@ -154,6 +157,10 @@ class Samples(unittest.TestCase):
         x = imunoise.from_arrays({"x": noise}, 10)
         with self.assertRaisesRegex(imunoise.Error, r"did you mean WN"):
             imunoise.fit(x, "ARW")
+        with self.assertRaisesRegex(imunoise.Error, r"did you mean 'x1'"):
+            imunoise.fit(imunoise.from_arrays({"x1": noise, "y1": noise}, 10), "WN", "x2")
+        with self.assertRaisesRegex(imunoise.Error, r"did you mean 'kalibr'"):
+            imunoise.export([imunoise.fit(x, "WN")], "kalbr")
         for wrong in (lambda: imunoise.fit(x, "WN", "y"), lambda: imunoise.fit(x, "WN", weights="all"),
                       lambda: imunoise.fit(x, "WN", confidence=1.5), lambda: imunoise.read(),
                       lambda: imunoise.wavelet_variance(x, per_octave=3), lambda: imunoise.read("absent.csv"),

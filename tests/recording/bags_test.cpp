@@ -195,6 +195,12 @@ TEST_F(Bags, RatesAndAccelerationsInTwoTopicsAreJoined) {
   const auto got = import_one(file);
   ASSERT_TRUE(got) << got.error().message;
   expect_counted(got->front(), 100);
+  ImportOptions named;
+  named.channels = {"gyro_x"};
+  const auto rate = import_one(file, named);
+  ASSERT_TRUE(rate) << rate.error().message;
+  ASSERT_EQ(rate->front().channels.size(), 1U);
+  EXPECT_EQ(rate->front().channels[0].name, "gyro_x");
   ImportOptions one;
   one.topic = "/accel";
   const auto alone = import_one(file, one);

@@ -63,7 +63,10 @@ TEST_F(Refused, FilesWithNothingInThem) {
   expect_parts(error_of(write("a.csv", "")), {"a.csv", "is empty"});
   expect_parts(error_of(write("a.csv", "# nothing\n\n")), {"a.csv", "no rows"});
   expect_parts(error_of(write("a.csv", "x,y\n"), at_rate(1)),
-               {"a.csv", "0 samples", "at least 16"});
+               {"a.csv", "holds no rows of numbers"});
+  std::string noise;
+  for (int i = 0; i < 500; ++i) noise += static_cast<char>(1 + (i * 7919) % 251);
+  expect_parts(error_of(write("a.csv", noise)), {"a.csv", "is no text", "ends in .csv"});
   expect_parts(error_of(write("a.csv", repeated("1\n", 15)), at_rate(1)),
                {"a.csv", "15 samples", "at least 16"});
   EXPECT_EQ(error_of(write("a.csv", repeated("1\n", 16)), at_rate(1)), "no error");
@@ -87,6 +90,12 @@ TEST_F(Refused, OptionsThatMakeNoSense) {
   options = at_rate(1);
   options.split_into = 0;
   expect_parts(error_of(write("a.csv", kRows), options), {"--split-into"});
+  options = at_rate(1);
+  options.from = 100.0;
+  options.until = 10.0;
+  expect_parts(error_of(write("a.csv", kRows), options), {"--from 100", "not before --until 10"});
+  options.until.reset();
+  expect_parts(error_of(write("a.csv", kRows), options), {"--from", "leave 0 of"});
   expect_parts(import_files({}).error().message, {"no file"});
 }
 

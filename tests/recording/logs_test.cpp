@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include "recording/import/table/streams.h"
@@ -156,6 +157,25 @@ TEST_F(Wire, CapturesOfAnXsensDevice) {
   EXPECT_TRUE(gyro) << told(got->front());
 }
 
+// Blocks of regular times are kept narrow, others wide; all come back.
+TEST(Streams, TimesComeBackAsTheyCame) {
+  std::vector<std::int64_t> all;
+  std::int64_t now = 1'700'000'000'000'000'000;
+  for (std::int64_t i = 0; i < 300'000; ++i) {
+    now += 5'000'000 + (i * 7919) % 400'000 - 200'000;
+    if (i == 150'000) now += 10'000'000'000'000;
+    if (i == 250'000) now = std::numeric_limits<std::int64_t>::min();
+    if (i == 250'001) now = std::numeric_limits<std::int64_t>::max() - 1'000'000'000'000;
+    all.push_back(now);
+  }
+  Times times;
+  for (const std::int64_t one : all) times.push(one);
+  ASSERT_EQ(times.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); i += 7) ASSERT_EQ(times[i], all[i]) << i;
+  EXPECT_EQ(times.take(), all);
+  EXPECT_TRUE(times.empty());
+}
+
 // Two streams whose samples come at a phase of half a step, with jitter: the delay tells pairs.
 TEST(Streams, AreJoinedAtTheirUsualDelay) {
   TimedStream first{"a", {}, {}};
@@ -164,10 +184,10 @@ TEST(Streams, AreJoinedAtTheirUsualDelay) {
   std::vector<double> y;
   for (int i = 0; i < 500; ++i) {
     const std::int64_t jitter = (i * 7919) % 400'000 - 200'000;
-    first.times.push_back(10'000'000LL * i);
+    first.times.push(10'000'000LL * i);
     x.push_back(i);
     if (i % 50 == 7) continue;
-    second.times.push_back(10'000'000LL * i + 4'900'000 + jitter);
+    second.times.push(10'000'000LL * i + 4'900'000 + jitter);
     y.push_back(i);
   }
   first.columns = {{"gyro_x", x, 1.0, 0.0, "rad/s"}};

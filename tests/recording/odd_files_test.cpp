@@ -294,7 +294,7 @@ std::vector<OddFile> odd_files() {
         good("accelerations in g that state no unit", "g, by their norm",
              odd_table("t,ax,ay,az\n",
                        [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + ",1.001"; }),
-             "accelerations: g");
+             "accelerations ax, ay, az: g");
     one.channels = 3;
   }
   {
@@ -352,6 +352,15 @@ std::vector<OddFile> odd_files() {
                         "gyro_y of the angular rates never changes");
     one.channels = 2;
     one.used = 2000;
+  }
+  {
+    OddFile& one =
+        good("one of a hundred samples lost throughout", "100 Hz; cut at each loss",
+             odd_table(
+                 "t,wx [rad/s]\n", [](int i) { return t(i + (i + 50) / 99) + "," + x(i); }, 990),
+             "1 % of the samples are lost in 10 places");
+    one.stretches = 11;
+    one.used = 990;
   }
   good("two sensors of different rates in one table", "that of the rates; the other is named",
        odd_table("t,wx [rad/s],ax [m/s^2]\n",

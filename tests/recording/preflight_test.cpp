@@ -8,87 +8,10 @@
 #include <functional>
 #include <random>
 
-#include "recording/import/preflight/clock.h"
-#include "recording/import/preflight/pace.h"
-#include "recording/import/table/names.h"
 #include "tests/recording/files.h"
 
 namespace imunoise::recording {
 namespace {
-
-TEST(Names, PeopleCallThem) {
-  for (const char* name : {"t", "T", "time", "Timestamp", "time_ms", "timestamp_ns", "%time",
-                           "field.header.stamp", "seconds_elapsed"}) {
-    EXPECT_TRUE(is_time_name(name)) << name;
-  }
-  for (const char* name : {"temperature", "gyro_t", "times", "_s", "t_min", ""}) {
-    EXPECT_FALSE(is_time_name(name)) << name;
-  }
-  EXPECT_EQ(*time_unit("t_us", ""), 1e-6);
-  EXPECT_EQ(*time_unit("t", "µs"), 1e-6);
-  EXPECT_EQ(*time_unit("t", ""), std::nullopt);
-  EXPECT_FALSE(time_unit("t", "fortnights"));
-  for (const char* name : {"wx", "gx", "gyr_x", "Gyro X", "angular_velocity.x", "GyroX",
-                           "field.angular_velocity.x", "w_RS_S_x"}) {
-    EXPECT_EQ(common_name(role_of(name)), "gyro_x") << name;
-  }
-  for (const char* name : {"az", "acc_z", "accelZ", "linear_acceleration.z", "a_RS_S_z"}) {
-    EXPECT_EQ(common_name(role_of(name)), "acc_z") << name;
-  }
-  EXPECT_EQ(common_name(role_of("imu_temp")), "temperature");
-  for (const char* name : {"x", "angular_velocity_covariance_0", "note", "box"}) {
-    EXPECT_EQ(common_name(role_of(name)), "") << name;
-  }
-  EXPECT_TRUE(role_of("delta_v_x").increment);
-  EXPECT_TRUE(matches("gyro_*", "wx"));
-  EXPECT_FALSE(matches("gyro_*", "ax"));
-}
-
-std::vector<double> even(std::size_t count, double step) {
-  std::vector<double> out;
-  for (std::size_t i = 0; i < count; ++i) out.push_back(static_cast<double>(i) * step);
-  return out;
-}
-
-Pace pace_in(const std::vector<double>& times) {
-  const TimeColumn column{"t", "s", times};
-  const auto clock = Clock::read("f", column, std::nullopt);
-  return pace_of(clock.value(), [](std::size_t) { return false; });
-}
-
-TEST(Pace, OnlyLastingLatenessIsAGap) {
-  std::vector<double> times = even(1000, 0.01);
-  EXPECT_TRUE(pace_in(times).leaps.empty());
-  for (std::size_t i = 400; i < times.size(); ++i) times[i] += 0.03;
-  const Pace gap = pace_in(times);
-  ASSERT_EQ(gap.leaps.size(), 1U);
-  EXPECT_EQ(gap.leaps[0].at, 400U);
-  EXPECT_NEAR(gap.leaps[0].seconds, 0.03, 1e-6);
-  EXPECT_NEAR(gap.period, 0.01, 1e-9);
-  times = even(1000, 0.01);
-  times[500] += 0.02;  // one stamp is late, and the next are not
-  EXPECT_TRUE(pace_in(times).leaps.empty());
-  times = even(1000, 0.01);
-  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.01 * static_cast<double>(i / 8 * 8);
-  EXPECT_TRUE(pace_in(times).leaps.empty());  // bursts of eight
-  for (std::size_t i = 400; i < times.size(); ++i) times[i] += 0.05;
-  EXPECT_EQ(pace_in(times).leaps.size(), 1U);
-  times = even(1000, 0.01);
-  for (std::size_t i = 700; i < times.size(); ++i) times[i] -= 3.0;
-  const Pace back = pace_in(times);
-  ASSERT_EQ(back.leaps.size(), 1U);
-  EXPECT_NEAR(back.leaps[0].seconds, -3.0, 1e-6);
-}
-
-TEST(Pace, JitterIsThatOfTheStamps) {
-  std::mt19937_64 random(8);
-  std::vector<double> times = even(20'000, 0.01);
-  std::normal_distribution<double> normal(0.0, 5e-4);
-  for (double& time : times) time += normal(random);
-  // The mean square of neighbouring steps of n stamps has a relative variance of 3/n; 4 sigma of a
-  // root.
-  EXPECT_NEAR(pace_in(times).jitter, 0.05, 0.05 * 2.0 * std::sqrt(3.0 / 20'000));
-}
 
 class Odd : public FileTest {
  protected:
@@ -185,11 +108,16 @@ TEST_F(Odd, UnitsOfEachKind) {
   ASSERT_TRUE(got) << got.error().message;
   EXPECT_EQ(got->front().channels[0].unit.symbol, "deg/s");
   EXPECT_EQ(got->front().channels[3].unit.symbol, "m/s^2");
-  expect_parts(findings(got->front()), {"accelerations: m/s^2", "norm is 9.79"});
+  expect_parts(findings(got->front()), {"angular rates wx: deg/s (--unit)",
+                                        "accelerations ax, ay, az: m/s^2", "norm is 9.79"});
   options.units = {{"*", *parse_unit("deg/s")}};
   const auto mixed = odd("t,wx,ax,ay,az", row, options);
   ASSERT_FALSE(mixed);
   expect_parts(mixed.error().message, {"--unit deg/s", "channel ax", "'gyro_*=deg/s,acc_*=g'"});
+  options.units = {{"gyro_*", *parse_unit("deg/s")}, {"rate_*", *parse_unit("deg/s")}};
+  const auto mistyped = odd("t,wx,ax,ay,az", row, options);
+  ASSERT_FALSE(mistyped);
+  expect_parts(mistyped.error().message, {"--unit rate_*=deg/s", "no channel", "wx, ax, ay, az"});
   const auto wrong = odd("t,wx [deg/s],ax [g],ay [g],az [g]", row);
   ASSERT_TRUE(wrong) << wrong.error().message;
   expect_parts(findings(wrong->front()), {"stated in g", "not 9.81"});
@@ -279,6 +207,28 @@ TEST_F(Rest, AStepOfOneAxisIsToldAndUsed) {
   expect_parts(findings(got->front()), {"wy changes from 90", "no other channel", "--exclude"});
 }
 
+// What the other axes show counts where one is asked for, and only the one comes back.
+TEST_F(Rest, OneChannelIsJudgedBesideItsAxes) {
+  const auto knock = [](int row, int axis) {
+    return row >= 15'000 && row < 15'250 ? (axis < 3 ? 0.05 : 0.5) * std::sin(0.3 * row) : 0.0;
+  };
+  ImportOptions options;
+  options.channels = {"wy"};
+  const auto got = imported(rest(6, knock), "rad/s", options);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->front().channels.size(), 1U);
+  EXPECT_EQ(got->front().channels[0].name, "wy");
+  expect_parts(findings(got->front()), {"disturbed from", "left out"});
+  options.channels = {"acc_z", "gyro_x"};
+  const auto two = imported(rest(6), "rad/s", options);
+  ASSERT_TRUE(two) << two.error().message;
+  ASSERT_EQ(two->front().channels.size(), 2U);
+  EXPECT_EQ(two->front().channels[0].name, "az");
+  EXPECT_EQ(two->front().channels[0].unit.symbol, "m/s^2");
+  EXPECT_EQ(two->front().channels[1].name, "wx");
+  EXPECT_TRUE(two->front().preflight->findings.empty()) << findings(two->front());
+}
+
 TEST_F(Rest, RepeatedSamplesAreTold) {
   auto rows = rest(8);
   for (std::size_t i = 1; i < rows.size(); i += 2) {
@@ -342,6 +292,90 @@ TEST_F(Odd, IncrementsBecomeRates) {
   });
   ASSERT_TRUE(unnamed) << unnamed.error().message;
   EXPECT_NEAR(unnamed->front().channels[2].signal().value(0), 9.81, 1e-9);
+  // Not at rest in the unit of the header, and gravity in a hundredth of a second.
+  const auto stated = odd("t [s],wx [deg/s],ax [m/s^2],ay [m/s^2],az [m/s^2]", [](int i) {
+    return fmt::format("{:.2f},{},0,0,{}", 0.01 * i, 0.001 * (i % 7), 0.0981 + 1e-5 * (i % 5));
+  });
+  ASSERT_TRUE(stated) << stated.error().message;
+  EXPECT_EQ(stated->front().channels[0].unit.symbol, "deg/s");
+  EXPECT_NEAR(stated->front().channels[0].signal().value(6), 0.6 * 3.14159265358979 / 180.0, 1e-9);
+  EXPECT_NEAR(stated->front().channels[3].signal().value(0), 9.81, 1e-9);
+}
+
+// Each sensor by its name: its own unit, its own axes to judge by, never another one's.
+TEST_F(Odd, TwoSensorsInOneTable) {
+  const std::string head =
+      "t [s],imu1_gyro_x,imu1_acc_x,imu1_acc_y,imu1_acc_z,imu2_gyro_x,imu2_acc_x,imu2_acc_y,"
+      "imu2_acc_z";
+  const auto row = [](int i) {
+    return fmt::format("{:.2f},0.1,0,0,9.8,{},0,0,1.0", 0.01 * i, i % 7);
+  };
+  ImportOptions options;
+  options.units = {{"imu1_gyro_*", *parse_unit("rad/s")}, {"imu2_gyro_*", *parse_unit("deg/s")}};
+  const auto both = odd(head, row, options);
+  ASSERT_TRUE(both) << both.error().message;
+  EXPECT_EQ(both->front().channels[0].unit.symbol, "rad/s");
+  EXPECT_EQ(both->front().channels[3].unit.symbol, "m/s^2");
+  EXPECT_EQ(both->front().channels[4].unit.symbol, "deg/s");
+  EXPECT_EQ(both->front().channels[7].unit.symbol, "g");
+  options.units.clear();
+  options.channels = {"imu2_gyr_x"};
+  const auto second = odd(head, row, options);
+  ASSERT_TRUE(second) << second.error().message;
+  ASSERT_EQ(second->front().channels.size(), 1U);
+  EXPECT_EQ(second->front().channels[0].name, "imu2_gyro_x");
+  expect_parts(findings(second->front()), {"accelerations imu2_acc_x, imu2_acc_y, imu2_acc_z: g"});
+  options.channels = {"gyro_x"};  // a common name stands for both
+  EXPECT_EQ(odd(head, row, options).value().front().channels.size(), 2U);
+  options.channels = {"imu3_gyro_x"};
+  EXPECT_FALSE(odd(head, row, options));
+}
+
+// The axes of the slower sensor stand in the same rows.
+TEST_F(Odd, OneAxisOfTheSlowerSensor) {
+  ImportOptions options;
+  options.channels = {"ay"};
+  const auto got = odd(
+      "t [s],wx [rad/s],ax,ay,az",
+      [](int i) {
+        const bool both = i % 4 == 0;
+        return fmt::format("{:.2f},{},{},{},{}", 0.01 * i, i % 7, both ? "0.1" : "",
+                           both ? "0.2" : "", both ? "9.79" : "");
+      },
+      options);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->front().channels.size(), 1U);
+  EXPECT_EQ(got->front().channels[0].name, "ay");
+  EXPECT_EQ(got->front().channels[0].unit.symbol, "m/s^2");
+  EXPECT_EQ(got->front().rate.value, 25.0);
+}
+
+// Values that another axis misses are none of the channel that is asked for.
+TEST_F(Odd, WhatIsReadToJudgeByCutsNothing) {
+  ImportOptions options;
+  options.channels = {"wx"};
+  const auto got = odd(
+      "t [s],wx [deg/s],wy [deg/s],ax [cubit]",
+      [](int i) { return fmt::format("{:.2f},{},{},0", 0.01 * i, i % 7, i == 50 ? "nan" : "1"); },
+      options);
+  ASSERT_TRUE(got) << got.error().message;
+  ASSERT_EQ(got->size(), 1U);
+  EXPECT_EQ(got->front().channels.size(), 1U);
+  EXPECT_EQ(got->front().channels[0].count, 200U);
+  options.channels = {"ax", "wx"};
+  EXPECT_FALSE(odd(
+      "t [s],wx [deg/s],ax [cubit]", [](int i) { return fmt::format("{:.2f},1,2", 0.01 * i); },
+      options));
+  options.channels = {"wz"};
+  const auto increments = odd(
+      "t [s],wx,wy,wz,ax,ay,az",
+      [](int i) {
+        return fmt::format("{:.2f},0,0,{},0,0,{}", 0.01 * i, 0.001 * (i % 7),
+                           0.0981 + 1e-5 * (i % 5));
+      },
+      options);
+  ASSERT_TRUE(increments) << increments.error().message;
+  EXPECT_NEAR(increments->front().channels[0].signal().value(6), 0.6, 1e-12);
 }
 
 TEST_F(Odd, SensorsOfTwoRatesInOneTableAreTakenApart) {

@@ -19,6 +19,7 @@ TEST(RealData, SixReplicatesOfAnAdis16405) {
   }
   ImportOptions options;
   options.channels = {"gyro_z", "gyro_x"};
+  options.use_disturbed = true;  // a second of the fourth replicate
   const auto got = import_files(paths, options);
   ASSERT_TRUE(got) << got.error().message;
   ASSERT_EQ(got->size(), 6U);

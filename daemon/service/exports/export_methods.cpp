@@ -87,7 +87,7 @@ Answer<v1::Text> export_study(const StudyStore& studies, const v1::ExportStudyRe
   const auto study = studies.read(request.study());
   if (!study) return tl::unexpected(study.error());
   const v1::Rung& rung = study->attempts(static_cast<int>(study->current())).rung();
-  return exported({study::SourceFit{"", fit_of(*study, rung), {}}}, request.consumer(),
+  return exported({study::SourceFit{"", fit_of(*study, rung)}}, request.consumer(),
                   {request.study() + ".study", study::sha256(study::study_text(*study))},
                   request.conservative());
 }

@@ -126,6 +126,8 @@ Result<Table> table_of(const File& file, bool swap, const ImportOptions& options
   }
   const std::size_t whole = contents->arrays.size();
   auto table = ArrayTable::choose(file.name(), std::move(contents->arrays), options);
+  if (!table && contents->truncated)
+    return fail(table.error().message + "; the file is truncated: copy it again");
   if (!table) return tl::make_unexpected(table.error());
   const MatrixVisitor visitor{
       .begin = [&](const NamedArray&,

@@ -31,27 +31,113 @@ std::string_view name_of(double seconds) {
   return found == kTimeUnits.end() ? "numbers" : found->name;
 }
 
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+constexpr std::size_t kMostSteps = 16384;  // that are looked at
+
+// The step of samples between which none is lost, where most steps show it.
+struct UsualStep {
+  double mean = 0.0;
+  double scatter = 0.0;
+  double error = 0.0;  // of the mean
+};
+
+// The power of ten (s) that all stamps that are looked at are multiples of; 1e-9 at least.
+double grain_of(const Clock& clock, std::size_t stride) {
+  constexpr double kFinest = 1e-9;
+  double grain = 1.0;
+  for (; grain > kFinest; grain *= 0.1) {
+    bool all = true;
+    for (std::size_t i = 0; i < clock.size() && all; i += stride) {
+      const double at = clock.at(i) / grain;
+      all = std::abs(at - std::round(at)) < 1e-3 + 1e-12 * std::abs(at);
+    }
+    if (all) break;
+  }
+  return grain;
+}
+
+// Whether longer steps come at random, as losses do: their distances scatter as much as they are
+// long. Those of coarse stamps come in turn.
+bool come_at_random(const Clock& clock, double step) {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kRandom = 0.5;  // of the 1 of a geometric distribution
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  std::size_t before = 0;
+  for (std::size_t i = 1; i < std::min(clock.size(), kMostSteps); ++i) {
+    if (!(clock.step(i) > 1.5 * step)) continue;
+    const auto distance = static_cast<double>(i - before);
+    before = i;
+    count += 1.0;
+    sum += distance;
+    squares += distance * distance;
+  }
+  if (count < static_cast<double>(kFewest)) return false;
+  const double mean = sum / count;
+  return squares / count - mean * mean > kRandom * mean * (mean - 1.0);
+}
+
+// Nearly all steps are one to four times one that is the most frequent: the longer ones are lost
+// samples. Nothing where stamps come in bursts, or are so coarse that they show steps of
+// their own.
+std::optional<UsualStep> usual_step(const Clock& clock) {
+  constexpr double kMultiples = 0.95;  // of the steps, at least
+  constexpr double kSingle = 0.5;
+  constexpr double kNear = 0.35;      // of a step
+  constexpr double kMost = 4.0;       // multiples
+  constexpr double kFineGrain = 4.0;  // grains of the stamps in a step, at least,
+  constexpr double kFastest = 5e-3;   // s, unless the step is longer
+  const std::size_t stride = std::max<std::size_t>(1, (clock.size() - 1) / kMostSteps);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < clock.size(); i += stride) steps.push_back(clock.step(i));
+  const double median = median_of(steps);
+  if (!(median > 0.0)) return std::nullopt;
+  const bool coarse = median < kFastest && median < kFineGrain * grain_of(clock, stride);
+  if (coarse && !come_at_random(clock, median)) return std::nullopt;
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  double multiples = 0.0;
+  for (const double step : steps) {
+    const double off = step - median * std::clamp(std::round(step / median), 1.0, kMost);
+    if (std::abs(off) > kNear * median) continue;
+    multiples += 1.0;
+    if (step > 1.5 * median) continue;
+    sum += off;
+    squares += off * off;
+    count += 1.0;
+  }
+  const auto all = static_cast<double>(steps.size());
+  if (multiples < kMultiples * all || count < kSingle * all || count < 2.0) return std::nullopt;
+  const double mean = sum / count;
+  const double scatter = std::sqrt(std::max(0.0, squares / count - mean * mean));
+  return UsualStep{median + mean, scatter, scatter / std::sqrt(count)};
+}
+
 // Mean over blocks of 64 steps, of those near the median block: a gap spoils its own block only,
 // and bursts average out.
-double period_of(const Clock& clock) {
-  constexpr std::size_t most = 16384;
+double period_of_blocks(const Clock& clock) {
   const std::size_t lag = std::clamp<std::size_t>((clock.size() - 1) / 8, 1, 64);
   const std::size_t blocks = (clock.size() - 1) / lag;
-  const std::size_t stride = std::max<std::size_t>(1, blocks / most);
+  const std::size_t stride = std::max<std::size_t>(1, blocks / kMostSteps);
   std::vector<double> steps;
   for (std::size_t b = 0; b < blocks; b += stride)
     steps.push_back((clock.at((b + 1) * lag) - clock.at(b * lag)) / static_cast<double>(lag));
-  auto sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median = median_of(steps);
   double sum = 0.0;
   std::size_t count = 0;
   for (const double step : steps) {
-    if (std::abs(step - *middle) > 0.25 * std::abs(*middle)) continue;
+    if (std::abs(step - median) > 0.25 * std::abs(median)) continue;
     sum += step;
     ++count;
   }
-  return count > 0 ? sum / static_cast<double>(count) : *middle;
+  return count > 0 ? sum / static_cast<double>(count) : median;
 }
 
 struct JudgedUnit {
@@ -108,7 +194,7 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
     out.rounding_ =
         std::numeric_limits<double>::epsilon() * std::max(std::abs(first), std::abs(last));
   }
-  const double step = period_of(out);
+  const double step = period_of_blocks(out);
   if (!(step > 0.0) || !std::isfinite(step)) {
     return fail(fmt::format(
         "{}: shows no usable rate: the times do not rise; give --rate HZ to ignore them", place));
@@ -126,11 +212,23 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
   out.unit_ = judged.seconds;
   out.rounding_ *= judged.seconds;
   out.period_ = step * judged.seconds;
+  out.follow_single_steps();
   out.said_ =
       fmt::format("column {}, {}{}", column.name,
                   column.calendar ? "dates and times" : name_of(judged.seconds), judged.how);
   if (!column.said.empty()) out.said_ = column.said;
   return out;
+}
+
+void Clock::follow_single_steps() {
+  constexpr double kEven = 0.1;
+  constexpr double kBeyondChance = 5.0;
+  const auto usual = usual_step(*this);
+  if (!usual) return;
+  even_ = usual->scatter < kEven * usual->mean;
+  // Where blocks are longer than steps, each has lost samples.
+  loses_ = period_ > usual->mean * 1.0001 + kBeyondChance * usual->error;
+  if (loses_) period_ = usual->mean;
 }
 
 }  // namespace imunoise::recording

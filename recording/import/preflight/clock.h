@@ -35,10 +35,18 @@ class Clock {
   double rounding() const { return rounding_; }
   /// "column t, milliseconds (by its steps)"
   const std::string& said() const { return said_; }
-  /// The mean step of most of the blocks of the column (s): gaps and bursts hardly change it.
+  /// Whether stamps show each sample's own time: nearly all steps are one period within a tenth.
+  bool even() const { return even_; }
+  /// Whether samples are lost throughout: no stretch of 64 is without a longer step.
+  bool loses() const { return loses_; }
+  /// The mean step of most of the blocks of the column (s), or of most steps where each block has
+  /// lost samples: gaps and bursts hardly change it.
   double period() const { return period_; }
 
  private:
+  // Finds even stamps, and lost samples among them.
+  void follow_single_steps();
+
   // Stamps of a damaged file may lie further apart than int64 can say: they wrap.
   std::int64_t since(std::size_t i) const {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(whole_[i]) -
@@ -51,6 +59,8 @@ class Clock {
   double unit_ = 1.0;
   double rounding_ = 0.0;
   double period_ = 0.0;
+  bool even_ = false;
+  bool loses_ = false;
   std::string said_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -56,17 +57,56 @@ std::optional<std::string_view> unit_of_gravity(double norm) {
   return std::nullopt;
 }
 
-// A rate of this mean or scatter is no bias: the sensor turns, or the unit is wrong (rad/s).
-constexpr double kFastest = 0.5;
+// A rate of this mean is no bias, and one of this scatter no noise: the sensor turns, or the unit
+// is wrong (rad/s).
+constexpr double kLargestMean = 0.5;
+constexpr double kLargestScatter = 0.1;
+
+// By what the norm of three axes is at rest.
+void judge_norm(const std::vector<Column>& columns, const std::vector<std::size_t>& axes,
+                std::vector<Unit>& units, std::vector<std::string>& said,
+                std::vector<Finding>& findings) {
+  double squares = 0.0;
+  const double to_si = units[axes[0]].to_si;
+  for (const std::size_t c : axes) {
+    if (units[c].symbol != units[axes[0]].symbol) return;
+    squares += std::pow(mean_of(columns[c]), 2);
+  }
+  const double norm = std::sqrt(squares);
+  const std::string names = fmt::format("{}, {}, {}", columns[axes[0]].name, columns[axes[1]].name,
+                                        columns[axes[2]].name);
+  if (units[axes[0]].quantity == Quantity::kUnknown) {
+    const auto symbol = unit_of_gravity(norm);
+    if (!symbol) {
+      findings.push_back(
+          {Severity::kDoubt,
+           fmt::format("accelerations {}: no unit is stated and their norm is {:.4g}, neither 1 g "
+                       "nor 9.81 m/s^2; give --unit 'acc_*=UNIT', such as 'acc_*=1/16384 g' for "
+                       "counts",
+                       names, norm)});
+      return;
+    }
+    for (const std::size_t c : axes) units[c] = *parse_unit(*symbol);
+    said.push_back(
+        fmt::format("accelerations {}: {} (their norm is {:.4g})", names, *symbol, norm));
+  } else if (!near(norm * to_si, kGravity)) {
+    findings.push_back(
+        {Severity::kDoubt,
+         fmt::format("accelerations {} are stated in {}, but their norm at rest is {:.4g} m/s^2, "
+                     "not 9.81; correct the unit with --unit 'acc_*={}'",
+                     names, units[axes[0]].symbol, norm * to_si,
+                     unit_of_gravity(norm).value_or("UNIT"))});
+  }
+}
 
 void judge_rates(const std::vector<Column>& columns, const std::vector<Unit>& units,
-                 std::vector<Finding>& findings) {
-  for (std::size_t c = 0; c < columns.size(); ++c) {
+                 std::size_t wanted, std::vector<Finding>& findings) {
+  for (std::size_t c = 0; c < wanted; ++c) {
     if (units[c].quantity != Quantity::kAngularRate) continue;
     const Moments found = moments_of(columns[c]);
     const double mean = found.mean * units[c].to_si;
     const double scatter = found.deviation * units[c].to_si;
-    if (std::abs(mean) < kFastest && scatter < kFastest) continue;
+    if (std::abs(mean) < kLargestMean && scatter < kLargestScatter) continue;
     findings.push_back(
         {Severity::kDoubt,
          fmt::format("{} has a mean of {:.3g} and a scatter of {:.3g} rad/s at rest: does the "
@@ -79,57 +119,35 @@ void judge_rates(const std::vector<Column>& columns, const std::vector<Unit>& un
 }  // namespace
 
 std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
-                                            std::vector<Unit>& units,
+                                            std::vector<Unit>& units, std::size_t wanted,
                                             std::vector<Finding>& findings) {
-  std::vector<std::size_t> axes;
+  std::map<std::string, std::vector<std::size_t>> axes;  // of each sensor
   std::string silent;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const Role role = role_of(columns[c].name);
     if (role.quantity == Quantity::kAcceleration && role.axis != ' ' && !role.increment)
-      axes.push_back(c);
-    if (role.quantity == Quantity::kAngularRate && units[c].quantity == Quantity::kUnknown)
+      axes[role.sensor].push_back(c);
+    if (c < wanted && role.quantity == Quantity::kAngularRate &&
+        units[c].quantity == Quantity::kUnknown)
       silent += (silent.empty() ? "" : ", ") + columns[c].name;
   }
   if (!silent.empty())
     findings.push_back(
         {Severity::kDoubt,
          fmt::format("{}: no unit is stated; give --unit 'gyro_*=deg/s' or rad/s", silent)});
-  judge_rates(columns, units, findings);
+  judge_rates(columns, units, wanted, findings);
   std::vector<std::string> said;
-  if (axes.size() != 3) return said;
-  double squares = 0.0;
-  double to_si = units[axes[0]].to_si;
-  for (const std::size_t c : axes) {
-    if (units[c].symbol != units[axes[0]].symbol) return said;
-    squares += std::pow(mean_of(columns[c]), 2);
-  }
-  const double norm = std::sqrt(squares);
-  if (units[axes[0]].quantity == Quantity::kUnknown) {
-    const auto symbol = unit_of_gravity(norm);
-    if (!symbol) {
-      findings.push_back(
-          {Severity::kDoubt,
-           fmt::format("accelerations: no unit is stated and their norm is {:.4g}, neither 1 g nor "
-                       "9.81 m/s^2; give --unit 'acc_*=UNIT', such as 'acc_*=1/16384 g' for counts",
-                       norm)});
-      return said;
-    }
-    for (const std::size_t c : axes) units[c] = *parse_unit(*symbol);
-    said.push_back(fmt::format("accelerations: {} (their norm is {:.4g})", *symbol, norm));
-  } else if (!near(norm * to_si, kGravity)) {
-    findings.push_back(
-        {Severity::kDoubt,
-         fmt::format("accelerations are stated in {}, but their norm at rest is {:.4g} m/s^2, not "
-                     "9.81; correct the unit with --unit 'acc_*={}'",
-                     units[axes[0]].symbol, norm * to_si, unit_of_gravity(norm).value_or("UNIT"))});
+  for (const auto& [sensor, of_sensor] : axes) {
+    if (of_sensor.size() == 3) judge_norm(columns, of_sensor, units, said, findings);
   }
   return said;
 }
 
 std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz rate) {
   std::string made;
-  std::vector<std::size_t> silent;  // accelerations without a unit
-  std::vector<std::size_t> rates;   // angular rates without one: what the accelerations are
+  std::vector<std::size_t> accelerations;  // that may be velocities
+  std::vector<std::size_t> rates;          // that may be angles: what the accelerations are
+  bool stated = true;                      // the accelerations' unit
   double squares = 0.0;
   const auto make = [&](Column& column, const char* unit) {
     column.scale *= rate.value;
@@ -142,26 +160,36 @@ std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz
     const Role role = role_of(column.name);
     const std::string& unit = column.unit;
     const bool none = unit.empty() || unit == "-";
+    const auto known = parse_unit(unit);
+    const auto is = [&](std::string_view symbol) { return known && known->symbol == symbol; };
     if (role.increment && role.quantity == Quantity::kAngularRate) {
       if (none || unit == "rad") make(column, "rad/s");
       if (unit == "deg") make(column, "deg/s");
     } else if (role.increment && role.quantity == Quantity::kAcceleration) {
       if (none || unit == "m/s") make(column, "m/s^2");
-    } else if (none && role.unit.empty() && role.quantity == Quantity::kAcceleration &&
-               role.axis != ' ') {
-      silent.push_back(c);
+    } else if (role.quantity == Quantity::kAcceleration && role.axis != ' ' &&
+               ((none && role.unit.empty()) || is("m/s^2"))) {
+      accelerations.push_back(c);
+      stated = stated && !none;
       squares += std::pow(mean_of(column), 2);
-    } else if (none && role.unit.empty() && role.quantity == Quantity::kAngularRate &&
-               role.axis != ' ') {
+    } else if (role.quantity == Quantity::kAngularRate && role.axis != ' ' &&
+               ((none && role.unit.empty()) || is("rad/s") || is("deg/s"))) {
       rates.push_back(c);
     }
   }
   // The norm of accelerations in g or m/s^2 tells them from increments.
   const double norm = std::sqrt(squares);
-  if (silent.size() == 3 && near(norm * rate.value, kGravity) && !near(norm, 1.0) &&
+  if (accelerations.size() == 3 && near(norm * rate.value, kGravity) && !near(norm, 1.0) &&
       !near(norm, kGravity) && !near(norm, 1000.0)) {
-    for (const std::size_t c : silent) make(columns[c], "m/s^2");
-    for (const std::size_t c : rates) make(columns[c], "rad/s");
+    for (const std::size_t c : accelerations) make(columns[c], "m/s^2");
+    for (const std::size_t c : rates) {
+      // Where a header states units for increments, it may do so for all, if they are then at rest.
+      const bool silent = columns[c].unit.empty() || columns[c].unit == "-";
+      const char* const unit = columns[c].unit == "deg/s" ? "deg/s" : "rad/s";
+      const double scatter =
+          moments_of(columns[c]).deviation * rate.value * parse_unit(unit)->to_si;
+      if (silent || (stated && scatter < kLargestScatter)) make(columns[c], unit);
+    }
   }
   if (made.empty()) return {};
   return {fmt::format("increments: {}, divided by {:.6g} s", made, 1.0 / rate.value)};

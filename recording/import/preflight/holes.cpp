@@ -19,7 +19,7 @@ std::string Hole::said() const {
                      several ? " each" : "");
 }
 
-std::vector<Hole> holes_in(const std::vector<Column>& columns) {
+std::vector<Hole> holes_in(std::span<const Column> columns) {
   std::vector<Hole> out;
   for (const Column& column : columns) {
     Hole hole{{column.name}};

@@ -3,6 +3,7 @@
 // Values that are missing.
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,6 @@ struct Hole {
   std::string said() const;
 };
 
-std::vector<Hole> holes_in(const std::vector<Column>& columns);
+std::vector<Hole> holes_in(std::span<const Column> columns);
 
 }  // namespace imunoise::recording

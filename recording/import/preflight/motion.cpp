@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/stillness/stillness.h"
+#include "recording/import/table/names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -19,8 +20,9 @@ struct Watched {
 Watched watched_in(const std::vector<Column>& columns, const std::vector<Unit>& units) {
   Watched out;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const Quantity quantity = units[c].quantity;
-    if (quantity != Quantity::kAngularRate && quantity != Quantity::kAcceleration) continue;
+    const bool known = units[c].quantity != Quantity::kUnknown;
+    const Quantity quantity = known ? units[c].quantity : role_of(columns[c].name).quantity;
+    if (!of_inertia(quantity)) continue;
     out.columns.push_back(c);
     const bool counts = !std::holds_alternative<std::vector<double>>(columns[c].samples);
     out.quanta.push_back(counts ? 1.0 : 0.0);

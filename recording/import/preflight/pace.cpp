@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace imunoise::recording {
 namespace {
@@ -61,6 +62,37 @@ Shift shift_at(const Clock& clock, double period, std::size_t at) {
   return {clean ? median : mean, mean, clean};
 }
 
+// A stall: rows come late, and then so many at once that the old pace is met again.
+bool is_made_up_for(const Clock& clock, double period, std::size_t at) {
+  constexpr std::size_t kSpare = 16;
+  constexpr double kCatchesUp = 0.25;  // periods a row, at least
+  const double begun = clock.at(at - 1);
+  const double stalled = clock.step(at) - period;
+  if (!(stalled > 0.0)) return false;
+  std::array<double, kMedian> late;
+  for (std::size_t first = at + 1; first + kMedian <= clock.size(); ++first) {
+    for (std::size_t i = 0; i < kMedian; ++i)
+      late[i] = clock.at(first + i) - begun - static_cast<double>(first + i + 1 - at) * period;
+    std::nth_element(late.begin(), late.begin() + kMedian / 2, late.end());
+    const double still = late[kMedian / 2];
+    if (still < 0.5 * period) return true;
+    const std::size_t rows = first - at;
+    if (rows > kSpare && still > stalled - kCatchesUp * period * static_cast<double>(rows))
+      return false;
+  }
+  return false;
+}
+
+// Even stamps show each lost sample, however near the next loss is; a late stamp is made up for by
+// the next step.
+std::optional<Shift> lost_at(const Clock& clock, double period, std::size_t at) {
+  if (!clock.even() || clock.step(at) < 1.5 * period) return std::nullopt;
+  const bool late = at + 1 < clock.size() && clock.step(at + 1) < 0.5 * period;
+  if (late) return std::nullopt;
+  const double seconds = clock.step(at) - period;
+  return Shift{seconds, seconds, true};
+}
+
 struct Candidate {
   std::size_t at;
   Shift shift;
@@ -87,7 +119,9 @@ Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {
     const double step = clock.step(i);
     const bool twice = step == 0.0 && same(i);
     if (step >= 0.0 && step < 1.5 * out.period && !twice) continue;
-    const Shift shift = shift_at(clock, out.period, i);
+    const auto lost = lost_at(clock, out.period, i);
+    Shift shift = lost ? *lost : shift_at(clock, out.period, i);
+    if (shift.seconds > 0.0 && is_made_up_for(clock, out.period, i)) shift = {};
     if (twice) {
       if (shift.seconds < 0.0) out.twice.push_back(i);
     } else if (shift.seconds != 0.0) {
@@ -105,7 +139,9 @@ Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {
     steps += end - 1 - begin;
     begin = end;
   }
-  if (steps > 0 && out.span > 0.0) out.period = out.span / static_cast<double>(steps);
+  // Where samples are lost throughout, a stretch may still hold a loss.
+  if (steps > 0 && out.span > 0.0 && !clock.loses())
+    out.period = out.span / static_cast<double>(steps);
   for (std::size_t l = 0; l < leaps.size(); ++l) {
     if (leaps[l].shift.clean) out.leaps[l].seconds = clock.step(leaps[l].at) - out.period;
   }

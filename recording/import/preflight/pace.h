@@ -17,7 +17,8 @@ struct Leap {
 };
 
 /// A gap lasts: the median lateness of 8 samples and the mean of 64 differ by more than half a
-/// period from those before. Bursts of a bus and single late stamps do not.
+/// period from those before, or nearly all stamps are even and one step is longer. Bursts of a bus
+/// and single late stamps do not.
 struct Pace {
   double period = 0.0;             ///< s, of the samples between leaps
   double jitter = 0.0;             ///< rms departure of single stamps, in periods

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <utility>
 
+#include "recording/import/preflight/cuts.h"
 #include "recording/import/preflight/gravity.h"
 #include "recording/import/preflight/holes.h"
 #include "recording/import/preflight/motion.h"
 #include "recording/import/preflight/pace.h"
+#include "recording/import/preflight/recognised.h"
 #include "recording/import/preflight/streams_apart.h"
 #include "recording/import/preflight/suspect.h"
 #include "recording/import/table/names.h"
@@ -39,8 +42,8 @@ void keep(std::vector<Value>& values, const std::vector<bool>& dropped) {
 
 class Judge {
  public:
-  Judge(const std::string& file, Table table, const ImportOptions& options)
-      : file_(file), table_(std::move(table)), options_(options) {}
+  Judge(const std::string& file, Table table, std::size_t wanted, const ImportOptions& options)
+      : file_(file), table_(std::move(table)), wanted_(wanted), options_(options) {}
 
   Result<Judged> judged() {
     rows_ = recording::size(table_.columns.front().samples);
@@ -59,7 +62,11 @@ class Judge {
       report_.recognised.push_back(std::move(said));
     const auto resolved = resolve_units();
     if (!resolved) return tl::make_unexpected(resolved.error());
-    for (std::string& said : judge_acceleration(table_.columns, out_.units, report_.findings))
+    for (std::string& said :
+         judge_acceleration(table_.columns, out_.units, wanted_, report_.findings))
+      report_.recognised.push_back(std::move(said));
+    for (std::string& said :
+         channels_in_words(wanted_columns(), std::span(out_.units).first(wanted_), options_.units))
       report_.recognised.push_back(std::move(said));
     find_missing();
     leave_out_times();
@@ -69,9 +76,11 @@ class Judge {
     const Stretch& longest =
         *std::max_element(out_.stretches.begin(), out_.stretches.end(),
                           [](const Stretch& a, const Stretch& b) { return a.count < b.count; });
-    find_suspects(table_.columns, out_.units, out_.rate, longest.begin, longest.count,
+    find_suspects(table_.columns, out_.units, wanted_, out_.rate, longest.begin, longest.count,
                   report_.findings);
     if (options_.strict && !report_.findings.empty()) return refuse("--strict refuses the file");
+    table_.columns.resize(wanted_);
+    out_.units.resize(wanted_);
     out_.columns = std::move(table_.columns);
     out_.report = std::make_shared<const Preflight>(std::move(report_));
     return std::move(out_);
@@ -89,6 +98,11 @@ class Judge {
   }
 
   tl::unexpected<Error> too_few(std::size_t samples, const char* where) const {
+    if (rows_ == 0) return refuse("holds no rows of numbers");
+    if (options_.from || options_.until || !options_.exclude.empty())
+      return refuse(fmt::format(
+          "--from, --until and --exclude leave {} of {} samples{}: a replicate needs at least {}",
+          samples, rows_, where, kMinimumSamples));
     return refuse(
         fmt::format("{} samples{} are too few: a replicate needs at least {}; record longer",
                     samples, where, kMinimumSamples));
@@ -103,6 +117,8 @@ class Judge {
     }
     return table_.row(i + before);
   }
+
+  std::span<const Column> wanted_columns() const { return {table_.columns.data(), wanted_}; }
 
   // s
   double time_of(std::size_t i) const {
@@ -133,19 +149,20 @@ class Judge {
   // All that are wrong are told at once.
   Result<void> resolve_units() {
     std::string wrong;
-    for (const Column& column : table_.columns) {
+    for (std::size_t c = 0; c < table_.columns.size(); ++c) {
+      const Column& column = table_.columns[c];
       Result<Unit> unit = resolve_unit(file_, column.name, column.unit, options_);
+      if (!unit && c >= wanted_) unit = Unit{column.unit, Quantity::kUnknown, 1.0};
       if (!unit) wrong += (wrong.empty() ? "" : "\n") + unit.error().message;
       if (unit) out_.units.push_back(std::move(*unit));
     }
     if (!wrong.empty()) return fail(std::move(wrong));
-    tell_unused_rules();
-    return {};
+    return check_rules();
   }
 
   // A mistyped pattern; where some of the columns are read, it may be of the others.
-  void tell_unused_rules() {
-    if (!options_.channels.empty() || !options_.topic.empty() || !report_.others.empty()) return;
+  Result<void> check_rules() const {
+    if (!options_.channels.empty() || !options_.topic.empty() || !report_.others.empty()) return {};
     std::string names;
     for (const Column& column : table_.columns) names += (names.empty() ? "" : ", ") + column.name;
     for (const UnitRule& rule : options_.units) {
@@ -153,9 +170,10 @@ class Judge {
           std::any_of(table_.columns.begin(), table_.columns.end(),
                       [&](const Column& column) { return matches(rule.pattern, column.name); });
       if (!used)
-        find(Severity::kDoubt, fmt::format("--unit {}={}: no channel has this name (there are {})",
-                                           rule.pattern, rule.unit.symbol, names));
+        return fail(fmt::format("{}: --unit {}={}: no channel has this name (there are {})", file_,
+                                rule.pattern, rule.unit.symbol, names));
     }
+    return {};
   }
 
   Result<void> take_rate() {
@@ -224,7 +242,7 @@ class Judge {
   void tell_leaps(const Pace& pace) {
     std::size_t told = 0;
     for (const Leap& leap : pace.leaps) {
-      cuts_.push_back({leap.at, leap.at});
+      cuts_.add(leap.at, leap.at);
       const bool back = leap.seconds < 0.0;
       if (!back) {
         ++out_.gaps;
@@ -241,19 +259,24 @@ class Judge {
     }
     if (told > kTold)
       find(Severity::kLeftOut, fmt::format("{} more gaps: cut there", told - kTold));
+    constexpr std::size_t kShort = 1000;  // samples of a stretch
+    if (out_.gaps > kTold && rows_ < kShort * out_.gaps)
+      find(Severity::kDoubt,
+           fmt::format(
+               "{:.2g} % of the samples are lost in {} places, so that stretches are short: "
+               "slow noise does not show; find the cause, or take the rows as if none were "
+               "lost with --rate {:.6g}",
+               100.0 * static_cast<double>(out_.lost) / static_cast<double>(out_.lost + rows_),
+               out_.gaps, out_.rate.value));
   }
 
   void find_missing() {
-    for (const Column& column : table_.columns) {
+    for (const Column& column : wanted_columns()) {
       for (std::size_t i = 0; i < rows_; ++i) {
-        if (!missing(column, i)) continue;
-        if (cuts_.empty() || cuts_.back().end != i || cuts_.back().begin == i)
-          cuts_.push_back({i, i + 1});
-        else
-          cuts_.back().end = i + 1;
+        if (missing(column, i)) cuts_.add_row(i);
       }
     }
-    for (const Hole& one : holes_in(table_.columns)) {
+    for (const Hole& one : holes_in(wanted_columns())) {
       std::string text = fmt::format("{}, the first at {:.6g} s ({}): left out", one.said(),
                                      time_of(one.first), row(one.first));
       if (10 * one.count > rows_)
@@ -274,28 +297,14 @@ class Judge {
   }
 
   void leave_out_times() {
-    if (options_.from) cuts_.push_back({0, row_at(*options_.from)});
-    if (options_.until) cuts_.push_back({row_at(*options_.until), rows_});
-    for (const TimeSpan& one : options_.exclude)
-      cuts_.push_back({row_at(one.begin), row_at(one.end)});
-  }
-
-  void sort_cuts() {
-    std::sort(cuts_.begin(), cuts_.end(),
-              [](const Cut& a, const Cut& b) { return a.begin < b.begin; });
+    if (options_.from) cuts_.add(0, row_at(*options_.from));
+    if (options_.until) cuts_.add(row_at(*options_.until), rows_);
+    for (const TimeSpan& one : options_.exclude) cuts_.add(row_at(one.begin), row_at(one.end));
   }
 
   // What moves one channel alone may be its own noise: it is told, and used.
   void find_motion() {
-    sort_cuts();
-    std::vector<Cut> broken;  // cuts, joined where they meet
-    for (const Cut& cut : cuts_) {
-      if (broken.empty() || cut.begin > broken.back().end) {
-        broken.push_back(cut);
-      } else {
-        broken.back().end = std::max(broken.back().end, cut.end);
-      }
-    }
+    const std::vector<Cut> broken = cuts_.joined();
     const auto is_broken = [&](std::size_t row) {
       const auto after =
           std::upper_bound(broken.begin(), broken.end(), row,
@@ -313,7 +322,7 @@ class Judge {
     std::size_t told = 0;
     for (const Motion& one : all) {
       const bool out = one.several && !moves && !options_.use_disturbed;
-      if (out) cuts_.push_back({one.begin, one.end});
+      if (out) cuts_.add(one.begin, one.end);
       if (moves || told++ >= kTold) continue;
       const double begin = time_of(one.begin);
       const double end = time_of(std::min(one.end, rows_ - 1));
@@ -338,49 +347,43 @@ class Judge {
   }
 
   Result<void> cut_stretches() {
-    sort_cuts();
-    cuts_.push_back({rows_, rows_});
-    std::size_t begin = 0;
-    std::size_t longest = 0;
-    std::vector<Stretch> all;
-    for (const Cut& cut : cuts_) {
-      if (cut.begin > begin) all.push_back({begin, cut.begin - begin});
-      begin = std::max(begin, cut.end);
-    }
-    for (const Stretch& one : all) longest = std::max(longest, one.count);
-    for (const Stretch& one : all) {
-      if (one.count < kMinimumSamples || 10 * one.count < longest) continue;
-      out_.stretches.push_back(one);
-      report_.used += one.count;
-    }
+    Cuts::Left left = cuts_.of(rows_);
+    const std::size_t short_ones = left.all - left.stretches.size();
+    out_.stretches = std::move(left.stretches);
     report_.stretches = out_.stretches.size();
-    if (!out_.stretches.empty()) return {};
-    return too_few(longest, all.size() > 1 ? " in the longest stretch" : "");
+    for (const Stretch& one : out_.stretches) report_.used += one.count;
+    if (out_.stretches.empty())
+      return too_few(left.longest, left.all > 1 ? " in the longest stretch" : "");
+    if (short_ones > 0)
+      find(Severity::kLeftOut,
+           fmt::format("{} stretch{} shorter than a tenth of the longest: left out", short_ones,
+                       short_ones == 1 ? "" : "es"));
+    return {};
   }
 
-  struct Cut {
-    std::size_t begin;
-    std::size_t end;
-  };
   static constexpr std::size_t kTold = 5;
 
   const std::string& file_;
   Table table_;
+  std::size_t wanted_;  // columns; those behind them are to judge by
   const ImportOptions& options_;
   std::size_t rows_ = 0;
   std::vector<std::size_t> dropped_;
   std::optional<Clock> clock_;
-  std::vector<Cut> cuts_;
+  Cuts cuts_;
   Preflight report_;
   Judged out_;
 };
 
 }  // namespace
 
-Result<Judged> judge(const std::string& file, Table table, const ImportOptions& options) {
+Result<Judged> judge(const std::string& file, Table table, const std::vector<std::string>& wanted,
+                     const ImportOptions& options) {
+  drop_sparse(put_first(wanted, table.columns), table.columns);
   Result<Table> apart = take_apart(file, std::move(table), options);
   if (!apart) return tl::make_unexpected(apart.error());
-  return Judge(file, std::move(*apart), options).judged();
+  const std::size_t count = put_first(wanted, apart->columns);
+  return Judge(file, std::move(*apart), count, options).judged();
 }
 
 }  // namespace imunoise::recording

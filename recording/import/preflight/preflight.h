@@ -34,6 +34,9 @@ struct Judged {
 /// used. Stretches shorter than a tenth of the longest, or than kMinimumSamples, are left out.
 /// `file` is for messages. Error: an unknown unit, no rate, most rows unreadable, channels that
 /// have values in different rows, no stretch left; with options.strict any finding.
-Result<Judged> judge(const std::string& file, Table table, const ImportOptions& options);
+/// Of the table's columns those with the names `wanted` come back, in this order; the others are
+/// there to judge by.
+Result<Judged> judge(const std::string& file, Table table, const std::vector<std::string>& wanted,
+                     const ImportOptions& options);
 
 }  // namespace imunoise::recording

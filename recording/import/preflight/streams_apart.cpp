@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -60,7 +61,7 @@ TimedStream stream_of(const std::vector<Column*>& columns, const Clock& clock) {
   }
   for (const std::size_t row : rows) {
     const double time = std::clamp(clock.at(row), -kFarthest, kFarthest);
-    out.times.push_back(static_cast<std::int64_t>(std::llround(time * 1e9)));
+    out.times.push(static_cast<std::int64_t>(std::llround(time * 1e9)));
   }
   for (Column* const from : columns) {
     out.name += (out.name.empty() ? "" : ",") + from->name;
@@ -78,7 +79,40 @@ TimedStream stream_of(const std::vector<Column*>& columns, const Clock& clock) {
   return out;
 }
 
+bool is_many(const Missing& missing, const Column& in) {
+  return static_cast<double>(missing.count) > kMany * static_cast<double>(size(in.samples));
+}
+
 }  // namespace
+
+std::size_t put_first(const std::vector<std::string>& names, std::vector<Column>& columns) {
+  auto next = columns.begin();
+  for (const std::string& name : names) {
+    const auto found =
+        std::find_if(next, columns.end(), [&](const Column& one) { return one.name == name; });
+    if (found == columns.end()) continue;
+    std::rotate(next, found, found + 1);
+    ++next;
+  }
+  return static_cast<std::size_t>(next - columns.begin());
+}
+
+void drop_sparse(std::size_t wanted, std::vector<Column>& columns) {
+  const auto first = columns.begin() + static_cast<std::ptrdiff_t>(wanted);
+  if (first == columns.end() || wanted == 0) return;
+  bool sparse = false;
+  std::set<std::uint64_t> rows;  // that the wanted ones miss
+  for (auto one = columns.begin(); one != first; ++one) {
+    const Missing missing = missing_in(*one);
+    sparse = sparse || is_many(missing, *one);
+    rows.insert(missing.which);
+  }
+  const auto of_other_rows = [&](const Column& one) {
+    const Missing missing = missing_in(one);
+    return sparse ? rows.size() > 1 || missing.which != *rows.begin() : is_many(missing, one);
+  };
+  columns.erase(std::remove_if(first, columns.end(), of_other_rows), columns.end());
+}
 
 Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options) {
   if (!table.time || options.rate) return table;

@@ -178,17 +178,20 @@ bool leave_out_constant(const std::vector<std::string>& names, std::string_view 
 
 }  // namespace
 
-void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& units, Hertz rate,
-                   std::size_t begin, std::size_t count, std::vector<Finding>& findings) {
+void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& units,
+                   std::size_t wanted, Hertz rate, std::size_t begin, std::size_t count,
+                   std::vector<Finding>& findings) {
   count = std::min(count, kMostRows);
   if (count < kFewestRows) return;
   for (const auto& [quantity, sensor] : {std::pair{Quantity::kAngularRate, "angular rates"},
                                          {Quantity::kAcceleration, "accelerations"}}) {
     Axes axes;
     std::vector<std::string> names;
+    bool asked = false;
     for (std::size_t c = 0; c < columns.size() && axes.size() < 3; ++c) {
       if (quantity_of(columns[c], units[c]) != quantity) continue;
       names.push_back(columns[c].name);
+      asked = asked || c < wanted;
       std::visit(
           [&](const auto& values) {
             const auto from = values.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -196,6 +199,7 @@ void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& 
           },
           columns[c].samples);
     }
+    if (!asked) continue;
     const bool still = leave_out_constant(names, sensor, axes, findings);
     if (!axes.empty() && !still) suspect(axes, sensor, rate, findings);
   }

@@ -18,7 +18,9 @@ namespace imunoise::recording {
 /// - an axis that never changes;
 /// - a power spectral density (Hann, segments of 64) that is flat at low frequencies and lower by
 ///   10 dB in the highest fifth of its range, on all axes.
-void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& units, Hertz rate,
-                   std::size_t begin, std::size_t count, std::vector<Finding>& findings);
+/// Only of sensors that have an axis among the first `wanted` columns.
+void find_suspects(const std::vector<Column>& columns, const std::vector<Unit>& units,
+                   std::size_t wanted, Hertz rate, std::size_t begin, std::size_t count,
+                   std::vector<Finding>& findings);
 
 }  // namespace imunoise::recording

@@ -101,7 +101,8 @@ ImuCollector::ImuCollector(std::string file, const ImportOptions& options)
     return std::any_of(options.channels.begin(), options.channels.end(),
                        [&](const std::string& pattern) { return matches(pattern, name); });
   };
-  const bool all = options.beside || std::none_of(kNames.begin(), kNames.end(), wanted);
+  const bool all =
+      options.beside || options.axes_to_judge || std::none_of(kNames.begin(), kNames.end(), wanted);
   for (std::size_t c = 0; c < kNames.size(); ++c) kept_[c] = all || wanted(kNames[c]);
 }
 
@@ -200,7 +201,9 @@ TimedStream ImuCollector::stream_of(const std::string& name, Source& source) con
   const bool none = !source.has_gyro && !source.has_acc;
   for (std::size_t c = 0; c < kNames.size(); ++c) {
     const bool gyro = c < 3;
-    const bool named = std::any_of(options_.channels.begin(), options_.channels.end(),
+    // Of several topics, the one that holds the sensor is meant.
+    const bool named = sources_.size() == 1 &&
+                       std::any_of(options_.channels.begin(), options_.channels.end(),
                                    [&](const std::string& one) { return one == kNames[c]; });
     const bool there = gyro ? source.first.has_gyro && (none || source.has_gyro)
                             : source.first.has_acc && (none || source.has_acc);
@@ -209,7 +212,7 @@ TimedStream ImuCollector::stream_of(const std::string& name, Source& source) con
     out.columns.push_back(
         {std::string(kNames[c]), source.values[c].take(), 1.0, 0.0, gyro ? "rad/s" : "m/s^2"});
   }
-  out.times = source.times.take();
+  out.times = std::exchange(source.times, {});
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "recording/import/table/options.h"
 #include "recording/import/table/streams.h"
 #include "recording/import/table/table.h"
+#include "recording/import/table/times.h"
 
 namespace imunoise::recording {
 
@@ -65,7 +66,7 @@ class ImuCollector {
     ImuMessage first{};
     bool has_gyro = false;  // a rate that is not 0
     bool has_acc = false;
-    Blocks<std::int64_t> times;            // ns
+    Times times;                           // ns
     std::array<Blocks<double>, 6> values;  // from the first on that is not 0
   };
   Result<void> check_topics() const;

@@ -204,13 +204,18 @@ Role role_of(std::string_view name) {
     std::erase_if(words, [](const std::string& word) { return is_one_of(kAttributes, word); });
   const std::string text = joined(words);
   if (text.size() > 1 && is_axis(text.back())) {
-    const Stem* const stem = stem_of(std::string_view(text).substr(0, text.size() - 1));
+    // "gyro2_x": the number of the sensor may stand behind.
+    const std::string_view before = std::string_view(text).substr(0, text.size() - 1);
+    const std::size_t letters = before.find_last_not_of("0123456789") + 1;
+    const Stem* const stem = stem_of(before.substr(0, letters));
     if (stem != nullptr && stem->quantity != Quantity::kTemperature)
-      return {stem->quantity, text.back(), stem->increment, stem->unit};
+      return {stem->quantity, text.back(), stem->increment, stem->unit,
+              std::string(before.substr(0, letters - stem->text.size())) +
+                  std::string(before.substr(letters))};
   }
   const Stem* const stem = stem_of(text);
   if (stem == nullptr || stem->whole) return {};
-  return {stem->quantity, ' ', stem->increment, stem->unit};
+  return {stem->quantity, ' ', stem->increment, stem->unit, {}};
 }
 
 std::string common_name(const Role& role) {
@@ -237,8 +242,18 @@ std::string common_name(const Role& role) {
 
 bool matches(std::string_view pattern, std::string_view name) {
   if (glob(pattern, name)) return true;
-  const std::string common = common_name(role_of(name));
-  return !common.empty() && glob(pattern, common);
+  const Role role = role_of(name);
+  const std::string common = common_name(role);
+  if (common.empty()) return false;
+  if (glob(pattern, common)) return true;
+  // "gyr_*": another common name with its axis left open, of the same sensor.
+  const std::size_t open = pattern.find('*');
+  if (open == std::string_view::npos || pattern.find('*', open + 1) != std::string_view::npos)
+    return false;
+  std::string closed(pattern);
+  closed[open] = role.axis;
+  const Role meant = role_of(closed);
+  return common_name(meant) == common && meant.sensor == role.sensor;
 }
 
 std::vector<std::string> split_names(std::string_view names) {

@@ -18,6 +18,7 @@ struct Role {
   char axis = ' ';         ///< 'x', 'y', 'z', or a digit where the file counts its axes
   bool increment = false;  ///< an angle or a velocity gained over one period, not a rate
   std::string_view unit;   ///< that the name implies by a convention (REP 103 of ROS); else empty
+  std::string sensor;      ///< what stands before, in small letters: "imu2" of imu2_gyro_x
 };
 
 /// "PacketCounter", "seq", "index": a column that counts rows.

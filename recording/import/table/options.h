@@ -35,6 +35,9 @@ struct ImportOptions {
   /// clock (of the first stream where none is named), and what the device's other streams say at
   /// the same times.
   bool beside = false;
+  /// One channel of each axis of motion beside those wanted, for the preflight to judge them by;
+  /// it takes them out of the table again.
+  bool axes_to_judge = false;
   /// Of what stands beside: only these, by name. Empty: all.
   std::vector<std::string> witnesses;
   /// Sampling rate. Wins over what a file states; a time column is then ignored, gaps included.

@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include "core/support/nearest_word.h"
 #include "recording/import/table/names.h"
@@ -30,12 +35,50 @@ std::vector<std::size_t> called(const std::string& name, const std::vector<Offer
     if (offers[i].name == name) return {i};
     if (matches(name, offers[i].name)) matching.push_back(i);
   }
-  // Another common name of the same axis: gyr_x, wx and gyro_x are one.
-  const std::string common = common_name(role_of(name));
-  for (std::size_t i = 0; i < offers.size() && matching.empty() && !common.empty(); ++i) {
-    if (common_name(role_of(offers[i].name)) == common) return {i};
+  if (!matching.empty()) return matching;
+  // Another common name of the same axis: gyr_x, wx and gyro_x are one. Of the same sensor; without
+  // one, of the only one.
+  const Role meant = role_of(name);
+  const std::string common = common_name(meant);
+  std::vector<std::size_t> alike;
+  for (std::size_t i = 0; i < offers.size() && !common.empty(); ++i) {
+    const Role role = role_of(offers[i].name);
+    if (common_name(role) != common) continue;
+    if (role.sensor == meant.sensor) return {i};
+    alike.push_back(i);
   }
-  return matching;
+  return meant.sensor.empty() && alike.size() == 1 ? alike : matching;
+}
+
+// The axes of motion of the first chosen one's sensor, as names tell it, that are not chosen: of
+// each the nearest column.
+std::vector<std::size_t> axes_beside(const std::vector<std::size_t>& chosen,
+                                     const std::vector<Offer>& offers) {
+  std::optional<std::string> sensor;  // of the first chosen axis
+  const auto axis_of = [&](std::size_t i) {
+    const Role role = role_of(offers[i].name);
+    const bool same = !sensor || role.sensor == *sensor;
+    return of_inertia(role.quantity) && same && role.axis != ' ' ? common_name(role)
+                                                                 : std::string();
+  };
+  const auto axis = std::find_if(chosen.begin(), chosen.end(),
+                                 [&](std::size_t i) { return !axis_of(i).empty(); });
+  if (axis == chosen.end()) return {};
+  const std::size_t first = *axis;
+  sensor = role_of(offers[first].name).sensor;
+  const auto distance = [&](std::size_t i) { return i > first ? i - first : first - i; };
+  std::map<std::string, std::size_t> nearest;
+  std::set<std::string> known;
+  for (const std::size_t i : chosen) known.insert(axis_of(i));
+  for (std::size_t i = 0; i < offers.size(); ++i) {
+    const std::string axis = axis_of(i);
+    if (axis.empty() || known.contains(axis) || !offers[i].by_default) continue;
+    const auto [at, is_new] = nearest.emplace(axis, i);
+    if (!is_new && distance(i) < distance(at->second)) at->second = i;
+  }
+  std::vector<std::size_t> out;
+  for (const auto& [axis, i] : nearest) out.push_back(i);
+  return out;
 }
 
 // "did you mean 'gyro_x'? "
@@ -65,6 +108,7 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
                             file, offers.size(), kMaximumColumns));
   }
   std::vector<std::size_t> out;
+  std::vector<bool> chosen(offers.size(), false);
   std::vector<std::string> named = wanted;
   if (options.beside) named.insert(named.end(), options.witnesses.begin(), options.witnesses.end());
   for (const std::string& name : named) {
@@ -74,18 +118,24 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
                               name, listed(offers), nearest_of(name, offers)));
     }
     for (const std::size_t index : found) {
-      if (std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);
+      if (!chosen[index]) out.push_back(index);
+      chosen[index] = true;
     }
   }
   for (std::size_t i = 0; i < offers.size() && (wanted.empty() || options.beside); ++i) {
-    if (!offers[i].by_default || std::find(out.begin(), out.end(), i) != out.end()) continue;
+    if (!offers[i].by_default || chosen[i]) continue;
     if (!options.beside || beside_them(offers[i], options)) out.push_back(i);
+  }
+  if (options.axes_to_judge && !wanted.empty()) {
+    const auto axes = axes_beside(out, offers);
+    out.insert(out.end(), axes.begin(), axes.end());
   }
   if (out.empty())
     return fail(fmt::format("{}: no channel of samples (found: {})", file, listed(offers)));
+  std::unordered_map<std::string_view, std::size_t> times;  // that each name is offered
+  for (const Offer& one : offers) ++times[one.name];
   for (const std::size_t index : out) {
-    const auto same = [&](const Offer& offer) { return offer.name == offers[index].name; };
-    if (std::count_if(offers.begin(), offers.end(), same) > 1) {
+    if (times[offers[index].name] > 1) {
       return fail(fmt::format("{}: two columns are named '{}'; rename one of them", file,
                               offers[index].name));
     }

@@ -25,7 +25,8 @@ struct Offer {
 
 /// Indices of the columns that `options` want: those that it names (as the file does, as imunoise
 /// does or by any common name of their axis, or with wildcards), in that order, else all by
-/// default; where what stands beside_them() is wanted, those too. Error: a channel that the file
+/// default; where what stands beside_them() is wanted, or axes to judge by, those too, behind them.
+/// Error: a channel that the file
 /// has not (those that exist are listed), two columns of one wanted name, no channel at all. `file`
 /// is for messages.
 Result<std::vector<std::size_t>> select_columns(std::string_view file,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "recording/import/table/names.h"
@@ -53,21 +54,21 @@ bool has_rates(const TimedStream& one) {
 
 bool is_inertial(const TimedStream& one) {
   return std::any_of(one.columns.begin(), one.columns.end(), [](const Column& column) {
-    const Quantity quantity = role_of(column.name).quantity;
-    return quantity == Quantity::kAngularRate || quantity == Quantity::kAcceleration;
+    return of_inertia(role_of(column.name).quantity);
   });
 }
 
 bool has_channel(const TimedStream& one, const std::string& wanted) {
   return std::any_of(one.columns.begin(), one.columns.end(), [&](const Column& column) {
-    return column.name == wanted || matches(wanted, column.name);
+    const std::string common = common_name(role_of(wanted));
+    return column.name == wanted || matches(wanted, column.name) ||
+           (!common.empty() && matches(common, column.name));
   });
 }
 
 // How much later than `first` the samples of `second` usually come (ns), within half a step: the
 // mean direction on a circle of one step.
-double usual_delay(const std::vector<std::int64_t>& first, const std::vector<std::int64_t>& second,
-                   double step) {
+double usual_delay(const Times& first, const Times& second, double step) {
   double sine = 0.0;
   double cosine = 0.0;
   std::size_t at = 0;
@@ -82,24 +83,66 @@ double usual_delay(const std::vector<std::int64_t>& first, const std::vector<std
   return step * std::atan2(sine, cosine) / (2.0 * std::numbers::pi);
 }
 
-using Row = std::uint32_t;
-constexpr Row kAlone = std::numeric_limits<Row>::max();
+// Which sample of another stream belongs to each row. Neighbours mostly belong to neighbours: runs
+// of them are kept.
+class Partners {
+ public:
+  void add(std::size_t partner) { extend(partner - rows_); }
+  void add_none() {
+    ++alone_;
+    extend(kNone);
+  }
+  std::size_t rows() const { return rows_; }
+  std::size_t alone() const { return alone_; }
+  /// Calls `visit` with each row and its partner, or nothing.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const std::size_t end = r + 1 < runs_.size() ? runs_[r + 1].begin : rows_;
+      const std::size_t ahead = runs_[r].ahead;
+      for (std::size_t i = runs_[r].begin; i < end; ++i)
+        visit(i, ahead == kNone ? std::nullopt : std::optional(i + ahead));
+    }
+  }
+  /// Whether no row's partner comes before the row.
+  bool none_behind() const {
+    return std::all_of(runs_.begin(), runs_.end(),
+                       [](const Run& one) { return one.ahead == kNone || one.ahead < kNone / 2; });
+  }
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max() / 2;
+  struct Run {
+    std::size_t begin;
+    std::size_t ahead;  // of the row; what lies behind wraps
+  };
+  void extend(std::size_t ahead) {
+    if (runs_.empty() || runs_.back().ahead != ahead) runs_.push_back({rows_, ahead});
+    ++rows_;
+  }
+
+  std::vector<Run> runs_;
+  std::size_t rows_ = 0;
+  std::size_t alone_ = 0;
+};
 
 // For each row of `first` the sample of `second` that belongs to it.
-std::vector<Row> partners(const std::vector<std::int64_t>& first,
-                          const std::vector<std::int64_t>& second, double step) {
+Partners partners(const Times& first, const Times& second, double step) {
   const double delay = usual_delay(first, second, step);
-  std::vector<Row> out(first.size(), kAlone);
-  if (second.size() >= kAlone) return out;
-  Row at = 0;
-  const auto away = [&](std::size_t i, Row j) {
+  Partners out;
+  std::size_t at = 0;
+  std::optional<std::size_t> last;
+  const auto away = [&](std::size_t i, std::size_t j) {
     return std::abs(between(first[i], second[j]) - delay);
   };
-  for (std::size_t i = 0; i < first.size() && at < second.size(); ++i) {
+  for (std::size_t i = 0; i < first.size(); ++i) {
     while (at + 1 < second.size() && away(i, at + 1) <= away(i, at)) ++at;
-    if (away(i, at) > 0.5 * step) continue;
-    out[i] = at;
-    if (i > 0 && out[i - 1] == at) out[i] = kAlone;
+    const bool near = !(away(i, at) > 0.5 * step) && last != at;
+    last = near ? std::optional(at) : std::nullopt;
+    if (near)
+      out.add(at);
+    else
+      out.add_none();
   }
   return out;
 }
@@ -134,17 +177,16 @@ Result<std::size_t> main_stream(const std::string& file, const std::vector<Timed
 
 // Values by the rows that they belong to; in place where none has to go to a later row, as of two
 // topics that began together.
-void put_at_partners(const std::vector<Row>& partner, std::vector<double>& values) {
+void put_at_partners(const Partners& partners, std::vector<double>& values) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  bool in_place = partner.size() <= values.size();
-  for (std::size_t i = 0; i < partner.size() && in_place; ++i)
-    in_place = partner[i] == kAlone || partner[i] >= i;
-  std::vector<double> apart(in_place ? 0 : partner.size());
+  const bool in_place = partners.rows() <= values.size() && partners.none_behind();
+  std::vector<double> apart(in_place ? 0 : partners.rows());
   std::vector<double>& out = in_place ? values : apart;
-  for (std::size_t i = 0; i < partner.size(); ++i)
-    out[i] = partner[i] == kAlone ? none : values[partner[i]];
+  partners.for_each([&](std::size_t row, std::optional<std::size_t> partner) {
+    out[row] = partner ? values[*partner] : none;
+  });
   if (in_place)
-    values.resize(partner.size());
+    values.resize(partners.rows());
   else
     values = std::move(apart);
 }
@@ -154,13 +196,12 @@ bool joined(TimedStream& to, TimedStream& other) {
   const double step = usual_step(to);
   const double other_step = usual_step(other);
   if (!(step > 0.0) || !(std::abs(other_step / step - 1.0) < kSameRate)) return false;
-  const std::vector<Row> partner = partners(to.times, other.times, step);
+  const Partners found = partners(to.times, other.times, step);
   other.times = {};
-  const auto there =
-      partner.size() - static_cast<std::size_t>(std::count(partner.begin(), partner.end(), kAlone));
-  if (static_cast<double>(there) < kEnough * static_cast<double>(partner.size())) return false;
+  const auto rows = static_cast<double>(found.rows());
+  if (rows - static_cast<double>(found.alone()) < kEnough * rows) return false;
   for (Column& column : other.columns) {
-    put_at_partners(partner, std::get<std::vector<double>>(column.samples));
+    put_at_partners(found, std::get<std::vector<double>>(column.samples));
     to.columns.push_back(std::move(column));
   }
   return true;
@@ -200,7 +241,7 @@ Result<Table> join_streams(const std::string& file, std::vector<TimedStream> str
   const auto wanted = select_columns(file, offers, options);
   if (!wanted) return tl::make_unexpected(wanted.error());
   for (const std::size_t c : *wanted) table.columns.push_back(std::move(first.columns[c]));
-  if (!options.rate) table.time = TimeColumn{time_name, "ns", std::move(first.times)};
+  if (!options.rate) table.time = TimeColumn{time_name, "ns", first.times.take()};
   table.row = [](std::size_t i) { return fmt::format("sample {}", i); };
   return table;
 }

@@ -3,7 +3,6 @@
 // A device's streams, each with times of its own (topics of a log, messages of a bus): which of
 // them make one table.
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,14 +10,15 @@
 #include "core/support/result.h"
 #include "recording/import/table/options.h"
 #include "recording/import/table/table.h"
+#include "recording/import/table/times.h"
 
 namespace imunoise::recording {
 
 /// Samples that share their times. Values are as `columns` say; its samples are filled in last.
 struct TimedStream {
-  std::string name;                 ///< "sensor_gyro_fifo"
-  std::vector<std::int64_t> times;  ///< ns, rising but for the recorder's faults
-  std::vector<Column> columns;      ///< samples are doubles
+  std::string name;             ///< "sensor_gyro_fifo"
+  Times times;                  ///< rising but for the recorder's faults
+  std::vector<Column> columns;  ///< samples are doubles
 };
 
 /// The stream of the first wanted channel (options.topic, options.channels), else the first that

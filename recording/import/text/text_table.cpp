@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/support/utf8.h"
 #include "recording/import/table/array_columns.h"
 #include "recording/import/table/format.h"
 #include "recording/import/table/names.h"
@@ -20,10 +21,25 @@ namespace {
 
 constexpr std::array kTextExtensions = {".csv", ".tsv", ".txt", ".dat"};
 
+// Many control characters that no text has; a NUL byte may be half of a UTF-16 character.
+bool is_binary(std::string_view head) {
+  constexpr double kMany = 0.02;
+  constexpr std::string_view kOfText = "\t\n\v\f\r\x1a\x1b";
+  const bool wide = head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff");
+  const auto controls = std::count_if(head.begin(), head.end(), [&](char c) {
+    const bool control = static_cast<unsigned char>(c) < 0x20;
+    return control && !(wide && c == '\0') && kOfText.find(c) == std::string_view::npos;
+  });
+  return static_cast<double>(controls) > kMany * static_cast<double>(head.size());
+}
+
 Result<bool> claims_text(const UnknownFile& file) {
-  return file.head.find('\0') == std::string_view::npos ||
-         std::any_of(kTextExtensions.begin(), kTextExtensions.end(),
-                     [&](const char* known) { return file.extension == known; });
+  const bool named = std::any_of(kTextExtensions.begin(), kTextExtensions.end(),
+                                 [&](const char* known) { return file.extension == known; });
+  if (!is_binary(file.head)) return true;
+  if (!named) return false;
+  return fail(fmt::format("{}: is no text, although its name ends in {}; export it again",
+                          file.content.name(), file.extension.string()));
 }
 
 struct Head {

@@ -126,7 +126,7 @@ bool UlogSamples::add_one(std::string_view message, std::int64_t time) {
 }
 
 TimedStream UlogSamples::take() {
-  TimedStream out{name_, times_.take(), {}};
+  TimedStream out{name_, std::exchange(times_, {}), {}};
   for (Part& part : parts_) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       out.columns.push_back({fmt::format("{}_{}", part.about->channel, "xyz"[axis]),

@@ -12,6 +12,7 @@
 
 #include "recording/import/table/blocks.h"
 #include "recording/import/table/streams.h"
+#include "recording/import/table/times.h"
 #include "recording/import/ulog/ulog_layout.h"
 
 namespace imunoise::recording {
@@ -73,7 +74,7 @@ class UlogSamples {
   std::optional<UlogField> count_;  // of a FIFO
   std::vector<Part> parts_;
   std::size_t least_ = 0;  // bytes that a message needs
-  Blocks<std::int64_t> times_;
+  Times times_;
 };
 
 }  // namespace imunoise::recording

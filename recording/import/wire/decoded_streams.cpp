@@ -41,7 +41,7 @@ class DecodedStream {
       fill(one, rows);
       out.columns.push_back({one.name, one.numbers.take(), 1.0, 0.0, one.unit});
     }
-    out.times = times_.take();
+    out.times = std::exchange(times_, {});
     return out;
   }
 
@@ -81,7 +81,7 @@ class DecodedStream {
         Values{std::string(value.channel), std::string(value.unit), {}, 0, false});
   }
 
-  Blocks<std::int64_t> times_;  // ns
+  Times times_;  // ns
   std::vector<Values> values_;
   std::optional<std::int64_t> counter_;
   std::size_t lost_ = 0;

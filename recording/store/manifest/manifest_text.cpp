@@ -9,6 +9,7 @@
 #include "recording/store/format/crc32c.h"
 #include "recording/store/format/format_version.h"
 #include "recording/store/format/layout.h"
+#include "recording/store/manifest/manifest.h"
 #include "recording/store/manifest/replicate_set.h"
 
 namespace imunoise::recording {

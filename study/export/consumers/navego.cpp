@@ -60,7 +60,10 @@ const Consumer& navego() {
       .holds = "white noise and one Markov process or random walk, a value for each axis",
       .axes = AxisRule::kEach,
       .takes_markov = true,
-      .remark = "Static biases (gb_sta, ab_sta) are those of power-on, not noise: set them.",
+      .remark =
+          "gb_dyn and ab_dyn suit NaveGo's filter; its simulator (noise_dbias.m) takes σ "
+          "itself, √2 smaller, and adds arrw and vrrw: set these to 0 there. Static biases "
+          "(gb_sta, ab_sta) are those of power-on, not noise: set them.",
       .fields = navego_fields,
       .write = navego_file,
   };

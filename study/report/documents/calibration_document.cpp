@@ -191,7 +191,7 @@ Section array_section(const v1::ArrayCalibration& array, Digits digits) {
 
 Document document(const v1::Calibration& calibration, Digits digits) {
   Section all;
-  all.title = "calibration";
+  all.title = "all channels";
   if (calibration.started_ns() != 0)
     all.facts = fmt::format("recorded {} · ", minute(calibration.started_ns()));
   all.facts += fmt::format("calibrated {} UTC", minute(calibration.made_ns()));

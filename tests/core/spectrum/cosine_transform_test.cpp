@@ -172,5 +172,19 @@ TEST(BandedPower, KnowsTheTransformOfARamp) {
   }
 }
 
+// Sums over all bands stay; of a power law the mean over a band is its value there.
+TEST(BandedPower, WiderBandsHoldTheSame) {
+  BandedPower fine = bands_of(1'000'000, Hertz{1.0});
+  fine.power = fine.frequency.cycles().pow(-2.0);
+  const BandedPower wide = in_wider_bands(fine);
+  EXPECT_LT(wide.power.size(), fine.power.size() / 3);
+  EXPECT_EQ(wide.count.sum(), fine.count.sum());
+  EXPECT_NEAR((wide.count * wide.power).sum() / (fine.count * fine.power).sum(), 1.0, 1e-12);
+  for (Eigen::Index b = 0; b < 64; ++b) EXPECT_EQ(wide.frequency(b), fine.frequency(b));
+  const Eigen::ArrayXd ratio = wide.power * wide.frequency.cycles().square();
+  EXPECT_NEAR(ratio.maxCoeff(), 1.0, 2e-4);
+  EXPECT_NEAR(ratio.minCoeff(), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace imunoise

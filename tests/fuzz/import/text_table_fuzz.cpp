@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "recording/import/preflight/preflight.h"
 #include "recording/import/text/text_table.h"
@@ -18,7 +20,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((choice & 1U) != 0) options.rate = Hertz{100.0};
   if ((choice & 2U) != 0) options.header = (choice & 4U) != 0;
   if ((choice & 8U) != 0) options.delimiter = ",; \t"[choice >> 4U & 3U];
-  if ((choice & 64U) != 0) options.channels = {"x"};
+  if ((choice & 64U) != 0) {
+    options.channels = {"*x"};
+    options.axes_to_judge = true;
+  }
   const MemoryFile file({static_cast<const char*>(static_cast<const void*>(data + 2)), size - 2});
   const Progress progress;
   std::atomic<double> done = 0.0;
@@ -32,8 +37,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   if (whole->columns.size() != pieces->columns.size()) std::abort();
-  const auto judged = judge("f", *whole, options);
-  const auto again = judge("f", *pieces, options);
+  std::vector<std::string> wanted;  // the first channel, or all
+  for (const Column& one : whole->columns) {
+    if (wanted.empty() || !options.axes_to_judge) wanted.push_back(one.name);
+  }
+  const auto judged = judge("f", *whole, wanted, options);
+  const auto again = judge("f", *pieces, wanted, options);
   if (judged.has_value() != again.has_value()) std::abort();
   if (!judged) {
     if (judged.error().message != again.error().message) std::abort();

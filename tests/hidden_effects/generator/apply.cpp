@@ -29,9 +29,32 @@ Injection of_spectrum(const Scene& scene, const Series& after) {
           {}};
 }
 
+namespace {
+
+// The nearest of the base's noises, whose Markov noises may change their correlation times.
+Series nearest_base(const Scene& scene, const Series& after) {
+  const auto of = [&](double log_factor) {
+    BaseNoise base = scene.base;
+    for (Markov& one : base.markov) one.tau *= std::exp(log_factor);
+    return nearest_sum(after, base.parts(scene.samples()));
+  };
+  const auto distance = [&](double log_factor) { return divergence(of(log_factor), after); };
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double low = -3.0;
+  double high = 3.0;
+  while (!scene.base.markov.empty() && high - low > 1e-3) {
+    const double part = golden * (high - low);
+    (distance(high - part) < distance(low + part) ? high : low) =
+        distance(high - part) < distance(low + part) ? low + part : high - part;
+  }
+  return of(scene.base.markov.empty() ? 0.0 : 0.5 * (low + high));
+}
+
+}  // namespace
+
 Injection of_data(const Scene& scene, const Series& after) {
   Injection out = of_spectrum(scene, after);
-  const Series nearest = nearest_sum(after, scene.base.parts(scene.samples()));
+  const Series nearest = nearest_base(scene, after);
   out.gained = 0.0;
   for (const Recording& recording : scene.recordings)
     *out.gained += likelihood_ratio(cosine_coefficients(recording[kSubject]), nearest, after);

@@ -9,6 +9,7 @@
 #include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/hidden_case.h"
 #include "tests/hidden_effects/generator/oracle.h"
+#include "tests/hidden_effects/generator/two_level_oracle.h"
 
 namespace imunoise::hidden {
 namespace {
@@ -141,6 +142,33 @@ Moments moments(const Series& values) {
   for (const double x : values) out.deviation += (x - out.mean) * (x - out.mean) / (n - 1.0);
   out.deviation = std::sqrt(out.deviation);
   return out;
+}
+
+// All 2¹² courses of twelve samples, each less its levels a walk in white noise. 300 repeats of 200
+// particles: the mean likelihood is right for any number of them (Del Moral 1996).
+TEST(TwoLevelOracle, SumsOverAllCourses) {
+  constexpr std::size_t kSamples = 12;
+  const WhiteWalk noise{1.0, 0.3};
+  const TwoLevelLaw law{3.0, 4.0};
+  RandomStream random(20261125);
+  Series x(kSamples);
+  for (std::size_t t = 0; t < kSamples; ++t) x[t] = random.normal() + (t < 5 ? 1.5 : -1.5);
+  double exact = 0.0;
+  for (unsigned course = 0; course < 1U << kSamples; ++course) {
+    Series left = x;
+    double probability = 0.5;
+    for (std::size_t t = 0; t < kSamples; ++t) {
+      const bool jumps = t > 0 && ((course >> t ^ course >> (t - 1)) & 1U) != 0;
+      left[t] -= (course >> t & 1U) != 0 ? 1.5 : -1.5;
+      if (t > 0) probability *= jumps ? 0.25 : 0.75;
+    }
+    exact += probability * std::exp(log_likelihood(left, noise));
+  }
+  Series likelihoods;
+  for (int repeat = 0; repeat < 300; ++repeat)
+    likelihoods.push_back(std::exp(log_likelihood(x, noise, law, random, 200)) / exact);
+  const Moments at = moments(likelihoods);
+  EXPECT_NEAR(at.mean, 1.0, 5.0 * at.deviation / std::sqrt(300.0));
 }
 
 // Scenes of a case are the same before the effect is hidden, so its clean recordings are the

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tests/hidden_effects/generator/apply.h"
 #include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/draw.h"
 #include "tests/hidden_effects/generator/oracle.h"
+#include "tests/hidden_effects/generator/white_walk.h"
 
 namespace imunoise::hidden {
 namespace {
@@ -55,6 +57,25 @@ Injection hide_telegraph(Scene& scene, double delta) {
           {{"amplitude", amplitude, "rad/s"}, {"dwell_s", dwell / scene.rate_hz, "s"}}};
 }
 
+// Nats by which these samples are likelier as a mixture of normal numbers, a share of them with
+// `factor` times the white noise added, than as normal ones of one width.
+double gained_by_mixture(const Scene& scene, double share, double factor) {
+  const double wide = 1.0 + factor * factor;  // variance
+  Series squares;
+  for (const Recording& recording : scene.recordings) {
+    for (const double z : innovations(recording[kSubject], {scene.base.white, scene.base.walk}))
+      squares.push_back(z * z);
+  }
+  const double n = static_cast<double>(squares.size());
+  const double variance = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
+  double out = 0.5 * n * (1.0 + std::log(variance));
+  for (const double square : squares) {
+    out += std::log((1.0 - share) * std::exp(-0.5 * square) +
+                    share / std::sqrt(wide) * std::exp(-0.5 * square / wide));
+  }
+  return out;
+}
+
 // Normal, 3 to 6 times as wide as a sample's own noise, here and there. δ beside the white floor.
 Injection hide_outliers(Scene& scene, double delta) {
   const double factor = uniform(scene.random, 3.0, 6.0);
@@ -66,8 +87,9 @@ Injection hide_outliers(Scene& scene, double delta) {
     Series& gyro = scene.recordings[below(scene.random, scene.replicates())][kSubject];
     gyro[below(scene.random, gyro.size())] += factor * scene.floor() * scene.random.normal();
   }
-  const double delta_put = strength(outlier_divergence(static_cast<double>(count) / n, factor), n);
-  return {delta_put, delta_put, {{"share", static_cast<double>(count) / n, "1"}}};
+  const double put = static_cast<double>(count) / n;
+  const double delta_put = strength(outlier_divergence(put, factor), n);
+  return {delta_put, delta_put, {{"share", put, "1"}}, gained_by_mixture(scene, put, factor)};
 }
 
 // White noise grows with temperature, from none at the coldest moment. δ beside the white floor.

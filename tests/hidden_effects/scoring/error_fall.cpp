@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "study/analysis/evaluate.h"
+#include "tests/hidden_effects/generator/two_level_oracle.h"
 #include "tests/hidden_effects/scoring/replicates.h"
 
 namespace imunoise::hidden {
@@ -41,17 +42,34 @@ Result<study::RecordedChannel> looked(const std::vector<Recording>& recordings, 
   return study::prepare_channel(std::move(replicates), place, std::nullopt);
 }
 
+// Nats that telegraph noise costs an oracle who is not told when it jumps.
+double price_of_courses(const HiddenCase& made) {
+  const WhiteWalk noise{made.base.white, made.base.walk};
+  const std::vector<TrueParameter>& truth = made.injections.front().parameters;
+  const TwoLevelLaw law{truth[0].value, truth[1].value * made.rate_hz};
+  double out = 0.0;
+  for (std::size_t r = 0; r < made.recordings.size(); ++r) {
+    RandomStream random(made.spec.seed, {static_cast<std::uint32_t>(r)});
+    out += log_likelihood(made.clean[r][kSubject], noise) -
+           log_likelihood(made.recordings[r][kSubject], noise, law, random);
+  }
+  return out;
+}
+
 // Held-out nats that an oracle gains; absent where the data without the effect tell nothing.
 std::optional<double> oracle_gain(const Outcome& outcome, const HiddenCase& made, double before) {
   const Injection& put = outcome.injections.front();
   if (put.gained) return *put.gained;
   const double expected = 0.5 * put.delta * put.delta;
-  if (!shifts_the_mean(*find_effect(outcome.spec.effects.front()))) return expected;
+  const HiddenEffect& effect = *find_effect(outcome.spec.effects.front());
+  if (!shifts_the_mean(effect)) return expected;
   const auto look = looked(made.clean, made.rate_hz);
   if (!look) return std::nullopt;
   const auto clean = judged(look->prepared, made.base.model);
   if (!clean) return std::nullopt;
-  return nats_of(*clean) - before - 0.5 * put.informed * put.informed + expected;
+  const double price = effect.id == "telegraph" ? price_of_courses(made)
+                                                : 0.5 * put.informed * put.informed - expected;
+  return nats_of(*clean) - before - price;
 }
 
 // Of the tool's candidates, the first that has a right name.

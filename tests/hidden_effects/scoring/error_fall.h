@@ -37,9 +37,10 @@ struct ErrorFall {
 
 /// Adds the true effect of a diagnosed case, as the diagnosis offers it, and then wrong ones. The
 /// oracle's fall: of an effect that shifts the mean, what the base's model gains on the same noise
-/// without it (less the price of places that nobody knows, see Injection); of an effect that
-/// changes spectra, what its generator says (Injection::gained); else its expectation, δ²/2, which
-/// a set of data misses by δ (standard deviation). Absent where nothing can be held out.
+/// without it (less the price of jumps at times that nobody knows, see two_level_oracle.h); of an
+/// effect that changes spectra, what its generator says (Injection::gained); else its expectation,
+/// δ²/2, which a set of data misses by δ (standard deviation). Absent where nothing can be held
+/// out.
 std::optional<ErrorFall> error_fall(const Outcome& outcome);
 
 /// The goals of one family.

@@ -40,7 +40,7 @@ Resident resident() {
 class LargeArraysTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    keep_large_arrays({std::filesystem::temp_directory_path(), kInMemory, kMapped, kMapped});
+    keep_large_arrays({std::filesystem::temp_directory_path(), kInMemory, kMapped});
   }
   void SetUp() override {
 #ifdef IMUNOISE_SANITIZED

@@ -20,11 +20,11 @@ bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 |
 std::vector<double> numbers_of(const std::string& file, const std::string& key) {
   std::istringstream lines(file);
   std::vector<double> out;
-  bool inside_xml_comment = false;
+  bool inside_comment = false;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("<!--")) inside_xml_comment = true;
-    if (line.starts_with("-->")) inside_xml_comment = false;
-    if (inside_xml_comment || is_comment(line)) continue;
+    if (line.starts_with("<!--") || line.ends_with("\"comment\": [")) inside_comment = true;
+    if (line.starts_with("-->") || line.ends_with("],")) inside_comment = false;
+    if (inside_comment || is_comment(line)) continue;
     std::size_t at = line.find(key);
     if (at == std::string::npos || in_word(line[at + key.size()])) continue;
     if (at > 0 && in_word(line[at - 1])) continue;

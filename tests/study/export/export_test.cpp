@@ -100,7 +100,7 @@ TEST(Conservative, BoundsTheNextPowerOn) {
   spread.set_mean(1e-6);
   spread.set_relative(0.3);
   spread.set_moves(true);
-  const auto draws = study::moving_parameters(model, report);
+  const auto draws = study::moving_parameters(model, report.spread());
   ASSERT_EQ(draws.size(), 1U);
   const Eigen::ArrayXd m = Eigen::ArrayXd::Constant(1, 50.0);
   const double bound = study::power_on_allan(model, draws, m, 0.95)(0);
@@ -111,10 +111,11 @@ TEST(Conservative, BoundsTheNextPowerOn) {
   EXPECT_NEAR(below / 2000.0, 0.95, 0.022);
   // Few replicates say less: the bound is wider.
   spread.set_replicates(4);
-  EXPECT_GT(study::power_on_allan(model, study::moving_parameters(model, report), m, 0.95)(0),
-            1.2 * bound);
+  EXPECT_GT(
+      study::power_on_allan(model, study::moving_parameters(model, report.spread()), m, 0.95)(0),
+      1.2 * bound);
   spread.set_moves(false);
-  EXPECT_TRUE(study::moving_parameters(model, report).empty());
+  EXPECT_TRUE(study::moving_parameters(model, report.spread()).empty());
 }
 
 TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
@@ -123,8 +124,8 @@ TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
   fit.set_unit("rad/s");
   fit.set_rate_hz(200.0);
   fit.set_fitted_model(kGyro);
-  v1::StationarityReport stationarity;
-  v1::ParameterSpread& spread = *stationarity.add_spread();
+  v1::FitReport moving = fit;
+  v1::ParameterSpread& spread = *moving.add_spread();
   spread.set_term("RW");
   spread.set_parameter("gamma2");
   spread.set_replicates(6);
@@ -133,12 +134,18 @@ TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
   spread.set_moves(true);
   ExportOptions options;
   options.conservative = true;
-  const auto walk = [&](const v1::StationarityReport& of) {
-    const std::string file = written(study::imu_noise({{"", fit, of}}).value(), "kalibr", options);
+  const auto walk = [&](const v1::FitReport& of) {
+    const std::string file = written(study::imu_noise({{"", of}}).value(), "kalibr", options);
     EXPECT_EQ(file.find("95 % of power-ons") != std::string::npos, of.spread_size() > 0) << file;
+    EXPECT_EQ(file.find("gamma2 of RW: mean 8e-12") != std::string::npos, of.spread_size() > 0);
     return numbers_of(file, "gyroscope_random_walk").front();
   };
-  EXPECT_GT(walk(stationarity), 1.3 * walk({}));
+  EXPECT_GT(walk(moving), 1.3 * walk(fit));
+  // How they differ is told, too, where nothing bounds it.
+  options.conservative = false;
+  const std::string file = written(study::imu_noise({{"", moving}}).value(), "kalibr", options);
+  EXPECT_NE(file.find("gamma2 of RW: mean 8e-12"), std::string::npos) << file;
+  EXPECT_NE(file.find("--conservative bounds the next power-on"), std::string::npos) << file;
 }
 
 TEST(Export, KalibrNeverGetsZero) {
@@ -171,6 +178,8 @@ TEST(Export, AxesWorstMeanEach) {
   near(numbers_of(mean, "gyroscope_noise_density"), n * std::sqrt(11.0 / 3.0));
   near(numbers_of(mean, "gyroscope_random_walk"), k * std::sqrt(2.0));
   EXPECT_NE(mean.find("root mean square of"), std::string::npos);
+  EXPECT_NE(written(imu, "basalt").find("\"gyro_noise_std: rad/s/√Hz; N"), std::string::npos)
+      << "JSON has no comments: units and formulas stand in an entry";
   const auto each = numbers_of(written(imu, "basalt"), "gyro_noise_std");
   ASSERT_EQ(each.size(), 3U);
   EXPECT_NEAR(each[1], 3.0 * each[0], 1e-6 * each[1]);
@@ -236,7 +245,7 @@ TEST(Export, IntervalsFollowTheFit) {
   n.set_value(2e-4);
   n.set_lower(1.9e-4);
   n.set_upper(2.1e-4);
-  const auto imu = study::imu_noise({{"", fit, {}}});
+  const auto imu = study::imu_noise({{"", fit}});
   ASSERT_TRUE(imu) << imu.error().message;
   EXPECT_EQ(imu->gyro.axes[0].axis, 'x');
   const auto sheet = study::export_sheet(*imu, *consumer_called("gtsam"), {"x", ""}, {});
@@ -246,7 +255,7 @@ TEST(Export, IntervalsFollowTheFit) {
   ASSERT_EQ(field.values.size(), 3U);
   EXPECT_DOUBLE_EQ(field.values[0].lower, 1.9e-4 * 1.9e-4);
   EXPECT_DOUBLE_EQ(field.values[0].upper, 2.1e-4 * 2.1e-4);
-  const auto twice = study::imu_noise({{"", fit, {}}, {"", fit, {}}});
+  const auto twice = study::imu_noise({{"", fit}, {"", fit}});
   ASSERT_FALSE(twice);
   EXPECT_NE(twice.error().message.find("one axis too many"), std::string::npos);
 }

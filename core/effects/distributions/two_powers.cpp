@@ -1,4 +1,4 @@
-#include "core/effects/two_powers.h"
+#include "core/effects/distributions/two_powers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/effects/student.h"
+#include "core/effects/distributions/student.h"
 
 #include <algorithm>
 #include <cmath>
