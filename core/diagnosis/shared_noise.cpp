@@ -16,7 +16,8 @@ constexpr double kLeastShare = 0.02;  // of the noise's gain that its being shar
 constexpr double kClearly = 3.0;      // nats,
 constexpr double kMuch = 0.1;         // or of what is explained: how much more than a leak
 
-// A coupling to a sensor of the subject's kind, at all frequencies or at some.
+// A coupling to a sensor of the subject's kind, at all frequencies or at some; or to an
+// accelerometer that sees a gyroscope's bench turn.
 struct Coupling {
   const TriedTerm* tried = nullptr;
   const Witness* witness = nullptr;
@@ -26,11 +27,13 @@ struct Coupling {
 std::vector<Coupling> couplings(const std::vector<TriedTerm>& tried) {
   std::vector<Coupling> out;
   for (const TriedTerm& one : tried) {
-    if (one.suggestion.coupling == PlainCoupling::kNo) continue;
+    const MotionCoupling how = one.suggestion.coupling;
+    if (how == MotionCoupling::kNone) continue;
     const Subject& subject = one.fitted.regression.subject();
     const Witness* const witness = subject.find(one.term()->witness);
-    if (witness == nullptr || !may_share_motion(subject.quantity, *witness)) continue;
-    out.push_back({&one, witness, one.suggestion.coupling == PlainCoupling::kWhole});
+    if (witness == nullptr) continue;
+    if (how == MotionCoupling::kTurning || may_share_motion(subject.quantity, *witness))
+      out.push_back({&one, witness, how == MotionCoupling::kWhole});
   }
   return out;
 }
@@ -90,7 +93,8 @@ void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double le
     noise.start = both.fit.model.noise;
     noise.shared = coupling;
     one->fitted = std::move(both);
-    one->cause = "common_vibration";
+    const bool turning = shared.with->suggestion.coupling == MotionCoupling::kTurning;
+    one->cause = turning ? "tilt" : "common_vibration";
     one->shared_with = coupling.witness;
     one->likelihood_gain += shared.gain;
     one->log_p += shared.log_p;

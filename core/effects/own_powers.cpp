@@ -163,8 +163,16 @@ Suggestions search_own_powers(const SearchView& view) {
   return beside_wander(std::move(out), view);
 }
 
-// Of the noise that each replicate has of its own, white noise alone explains less than half.
+// Power that wanders slowly makes replicates differ, too.
+bool could_wander(const Current& current) {
+  const auto view =
+      PowerView::of(innovations(current.regression, current.fit), current.subject().rate);
+  return view && !view->rules_out_wander();
+}
+
+// Slow: of the noise that each replicate has of its own, white noise alone explains less than half.
 void review_own_powers(const Current& current, TriedTerm& tried) {
+  if (could_wander(current)) tried.could_be.push_back("variance_wander");
   const Regression& regression = tried.fitted.regression;
   const Model& noise = current.fit.model.noise;
   Model held = noise;

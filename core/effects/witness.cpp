@@ -188,11 +188,11 @@ void add_static(const Current& current, const Witness& channel, Suggestions& out
                  .added = whole,
                  .score_nats = sums.gain(0, last),
                  .information = sums.square(last),
-                 .coupling = PlainCoupling::kWhole});
+                 .coupling = MotionCoupling::kWhole});
   if (!may_share_motion(current.subject().quantity, channel)) return;
   // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
-  Suggestion slow{.cause = "tilt", .added = whole, .coupling = PlainCoupling::kBand};
-  Suggestion fast{.cause = "common_vibration", .added = whole, .coupling = PlainCoupling::kBand};
+  Suggestion slow{.cause = "tilt", .added = whole, .coupling = MotionCoupling::kBand};
+  Suggestion fast{.cause = "common_vibration", .added = whole, .coupling = MotionCoupling::kBand};
   slow.search.log_places = fast.search.log_places =
       std::log(static_cast<double>(last - kFirstOctave));
   for (Index i = kFirstOctave; i < last; ++i) {
@@ -225,7 +225,7 @@ void add_rocking(const Current& current, const Witness& channel, Suggestions& ou
   const Cumulated sums = cumulated(current, turning);
   const Index last = sums.product.size() - 1;
   const EffectTerm rate(witness(), channel.name, {{"derivative", 1.0}});
-  Suggestion best{.cause = "tilt", .added = rate};
+  Suggestion best{.cause = "tilt", .added = rate, .coupling = MotionCoupling::kTurning};
   Index tried = 0;
   for (Index from = 0; from < last; from = from == 0 ? kFirstOctave : from + 1) {
     for (Index to = std::max(from + 1, kFirstOctave); to <= last; ++to, ++tried) {

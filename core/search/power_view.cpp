@@ -55,6 +55,12 @@ double white_of(const Model& noise) {
   return 0.0;
 }
 
+// Variance of the mean of n numbers of a Markov process of variance 1, times n.
+double of_mean(double phi, double n) {
+  return (1.0 + phi) / (1.0 - phi) -
+         2.0 * phi * (1.0 - std::pow(phi, n)) / (n * (1.0 - phi) * (1.0 - phi));
+}
+
 BandedPower power_of(const Eigen::VectorXd& x) {
   const std::span<const double> all(x.data(), static_cast<std::size_t>(x.size()));
   return banded_power(Signal(all, Hertz{1.0}));
@@ -75,12 +81,13 @@ std::optional<PowerView> PowerView::of(const Innovations& innovations, Hertz rat
     const Eigen::ArrayXd power = stretch_means(y.array().square().matrix(), n).array();
     if (!(power > 0.0).all()) return std::nullopt;
     Eigen::VectorXd logarithm = power.log().matrix();
-    logarithm.array() -= logarithm.mean();
+    const double level = logarithm.mean();
+    logarithm.array() -= level;
     squares += logarithm.squaredNorm();
     count += static_cast<double>(n);
     Eigen::VectorXd cosines = cosine_transform(logarithm);
     out.replicates_.push_back(
-        {innovations.replicates[i], std::move(logarithm), std::move(cosines)});
+        {innovations.replicates[i], level, std::move(logarithm), std::move(cosines)});
   }
   if (!(squares > 0.0)) return std::nullopt;
   out.chance_ = out.fitted(white_power(kChance, true), nullptr);
@@ -180,19 +187,38 @@ PowerView::Spread PowerView::of_means() const {
   const Ar1& markov = markov_of(wander_.noise);
   const double phi = std::clamp(markov.phi, 0.0, 1.0 - 1e-9);
   const double variance = markov.sigma2 / (1.0 - phi * phi);
-  double all = 0.0;
-  for (const Replicate& one : replicates_) all += static_cast<double>(one.power.size());
-  const double n = all / static_cast<double>(replicates_.size());
-  // Variance of the mean of n numbers, times n.
-  const double wandering =
-      variance * ((1.0 + phi) / (1.0 - phi) -
-                  2.0 * phi * (1.0 - std::pow(phi, n)) / (n * (1.0 - phi) * (1.0 - phi)));
+  const double n = mean_length();
+  const double all = n * static_cast<double>(replicates_.size());
+  const double wandering = variance * of_mean(phi, n);
   const double white = white_of(wander_.noise);
   // A number of its own every two correlation times (Satterthwaite 1946).
   const double own = std::max(1.0, 0.5 * all * -std::log(std::max(1e-6, phi)));
   const double total = white + wandering;
   return {std::max(1.0, total / kChance),
           total * total / (white * white / all + wandering * wandering / own)};
+}
+
+double PowerView::mean_length() const {
+  double all = 0.0;
+  for (const Replicate& one : replicates_) all += static_cast<double>(one.power.size());
+  return all / static_cast<double>(replicates_.size());
+}
+
+bool PowerView::rules_out_wander() const {
+  const auto count = static_cast<double>(replicates_.size());
+  const double n = mean_length();
+  double mean = 0.0;
+  for (const Replicate& one : replicates_) mean += one.level / count;
+  double variance = 0.0;  // of the levels, beyond chance
+  for (const Replicate& one : replicates_) {
+    const double chance = kChance / static_cast<double>(one.power.size());
+    variance += (one.level - mean) * (one.level - mean) / (count - 1.0) - chance / count;
+  }
+  if (!(variance > 0.0)) return false;
+  const double phi = std::exp(-1.0 / n);
+  Model wandering = wandering_power(constant_.noise, variance * n / of_mean(phi, n), phi, true);
+  wandering.terms.back().given[0] = true;
+  return constant_.log_likelihood - fitted(wandering, nullptr).log_likelihood > kWanders;
 }
 
 Eigen::ArrayXd PowerView::course(std::size_t replicate, Index samples) const {

@@ -47,6 +47,10 @@ class PowerView {
   };
   Spread of_means() const;
 
+  /// Power that wanders as slowly as a replicate is long, and makes replicates differ as they do,
+  /// would show within them, and does not. For several replicates.
+  bool rules_out_wander() const;
+
   /// The course that wandering power took in a replicate, a number a sample (Wiener filter);
   /// `samples`: so many. By its number among the innovations.
   Eigen::ArrayXd course(std::size_t replicate, Eigen::Index samples) const;
@@ -56,7 +60,8 @@ class PowerView {
  private:
   struct Replicate {
     std::size_t number;       // in the subject
-    Eigen::VectorXd power;    // logarithms, less their mean, of quick_length()
+    double level;             // mean of the logarithms,
+    Eigen::VectorXd power;    // which are less it; of quick_length()
     Eigen::VectorXd cosines;  // their transform
   };
   // A fit to all replicates, with or without a course.
@@ -68,6 +73,7 @@ class PowerView {
   Fit fitted(const Model& start, const std::vector<Eigen::VectorXd>* course) const;
   // The best of some starts. `normal`: chance is that of normal noise.
   Fit wandering(const std::vector<Eigen::VectorXd>* course, bool normal) const;
+  double mean_length() const;  // of a replicate, stretches
   std::vector<Eigen::VectorXd> stretched(const VarianceCourse& course) const;
 
   double seconds_ = 0.0;  // of a stretch

@@ -21,11 +21,12 @@ struct NoiseChange {
 /// A term of a model: of its noise, or beside it.
 using AddedTerm = std::variant<EffectTerm, NoiseChange>;
 
-/// Does a suggestion take a witness just as it is?
-enum class PlainCoupling {
-  kNo,
-  kWhole,  ///< at all frequencies
-  kBand,   ///< at some
+/// How a suggestion takes a witness that may feel the same motion.
+enum class MotionCoupling {
+  kNone,
+  kWhole,    ///< just as it is, at all frequencies,
+  kBand,     ///< or at some
+  kTurning,  ///< its change: gravity turns in it
 };
 
 /// What may be missing, as a search found it: a term that could be added, at the place where it
@@ -46,7 +47,7 @@ struct Suggestion {
   /// Standard error of its frequency, Hz, or of the logarithm of its time constant; 0 where none.
   double shape_error = 0.0;
   bool backwards = false;  ///< a witness that explains more when it comes after its effect
-  PlainCoupling coupling = PlainCoupling::kNo;
+  MotionCoupling coupling = MotionCoupling::kNone;
 };
 
 /// Each search suggests at most a few terms, the best of a kind, and also where that gains nothing

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "core/diagnosis/missing_noise.h"
@@ -246,6 +247,45 @@ TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "common_vibration");
   EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
+}
+
+// The accelerometer sees gravity turn, beneath noise of its own: alone it shows less than the
+// gyroscope's spectrum does.
+TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
+  constexpr Hertz kRate{10.0};
+  constexpr std::size_t kSamples = 16'384;
+  constexpr std::uint32_t kReplicates = 4;
+  constexpr double kGravity = 9.80665;
+  const double turn = 2.0 * std::numbers::pi * 0.04 / kRate.value;
+  const double damping = std::exp(-0.2 * turn);
+  const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
+    return simulate(*parse_model(model, kRate), kSamples, seed, k);
+  };
+  std::vector<std::vector<double>> gyro;
+  std::vector<std::vector<double>> acceleration;
+  for (std::uint32_t k = 0; k < kReplicates; ++k) {
+    std::vector<double> angle = made("WN(sigma2=2.5e-5)", 31, k);
+    gyro.push_back(made("WN(sigma2=1) + RW(gamma2=1e-6)", 32, k));
+    acceleration.push_back(made("WN(sigma2=150)", 33, k));
+    for (std::size_t t = 2; t < kSamples; ++t) {
+      angle[t] += 2.0 * damping * std::cos(turn) * angle[t - 1] - damping * damping * angle[t - 2];
+      gyro[k][t] += (angle[t] - angle[t - 1]) * kRate.value;
+      acceleration[k][t] += kGravity * angle[t];
+    }
+  }
+  std::vector<Signal> replicates;
+  NamedChannel seen{"acc_x", {}};
+  for (std::uint32_t k = 0; k < kReplicates; ++k) {
+    replicates.emplace_back(std::span<const double>(gyro[k]), kRate, Quantity::kAngularRate);
+    seen.replicates.emplace_back(std::span<const double>(acceleration[k]), kRate,
+                                 Quantity::kAcceleration);
+  }
+  const Diagnosis diagnosis =
+      diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {seen}))));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  EXPECT_EQ(best.cause, "tilt");
+  EXPECT_EQ(best.shared_with, "acc_x");
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {

@@ -70,6 +70,41 @@ TEST(PowerView, AnUnrelatedCourseExplainsNothingBesideWanderingPower) {
   EXPECT_LE(beside, 3);
 }
 
+// A course as slow as a replicate is long, or as levels that stay.
+VarianceCourse replicates_apart(std::uint64_t seed, bool stay) {
+  const double phi = std::exp(-1.0 / static_cast<double>(kPowerSamples));
+  const Model markov{{Term(Process(Ar1{1.0 - phi * phi, phi}))}};
+  VarianceCourse out;
+  for (std::uint32_t k = 0; k < kPowerReplicates; ++k) {
+    const std::vector<double> x = simulate(markov, kPowerSamples, seed, k);
+    const auto n = static_cast<Eigen::Index>(x.size());
+    Eigen::VectorXd course = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
+    if (stay) course.setConstant(course.mean());
+    out.samples.emplace_back(std::move(course));
+  }
+  return out;
+}
+
+// Under a wander of this very law, a likelihood ratio of e³ against it comes once in 20 at most
+// (Markov's inequality): in 40 sets more than 6 times once in 200.
+TEST(PowerView, LevelsThatStayRuleOutAWander) {
+  constexpr std::uint64_t kSeed = 8400;
+  int stay = 0;
+  int wander = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    for (const bool still : {true, false}) {
+      const auto view = PowerView::of(
+          noise_of(replicates_apart(kSeed + i, still), 0.5, kSeed + 1000 + i), kPowerRate);
+      ASSERT_TRUE(view);
+      (still ? stay : wander) += view->rules_out_wander() ? 1 : 0;
+    }
+  }
+  RecordProperty("stay", stay);
+  RecordProperty("wander", wander);
+  EXPECT_GT(stay, 30);
+  EXPECT_LE(wander, 6);
+}
+
 TEST(PowerView, TheCourseItselfExplainsAll) {
   const VarianceCourse course = courses(8300);
   const auto view = PowerView::of(noise_of(course, 0.6, 8301), kPowerRate);

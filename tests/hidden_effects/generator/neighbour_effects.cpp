@@ -71,7 +71,7 @@ Series power_of(const std::vector<Series>& all) {
 }
 
 // The bench rocks slowly by an angle θ: the gyro feels dθ/dt, the accelerometer g·θ. δ is that of
-// an observer who knows θ; what the accelerometer's noise leaves of that is gained.
+// an observer of both.
 Injection hide_tilt(Scene& scene, double delta) {
   const double frequency = uniform(scene.random, 0.02, 0.05);  // Hz
   const Ringing rocking{1.0, std::exp(-0.2 * 2.0 * std::numbers::pi * frequency / scene.rate_hz),
@@ -90,22 +90,34 @@ Injection hide_tilt(Scene& scene, double delta) {
   std::vector<Series> before;
   for (const Recording& recording : scene.recordings)
     before.push_back(turning(recording["acc_x"], scene.rate_hz));
-  const double factor = add_shapes(scene, rates, delta);
-  std::vector<Series> measured;
-  for (std::size_t r = 0; r < scene.replicates(); ++r) {
-    add_scaled(scene.recordings[r]["acc_x"], angles[r], factor * kGravity);
-    measured.push_back(turning(scene.recordings[r]["acc_x"], scene.rate_hz));
-  }
   // The rate's own spectrum: that of the angle times 4 sin²(πf) f_s².
   Series common = spectrum(rocking, scene.samples());
   for (std::size_t k = 0; k < common.size(); ++k) {
     const double half =
         0.5 * std::numbers::pi * static_cast<double>(k + 1) / static_cast<double>(scene.samples());
-    const double turn = 2.0 * std::sin(half) * scene.rate_hz * factor;
+    const double turn = 2.0 * std::sin(half) * scene.rate_hz;
     common[k] *= turn * turn;
   }
+  const Series neighbour = power_of(before);
+  const double replicates = static_cast<double>(scene.replicates());
+  const auto times = [&](double factor) {
+    Series out = common;
+    for (double& power : out) power *= factor * factor;
+    return out;
+  };
+  const auto seen = [&](double factor) {
+    return strength(shared_divergence(scene.spectrum, neighbour, times(factor)), replicates);
+  };
+  const double unit = scene.floor() / scene.rate_hz;  // rad
+  const double factor = solve_strength(delta, 1e-6 * unit, 1e6 * unit, seen);
+  std::vector<Series> measured;
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    add_scaled(scene.recordings[r][kSubject], rates[r], factor);
+    add_scaled(scene.recordings[r]["acc_x"], angles[r], factor * kGravity);
+    measured.push_back(turning(scene.recordings[r]["acc_x"], scene.rate_hz));
+  }
   Injection out = of_mean(delta, {});
-  out.gained = gained_beside(scene, measured, power_of(before), common);
+  out.gained = gained_beside(scene, measured, neighbour, times(factor));
   return out;
 }
 
