@@ -89,6 +89,15 @@ study::CalibrateOptions calibrate_options(const ExportArguments& arguments) {
   return out;
 }
 
+// Why no channel has a fit.
+std::string why_none(const v1::Calibration& calibration) {
+  for (const v1::ChannelCalibration& one : calibration.channels()) {
+    if (!one.troubles().empty())
+      return fmt::format("{}: {}", one.channel(), one.troubles(0).message());
+  }
+  return "no channel has a fit";
+}
+
 Result<Fits> fits_of_files(const ExportArguments& arguments) {
   const auto& files = arguments.input.files;
   const Interrupt interrupt;
@@ -113,9 +122,11 @@ Result<Fits> fits_of_files(const ExportArguments& arguments) {
                                   line.progress(interrupt.token()));
   }();
   if (!done) return give_up(done.error());
+  auto fits = study::fits_of(*done);
+  if (fits.empty()) return give_up(Error{why_none(*done)});
   auto hash = hashing.get();
   if (!hash) return tl::unexpected(hash.error());
-  return Fits{study::fits_of(*done), {names_of(files), *hash}};
+  return Fits{std::move(fits), {names_of(files), *hash}};
 }
 
 Result<Fits> fits_of_recording(const ExportArguments& arguments) {
@@ -138,6 +149,18 @@ Result<Fits> fits_of_recording(const ExportArguments& arguments) {
   return Fits{study::fits_of(*done), {folder.string(), done->fingerprint()}};
 }
 
+// What says how a recording is read has no effect on a result.
+Result<void> check_for_results(const ExportArguments& arguments) {
+  const recording::ImportOptions& how = arguments.input.import;
+  const bool reads = how.rate || how.time_unit || how.from || how.until || !how.units.empty() ||
+                     !how.exclude.empty() || how.use_disturbed || how.strict;
+  if (!reads && arguments.models.empty()) return {};
+  return fail(fmt::format(
+      "{} is a result of imunoise: --model, --rate, --unit and what else says how a recording is "
+      "read are for recordings",
+      names_of(arguments.input.files)));
+}
+
 // Several files: gyroscope and accelerometer were fitted one after the other.
 Result<Fits> fits_of_json(const std::vector<std::filesystem::path>& paths) {
   Fits out;
@@ -158,7 +181,11 @@ Result<Fits> read_fits(const ExportArguments& arguments) {
   const auto& files = arguments.input.files;
   if (is_recording(arguments.input)) return fits_of_recording(arguments);
   const auto json = std::count_if(files.begin(), files.end(), is_json);
-  if (json == static_cast<std::ptrdiff_t>(files.size())) return fits_of_json(files);
+  if (json == static_cast<std::ptrdiff_t>(files.size())) {
+    if (auto checked = check_for_results(arguments); !checked)
+      return tl::unexpected(checked.error());
+    return fits_of_json(files);
+  }
   if (json > 0)
     return fail(
         "some of these files are results of imunoise and some are recordings; export one "

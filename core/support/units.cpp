@@ -64,12 +64,12 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 std::string normalise(std::string_view text) {
   std::string out(text);
   for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
-           {" ", ""},           {"°C", "degC"},    {"°", "deg"},       {"µ", "u"},
-           {"μ", "u"},          {"²", "^2"},       {"**", "^"},        {"s-2", "/s^2"},
-           {"s^-2", "/s^2"},    {"//", "/"},       {"degrees", "deg"}, {"/sec", "/s"},
-           {"/hour", "/h"},     {"/hr", "/h"},     {"·", ""},          {"m/s/s", "m/s^2"},
-           {"m/s2", "m/s^2"},   {"s-1", "/s"},     {"s^-1", "/s"},     {"celsius", "degC"},
-           {"Celsius", "degC"}, {"degree_", "deg"}}) {
+           {" ", ""},           {".s", "s"},         {"°C", "degC"},    {"°", "deg"},
+           {"µ", "u"},          {"μ", "u"},          {"²", "^2"},       {"**", "^"},
+           {"s-2", "/s^2"},     {"s^-2", "/s^2"},    {"//", "/"},       {"degrees", "deg"},
+           {"/sec", "/s"},      {"/hour", "/h"},     {"/hr", "/h"},     {"·", ""},
+           {"m/s/s", "m/s^2"},  {"m/s2", "m/s^2"},   {"s-1", "/s"},     {"s^-1", "/s"},
+           {"celsius", "degC"}, {"Celsius", "degC"}, {"degree_", "deg"}}) {
     replace_all(out, from, to);
   }
   return out;

@@ -71,6 +71,7 @@ Result<std::vector<SourceFit>> chosen_fits(const std::vector<SourceFit>& fits,
     return fail(fmt::format("several devices; choose one with --device ({})", list()));
   if (!device.empty() && !devices.contains(device))
     return fail(fmt::format("no device '{}' (known: {})", device, list()));
+  if (fits.empty()) return fail("no channel has a fit");
   std::vector<SourceFit> out;
   std::string known;
   for (const SourceFit& one : fits) {

@@ -43,6 +43,10 @@ TEST(Names, PeopleCallThem) {
   EXPECT_TRUE(matches("linear_acceleration.*", "ay"));
   EXPECT_FALSE(matches("gyr_*", "ay"));
   EXPECT_FALSE(matches("imu1_gyr_*", "imu2_gyro_x"));
+  EXPECT_TRUE(matches("gyr_x", "gyro_x"));
+  EXPECT_TRUE(matches("wx", "imu2_gyro_x"));
+  EXPECT_FALSE(matches("gyr_x", "gyro_y"));
+  EXPECT_FALSE(matches("imu1_gyr_x", "imu2_gyro_x"));
   EXPECT_EQ(role_of("imu2/gyro_x").sensor, "imu2");
   EXPECT_EQ(role_of("gyro2_x").sensor, "2");
   EXPECT_EQ(common_name(role_of("gyro2_x")), "gyro_x");
@@ -59,6 +63,24 @@ Pace pace_in(const std::vector<double>& times) {
   const TimeColumn column{"t", "s", times};
   const auto clock = Clock::read("f", column, std::nullopt);
   return pace_of(clock.value(), [](std::size_t) { return false; });
+}
+
+// Rounded stamps repeat a pattern (8, 8, 9 ms at 120 Hz): no part of them may stand for all.
+TEST(Pace, CoarseStampsShowTheRate) {
+  for (const double rate : {30.0, 48.0, 60.0, 75.0, 119.0, 120.0, 208.0, 240.0, 480.0, 952.0}) {
+    for (const double grain : {1e-2, 1e-3, 1e-4, 1.0 / 128.0}) {
+      if (grain * rate > 1.01) continue;
+      for (const std::size_t count : {5000U, 40'000U, 100'000U}) {
+        std::vector<double> times;
+        for (std::size_t i = 0; i < count; ++i)
+          times.push_back(grain * std::round(static_cast<double>(i) / rate / grain));
+        const Pace found = pace_in(times);
+        EXPECT_NEAR(found.period * rate, 1.0, 2.0 * grain * rate / static_cast<double>(count))
+            << rate << " Hz in " << grain << " s, " << count;
+        EXPECT_TRUE(found.leaps.empty()) << rate << " Hz in " << grain << " s, " << count;
+      }
+    }
+  }
 }
 
 TEST(Pace, OnlyLastingLatenessIsAGap) {

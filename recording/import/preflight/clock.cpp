@@ -21,10 +21,13 @@ constexpr std::array<TimeUnit, 4> kTimeUnits = {
 
 constexpr double kEarliest = 9e8;     // s since 1970: 1998
 constexpr double kLatest = 4e9;       // 2096
+constexpr double kDay = 86400.0;      // s
 constexpr double kUsualRate = 200.0;  // Hz, of inertial sensors
+constexpr double kHighestRate = 1e6;  // Hz: no such sensor is as fast
 
 std::string_view name_of(double seconds) {
   if (seconds == 1e-4) return "tenths of milliseconds";
+  if (seconds == kDay) return "days";
   const auto* const found =
       std::find_if(kTimeUnits.begin(), kTimeUnits.end(),
                    [&](const TimeUnit& one) { return one.seconds == seconds; });
@@ -38,6 +41,7 @@ double median_of(std::vector<double> values) {
 }
 
 constexpr std::size_t kMostSteps = 16384;  // that are looked at
+constexpr double kLonger = 1.75;  // of a step: rounded stamps of 2 and 3 grains are no loss beside
 
 // The step of samples between which none is lost, where most steps show it.
 struct UsualStep {
@@ -46,18 +50,19 @@ struct UsualStep {
   double error = 0.0;  // of the mean
 };
 
-// The power of ten (s) that all stamps that are looked at are multiples of; 1e-9 at least.
-double grain_of(const Clock& clock, std::size_t stride) {
+bool are_multiples(const Clock& clock, std::size_t stride, double grain) {
+  for (std::size_t i = 0; i < clock.size(); i += stride) {
+    const double at = clock.at(i) / grain;
+    if (!(std::abs(at - std::round(at)) < 1e-3 + 1e-12 * std::abs(at))) return false;
+  }
+  return true;
+}
+
+// The power of a base (s) that all stamps that are looked at are multiples of; 1e-9 at least.
+double grain_of(const Clock& clock, std::size_t stride, double base) {
   constexpr double kFinest = 1e-9;
   double grain = 1.0;
-  for (; grain > kFinest; grain *= 0.1) {
-    bool all = true;
-    for (std::size_t i = 0; i < clock.size() && all; i += stride) {
-      const double at = clock.at(i) / grain;
-      all = std::abs(at - std::round(at)) < 1e-3 + 1e-12 * std::abs(at);
-    }
-    if (all) break;
-  }
+  while (grain > kFinest && !are_multiples(clock, stride, grain)) grain /= base;
   return grain;
 }
 
@@ -71,7 +76,7 @@ bool come_at_random(const Clock& clock, double step) {
   double squares = 0.0;
   std::size_t before = 0;
   for (std::size_t i = 1; i < std::min(clock.size(), kMostSteps); ++i) {
-    if (!(clock.step(i) > 1.5 * step)) continue;
+    if (!(clock.step(i) > kLonger * step)) continue;
     const auto distance = static_cast<double>(i - before);
     before = i;
     count += 1.0;
@@ -92,28 +97,38 @@ std::optional<UsualStep> usual_step(const Clock& clock) {
   constexpr double kNear = 0.35;      // of a step
   constexpr double kMost = 4.0;       // multiples
   constexpr double kFineGrain = 4.0;  // grains of the stamps in a step, at least,
-  constexpr double kFastest = 5e-3;   // s, unless the step is longer
+  constexpr double kFastest = 5e-3;   // s, unless the step is longer, and the rate not customary:
+  constexpr double kCustomary = 5.0;  // Hz, or a multiple
+  constexpr double kWhole = 5e-4;     // of it
   const std::size_t stride = std::max<std::size_t>(1, (clock.size() - 1) / kMostSteps);
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < clock.size(); i += stride) steps.push_back(clock.step(i));
-  const double median = median_of(steps);
+  std::vector<double> some;
+  for (std::size_t i = 1; i < clock.size(); i += stride) some.push_back(clock.step(i));
+  const double median = median_of(std::move(some));
   if (!(median > 0.0)) return std::nullopt;
-  const bool coarse = median < kFastest && median < kFineGrain * grain_of(clock, stride);
-  if (coarse && !come_at_random(clock, median)) return std::nullopt;
+  const double decimal = grain_of(clock, stride, 10.0);
+  const double binary = grain_of(clock, stride, 2.0);  // of short floating-point numbers
+  const bool coarse = median < kFineGrain * std::max(decimal, binary);
+  const double rate = 1.0 / clock.period();
+  const double customary = kCustomary * std::round(rate / kCustomary);
+  const bool whole = std::abs(rate - customary) < kWhole * rate;
+  const bool own = median < kFastest || whole || binary > decimal;
+  if (coarse && own && !come_at_random(clock, median)) return std::nullopt;
   double sum = 0.0;
   double squares = 0.0;
   double count = 0.0;
   double multiples = 0.0;
-  for (const double step : steps) {
+  // All of them: rounded stamps repeat a pattern, of which a stride may see one step alone.
+  for (std::size_t i = 1; i < clock.size(); ++i) {
+    const double step = clock.step(i);
     const double off = step - median * std::clamp(std::round(step / median), 1.0, kMost);
     if (std::abs(off) > kNear * median) continue;
     multiples += 1.0;
-    if (step > 1.5 * median) continue;
+    if (step > kLonger * median) continue;
     sum += off;
     squares += off * off;
     count += 1.0;
   }
-  const auto all = static_cast<double>(steps.size());
+  const auto all = static_cast<double>(clock.size() - 1);
   if (multiples < kMultiples * all || count < kSingle * all || count < 2.0) return std::nullopt;
   const double mean = sum / count;
   const double scatter = std::sqrt(std::max(0.0, squares / count - mean * mean));
@@ -153,6 +168,9 @@ JudgedUnit judge_unit(double first, double step) {
     if (since > kEarliest && since < kLatest && rate > 1e-3 && rate < 1e6)
       return {unit.seconds, " since 1970 (by their values)"};
   }
+  // Days since 1900 (spreadsheets) or since the year 0 (MATLAB), of this century.
+  const bool days = (first > 3e4 && first < 8e4) || (first > 7.2e5 && first < 7.8e5);
+  if (days && step * kHighestRate < 1.0) return {kDay, " (by their values)"};
   if (step <= 1.0) return {1.0, " (by their steps)"};
   const TimeUnit* best = &kTimeUnits[1];
   const auto distance = [&](const TimeUnit& unit) {
@@ -212,6 +230,11 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
   out.unit_ = judged.seconds;
   out.rounding_ *= judged.seconds;
   out.period_ = step * judged.seconds;
+  if (!(out.period_ * kHighestRate > 1.0))
+    return fail(
+        fmt::format("{}: its steps are {:.3g} s, shorter than those of any inertial sensor; give "
+                    "--time-unit, or --rate HZ to ignore them",
+                    place, out.period_));
   out.follow_single_steps();
   out.said_ =
       fmt::format("column {}, {}{}", column.name,

@@ -18,9 +18,10 @@ namespace imunoise::recording {
 class Clock {
  public:
   /// `unit` (s per number) is the user's; unset: the column's, its name's, or what values and steps
-  /// show: numbers that are dates since 1970, else the unit whose rate is the nearest to 200 Hz,
-  /// and seconds for steps up to 1. `place` is for messages. Error: an unknown unit, fewer than two
-  /// stamps, one that is missing, stamps that never rise.
+  /// show: numbers that are dates since 1970, or days of a spreadsheet or of MATLAB, else the unit
+  /// whose rate is the nearest to 200 Hz, and seconds for steps up to 1. `place` is for messages.
+  /// Error: an unknown unit, fewer than two stamps, one that is missing, stamps that never rise, or
+  /// a rate of more than 1 MHz.
   static Result<Clock> read(const std::string& place, const TimeColumn& column,
                             std::optional<double> unit);
 

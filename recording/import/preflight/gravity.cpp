@@ -125,7 +125,7 @@ std::vector<std::string> judge_acceleration(const std::vector<Column>& columns,
   std::string silent;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const Role role = role_of(columns[c].name);
-    if (role.quantity == Quantity::kAcceleration && role.axis != ' ' && !role.increment)
+    if (role.quantity == Quantity::kAcceleration && role.axis != ' ')
       axes[role.sensor].push_back(c);
     if (c < wanted && role.quantity == Quantity::kAngularRate &&
         units[c].quantity == Quantity::kUnknown)
@@ -148,11 +148,11 @@ std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz
   std::vector<std::size_t> accelerations;  // that may be velocities
   std::vector<std::size_t> rates;          // that may be angles: what the accelerations are
   bool stated = true;                      // the accelerations' unit
-  double squares = 0.0;
-  const auto make = [&](Column& column, const char* unit) {
+  double squares = 0.0;                    // SI where the unit is stated
+  const auto make = [&](Column& column, std::string unit) {
     column.scale *= rate.value;
     column.offset *= rate.value;
-    column.unit = unit;
+    column.unit = std::move(unit);
     made += (made.empty() ? "" : ", ") + column.name;
   };
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -161,34 +161,36 @@ std::vector<std::string> rates_of_increments(std::vector<Column>& columns, Hertz
     const std::string& unit = column.unit;
     const bool none = unit.empty() || unit == "-";
     const auto known = parse_unit(unit);
-    const auto is = [&](std::string_view symbol) { return known && known->symbol == symbol; };
-    if (role.increment && role.quantity == Quantity::kAngularRate) {
-      if (none || unit == "rad") make(column, "rad/s");
-      if (unit == "deg") make(column, "deg/s");
-    } else if (role.increment && role.quantity == Quantity::kAcceleration) {
-      if (none || unit == "m/s") make(column, "m/s^2");
-    } else if (role.quantity == Quantity::kAcceleration && role.axis != ' ' &&
-               ((none && role.unit.empty()) || is("m/s^2"))) {
-      accelerations.push_back(c);
-      stated = stated && !none;
-      squares += std::pow(mean_of(column), 2);
-    } else if (role.quantity == Quantity::kAngularRate && role.axis != ' ' &&
-               ((none && role.unit.empty()) || is("rad/s") || is("deg/s"))) {
-      rates.push_back(c);
+    const bool silent = none && role.unit.empty();
+    const bool of_its_kind = known && known->quantity == role.quantity;
+    if (role.quantity == Quantity::kAngularRate) {
+      if (role.increment && (none || unit == "rad" || unit == "deg")) {
+        make(column, none ? "" : unit + "/s");
+      } else if (role.axis != ' ' && (silent || of_its_kind)) {
+        rates.push_back(c);
+      }
+    } else if (role.quantity == Quantity::kAcceleration) {
+      if (role.increment && (none || unit == "m/s")) {
+        make(column, none ? "" : "m/s^2");
+      } else if (role.axis != ' ' && (silent || of_its_kind)) {
+        accelerations.push_back(c);
+        stated = stated && !none;
+        squares += std::pow(mean_of(column) * (none ? 1.0 : known->to_si), 2);
+      }
     }
   }
   // The norm of accelerations in g or m/s^2 tells them from increments.
   const double norm = std::sqrt(squares);
   if (accelerations.size() == 3 && near(norm * rate.value, kGravity) && !near(norm, 1.0) &&
       !near(norm, kGravity) && !near(norm, 1000.0)) {
-    for (const std::size_t c : accelerations) make(columns[c], "m/s^2");
+    for (const std::size_t c : accelerations) make(columns[c], stated ? columns[c].unit : "m/s^2");
     for (const std::size_t c : rates) {
       // Where a header states units for increments, it may do so for all, if they are then at rest.
-      const bool silent = columns[c].unit.empty() || columns[c].unit == "-";
-      const char* const unit = columns[c].unit == "deg/s" ? "deg/s" : "rad/s";
-      const double scatter =
-          moments_of(columns[c]).deviation * rate.value * parse_unit(unit)->to_si;
-      if (silent || (stated && scatter < kLargestScatter)) make(columns[c], unit);
+      const auto unit = parse_unit(columns[c].unit);
+      const bool silent = !unit || unit->quantity == Quantity::kUnknown;
+      const bool still =
+          !silent && moments_of(columns[c]).deviation * rate.value * unit->to_si < kLargestScatter;
+      if (silent || (stated && still)) make(columns[c], silent ? "" : columns[c].unit);
     }
   }
   if (made.empty()) return {};

@@ -12,52 +12,47 @@ namespace {
 constexpr double kLearning = 31.0;    // s before the watch begins
 constexpr double kBackwards = 300.0;  // s from which the beginning is judged
 
-struct Watched {
-  std::vector<std::size_t> columns;
-  std::vector<double> quanta;
-};
+}  // namespace
 
-Watched watched_in(const std::vector<Column>& columns, const std::vector<Unit>& units) {
-  Watched out;
+std::vector<std::size_t> channels_of_motion(const std::vector<Column>& columns,
+                                            const std::vector<Unit>& units) {
+  std::vector<std::size_t> out;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const bool known = units[c].quantity != Quantity::kUnknown;
-    const Quantity quantity = known ? units[c].quantity : role_of(columns[c].name).quantity;
-    if (!of_inertia(quantity)) continue;
-    out.columns.push_back(c);
-    const bool counts = !std::holds_alternative<std::vector<double>>(columns[c].samples);
-    out.quanta.push_back(counts ? 1.0 : 0.0);
+    if (of_inertia(known ? units[c].quantity : role_of(columns[c].name).quantity)) out.push_back(c);
   }
   return out;
 }
 
-}  // namespace
-
 std::vector<Motion> motion_in(const std::vector<Column>& columns, const std::vector<Unit>& units,
                               Hertz rate, const std::function<bool(std::size_t)>& broken) {
-  const Watched watched = watched_in(columns, units);
+  const std::vector<std::size_t> watched = channels_of_motion(columns, units);
   std::vector<Motion> out;
-  if (watched.columns.empty()) return out;
+  if (watched.empty()) return out;
+  std::vector<double> quanta;
+  for (const std::size_t c : watched)
+    quanta.push_back(std::holds_alternative<std::vector<double>>(columns[c].samples) ? 0.0 : 1.0);
   const std::size_t rows = size(columns.front().samples);
   const auto take = [&](Stillness& watch, std::size_t row) {
-    for (std::size_t c = 0; c < watched.columns.size(); ++c) {
+    for (std::size_t c = 0; c < watched.size(); ++c) {
       std::visit([&](const auto& values) { watch.take(c, static_cast<double>(values[row])); },
-                 columns[watched.columns[c]].samples);
+                 columns[watched[c]].samples);
     }
     watch.end_row(static_cast<std::int64_t>(row));
   };
   const auto add = [&](const Disturbance& one) {
     const auto [begin, end] = std::minmax(one.begin, one.end);
     out.push_back({static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1,
-                   columns[watched.columns[one.channel]].name, one.size, one.channels > 1});
+                   columns[watched[one.channel]].name, one.size, one.channels > 1});
   };
   const auto whole = [&](std::size_t row) {
-    return std::none_of(watched.columns.begin(), watched.columns.end(), [&](std::size_t c) {
+    return std::none_of(watched.begin(), watched.end(), [&](std::size_t c) {
       const auto* const values = std::get_if<std::vector<double>>(&columns[c].samples);
       return values != nullptr && !std::isfinite((*values)[row]);
     });
   };
   const double learning = kLearning * rate.value;
-  Stillness backwards(rate, watched.quanta);
+  Stillness backwards(rate, quanta);
   const auto far =
       static_cast<std::size_t>(std::min(static_cast<double>(rows), kBackwards * rate.value));
   for (std::size_t row = far; row-- > 0;) {
@@ -69,7 +64,7 @@ std::vector<Motion> motion_in(const std::vector<Column>& columns, const std::vec
   }
   std::reverse(out.begin(), out.end());
   const std::size_t early = out.empty() ? 0 : out.back().end;
-  Stillness forwards(rate, watched.quanta);
+  Stillness forwards(rate, quanta);
   for (std::size_t row = 0; row < rows; ++row) {
     if (broken(row)) forwards.lost();
     if (whole(row)) take(forwards, row);

@@ -21,6 +21,10 @@ struct Motion {
   bool several = false;  ///< two channels or more at the same time: the sensor, not one channel
 };
 
+/// The columns of angular rates and accelerations, by their units, else by their names.
+std::vector<std::size_t> channels_of_motion(const std::vector<Column>& columns,
+                                            const std::vector<Unit>& units);
+
 /// In order of time. `broken(row)`: a gap before this row, or a value that is missing in it. Blocks
 /// of a second; the first half minute is judged backwards, from what follows it.
 std::vector<Motion> motion_in(const std::vector<Column>& columns, const std::vector<Unit>& units,

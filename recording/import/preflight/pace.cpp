@@ -110,6 +110,20 @@ void add_leap(const Candidate& one, std::vector<Candidate>& leaps) {
 
 }  // namespace
 
+std::vector<std::size_t> logged_twice(const Clock& clock,
+                                      const std::function<bool(std::size_t)>& same) {
+  constexpr double kNearlyAll = 0.9;
+  std::vector<std::size_t> out;
+  std::size_t same_time = 0;
+  for (std::size_t i = 1; i < clock.size(); ++i) {
+    if (clock.step(i) != 0.0) continue;
+    ++same_time;
+    if (same(i)) out.push_back(i);
+  }
+  if (static_cast<double>(out.size()) < kNearlyAll * static_cast<double>(same_time)) return {};
+  return out;
+}
+
 Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {
   Pace out;
   out.period = clock.period();

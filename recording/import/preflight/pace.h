@@ -29,7 +29,12 @@ struct Pace {
   std::size_t backwards = 0;       ///< stamps before the one before, where the pace goes on
 };
 
-/// `same(i)`: row i has the values of row i - 1.
+/// Rows that were logged twice: nearly all of those that have the time of the row before have its
+/// values, too. None where stamps are coarse, so that few of them do. `same(i)`: row i has the
+/// values of row i - 1.
+std::vector<std::size_t> logged_twice(const Clock& clock,
+                                      const std::function<bool(std::size_t)>& same);
+
 Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same);
 
 }  // namespace imunoise::recording

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "recording/import/preflight/cuts.h"
+#include "recording/import/preflight/dropped_rows.h"
+#include "recording/import/preflight/frozen.h"
 #include "recording/import/preflight/gravity.h"
 #include "recording/import/preflight/holes.h"
 #include "recording/import/preflight/motion.h"
@@ -29,15 +31,6 @@ double shortest(double value, double relative) {
     if (std::abs(candidate / value - 1.0) <= relative) return candidate;
   }
   return value;
-}
-
-template <class Value>
-void keep(std::vector<Value>& values, const std::vector<bool>& dropped) {
-  std::size_t to = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!dropped[i]) values[to++] = values[i];
-  }
-  values.resize(to);
 }
 
 class Judge {
@@ -70,6 +63,7 @@ class Judge {
       report_.recognised.push_back(std::move(said));
     find_missing();
     leave_out_times();
+    find_frozen();
     find_motion();
     const auto cut = cut_stretches();
     if (!cut) return tl::make_unexpected(cut.error());
@@ -108,15 +102,7 @@ class Judge {
                     samples, where, kMinimumSamples));
   }
 
-  // The row as the file counts it: rows before it may have been dropped.
-  std::string row(std::size_t i) const {
-    std::size_t before = 0;
-    for (const std::size_t one : dropped_) {
-      if (one - before > i) break;
-      ++before;
-    }
-    return table_.row(i + before);
-  }
+  std::string row(std::size_t i) const { return table_.row(dropped_.counted(i)); }
 
   std::span<const Column> wanted_columns() const { return {table_.columns.data(), wanted_}; }
 
@@ -129,10 +115,10 @@ class Judge {
     std::vector<bool> dropped(rows_, false);
     for (const std::size_t one : rows) dropped[one] = true;
     for (Column& column : table_.columns)
-      std::visit([&](auto& values) { keep(values, dropped); }, column.samples);
-    std::visit([&](auto& values) { keep(values, dropped); }, table_.time->stamps);
+      std::visit([&](auto& values) { keep_others(values, dropped); }, column.samples);
+    std::visit([&](auto& values) { keep_others(values, dropped); }, table_.time->stamps);
     rows_ -= rows.size();
-    dropped_ = rows;
+    dropped_.add(rows);
   }
 
   Result<void> check_readable() {
@@ -203,24 +189,30 @@ class Judge {
     return {};
   }
 
-  Pace pace() const {
-    return pace_of(*clock_, [&](std::size_t i) {
-      return std::all_of(table_.columns.begin(), table_.columns.end(), [&](const Column& one) {
-        return std::visit([&](const auto& v) { return v[i] == v[i - 1]; }, one.samples);
-      });
+  bool repeats(std::size_t i) const {
+    return std::all_of(table_.columns.begin(), table_.columns.end(), [&](const Column& one) {
+      return std::visit([&](const auto& v) { return v[i] == v[i - 1]; }, one.samples);
     });
   }
 
+  Result<void> leave_out_repeated(const std::vector<std::size_t>& rows) {
+    if (rows.empty()) return {};
+    find(Severity::kLeftOut,
+         fmt::format("{} rows repeat the row before, time included: left out; the first is {}",
+                     rows.size(), row(rows.front())));
+    drop(rows);
+    if (rows_ < kMinimumSamples) return too_few(rows_, "");
+    return read_clock();
+  }
+
   Result<void> follow_time() {
+    const auto same = [&](std::size_t i) { return repeats(i); };
     if (auto read = read_clock(); !read) return read;
-    Pace pace = this->pace();
+    if (auto left = leave_out_repeated(logged_twice(*clock_, same)); !left) return left;
+    Pace pace = pace_of(*clock_, same);
     if (!pace.twice.empty()) {
-      find(Severity::kLeftOut,
-           fmt::format("{} rows repeat the row before, time included: left out; the first is {}",
-                       pace.twice.size(), row(pace.twice.front())));
-      drop(pace.twice);
-      if (auto read = read_clock(); !read) return read;
-      pace = this->pace();
+      if (auto left = leave_out_repeated(pace.twice); !left) return left;
+      pace = pace_of(*clock_, same);
     }
     const double relative = (pace.scatter + 4.0 * clock_->rounding()) / pace.span;
     out_.rate = {shortest(1.0 / pace.period, std::max(1e-12, relative))};
@@ -302,6 +294,19 @@ class Judge {
     for (const TimeSpan& one : options_.exclude) cuts_.add(row_at(one.begin), row_at(one.end));
   }
 
+  void find_frozen() {
+    std::size_t told = 0;
+    for (const Cut& one : frozen_in(table_.columns, out_.units)) {
+      cuts_.add(one.begin, one.end);
+      if (told++ < kTold)
+        find(Severity::kLeftOut,
+             fmt::format("all axes stand still from {:.6g} to {:.6g} s, where each sample repeats "
+                         "the one before: left out",
+                         time_of(one.begin), time_of(one.end - 1)));
+    }
+    if (told > kTold) find(Severity::kLeftOut, fmt::format("{} more of these", told - kTold));
+  }
+
   // What moves one channel alone may be its own noise: it is told, and used.
   void find_motion() {
     const std::vector<Cut> broken = cuts_.joined();
@@ -368,7 +373,7 @@ class Judge {
   std::size_t wanted_;  // columns; those behind them are to judge by
   const ImportOptions& options_;
   std::size_t rows_ = 0;
-  std::vector<std::size_t> dropped_;
+  DroppedRows dropped_;
   std::optional<Clock> clock_;
   Cuts cuts_;
   Preflight report_;

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "recording/import/preflight/clock.h"
+#include "recording/import/table/names.h"
 #include "recording/import/table/streams.h"
 
 namespace imunoise::recording {
@@ -36,6 +37,26 @@ Missing missing_in(const Column& column) {
   return out;
 }
 
+// Of each column what its sensor misses: the axis that misses least of those of a sensor. Another
+// axis that misses more is broken, no sensor of its own.
+std::vector<Missing> missing_of_sensors(const std::vector<Column>& columns) {
+  std::map<std::pair<Quantity, std::string>, Missing> least;
+  std::vector<Missing> out;
+  for (const Column& column : columns) {
+    out.push_back(missing_in(column));
+    const Role role = role_of(column.name);
+    if (!of_inertia(role.quantity) || role.axis == ' ') continue;
+    const auto [at, is_new] = least.emplace(std::pair{role.quantity, role.sensor}, out.back());
+    if (!is_new && out.back().count < at->second.count) at->second = out.back();
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const Role role = role_of(columns[c].name);
+    const auto sensor = least.find(std::pair{role.quantity, role.sensor});
+    if (role.axis != ' ' && sensor != least.end()) out[c] = sensor->second;
+  }
+  return out;
+}
+
 bool has_value(const Column& column, std::size_t row) {
   const auto* const values = std::get_if<std::vector<double>>(&column.samples);
   return values == nullptr || std::isfinite((*values)[row]);
@@ -57,7 +78,9 @@ TimedStream stream_of(const std::vector<Column*>& columns, const Clock& clock) {
   TimedStream out;
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < clock.size(); ++i) {
-    if (has_value(*columns.front(), i)) rows.push_back(i);
+    const bool any = std::any_of(columns.begin(), columns.end(),
+                                 [&](const Column* one) { return has_value(*one, i); });
+    if (any) rows.push_back(i);
   }
   for (const std::size_t row : rows) {
     const double time = std::clamp(clock.at(row), -kFarthest, kFarthest);
@@ -120,10 +143,10 @@ Result<Table> take_apart(const std::string& file, Table table, const ImportOptio
   leave_out_empty(table);
   std::map<std::uint64_t, std::vector<Column*>> groups;
   bool many = false;
-  for (Column& column : table.columns) {
-    const Missing missing = missing_in(column);
-    many = many || static_cast<double>(missing.count) > kMany * static_cast<double>(rows);
-    groups[missing.which].push_back(&column);
+  const std::vector<Missing> missing = missing_of_sensors(table.columns);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    many = many || static_cast<double>(missing[c].count) > kMany * static_cast<double>(rows);
+    groups[missing[c].which].push_back(&table.columns[c]);
   }
   if (!many) return table;
   const auto clock = Clock::read(fmt::format("{}: column {}", file, table.time->name), *table.time,

@@ -24,6 +24,7 @@ constexpr std::array kStems = {
     Stem{"deltatheta", Quantity::kAngularRate, false, true},
     Stem{"dtheta", Quantity::kAngularRate, false, true},
     Stem{"deltavelocity", Quantity::kAcceleration, false, true},
+    Stem{"deltavel", Quantity::kAcceleration, false, true},
     Stem{"deltav", Quantity::kAcceleration, false, true},
     Stem{"dv", Quantity::kAcceleration, true, true},
     Stem{"dvel", Quantity::kAcceleration, false, true},
@@ -164,7 +165,39 @@ const Stem* stem_of(std::string_view text) {
   return found == kStems.end() ? nullptr : found;
 }
 
+// Units that stand behind an axis: "gyro_x_rad_s", "acc_z_g".
+struct UnitWords {
+  std::string_view first;
+  std::string_view second;
+  Quantity quantity;
+  std::string_view unit;
+};
+constexpr std::array kUnitWords = {UnitWords{"rad", "s", Quantity::kAngularRate, "rad/s"},
+                                   UnitWords{"rads", "", Quantity::kAngularRate, "rad/s"},
+                                   UnitWords{"deg", "s", Quantity::kAngularRate, "deg/s"},
+                                   UnitWords{"degs", "", Quantity::kAngularRate, "deg/s"},
+                                   UnitWords{"dps", "", Quantity::kAngularRate, "deg/s"},
+                                   UnitWords{"m", "s2", Quantity::kAcceleration, "m/s^2"},
+                                   UnitWords{"ms2", "", Quantity::kAcceleration, "m/s^2"},
+                                   UnitWords{"mps2", "", Quantity::kAcceleration, "m/s^2"},
+                                   UnitWords{"mg", "", Quantity::kAcceleration, "mg"},
+                                   UnitWords{"g", "", Quantity::kAcceleration, "g"}};
+
 bool is_axis(char c) { return (c >= 'x' && c <= 'z') || (c >= '0' && c <= '3'); }
+
+// Takes the words of a unit off the end of a name that has an axis before them.
+const UnitWords* take_unit(std::vector<std::string>& words) {
+  for (const UnitWords& one : kUnitWords) {
+    const std::size_t count = one.second.empty() ? 1 : 2;
+    if (words.size() < count + 2 || words.back() != (count == 2 ? one.second : one.first)) continue;
+    if (count == 2 && words[words.size() - 2] != one.first) continue;
+    const std::string& axis = words[words.size() - count - 1];
+    if (axis.size() != 1 || !is_axis(axis.front())) continue;
+    words.resize(words.size() - count);
+    return &one;
+  }
+  return nullptr;
+}
 
 bool glob(std::string_view pattern, std::string_view text) {
   std::size_t p = 0;
@@ -195,6 +228,14 @@ bool is_counter_name(std::string_view name) {
   return is_one_of(kCounterNames, joined(words_of(name)));
 }
 
+bool is_norm_name(std::string_view name) {
+  constexpr std::array<std::string_view, 5> kNorms = {"absolute", "norm", "magnitude", "resultant",
+                                                      "modulus"};
+  const std::vector<std::string> words = words_of(name);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return is_one_of(kNorms, word); });
+}
+
 std::string stem_of_seconds(std::string_view name) { return stem_without(name, 1.0); }
 std::string stem_of_nanoseconds(std::string_view name) { return stem_without(name, 1e-9); }
 
@@ -202,14 +243,20 @@ Role role_of(std::string_view name) {
   std::vector<std::string> words = words_of(name);
   if (words.size() > 1)
     std::erase_if(words, [](const std::string& word) { return is_one_of(kAttributes, word); });
+  const UnitWords* const stated = take_unit(words);
   const std::string text = joined(words);
   if (text.size() > 1 && is_axis(text.back())) {
     // "gyro2_x": the number of the sensor may stand behind.
     const std::string_view before = std::string_view(text).substr(0, text.size() - 1);
-    const std::size_t letters = before.find_last_not_of("0123456789") + 1;
-    const Stem* const stem = stem_of(before.substr(0, letters));
+    std::size_t letters = before.size();
+    const Stem* stem = stem_of(before);
+    if (stem == nullptr) {
+      letters = before.find_last_not_of("0123456789") + 1;
+      stem = stem_of(before.substr(0, letters));
+    }
+    const bool own = stated != nullptr && stem != nullptr && stated->quantity == stem->quantity;
     if (stem != nullptr && stem->quantity != Quantity::kTemperature)
-      return {stem->quantity, text.back(), stem->increment, stem->unit,
+      return {stem->quantity, text.back(), stem->increment, own ? stated->unit : stem->unit,
               std::string(before.substr(0, letters - stem->text.size())) +
                   std::string(before.substr(letters))};
   }
@@ -246,14 +293,15 @@ bool matches(std::string_view pattern, std::string_view name) {
   const std::string common = common_name(role);
   if (common.empty()) return false;
   if (glob(pattern, common)) return true;
-  // "gyr_*": another common name with its axis left open, of the same sensor.
-  const std::size_t open = pattern.find('*');
-  if (open == std::string_view::npos || pattern.find('*', open + 1) != std::string_view::npos)
-    return false;
+  // Another common name of the axis, which may be left open: gyr_x, wx, gyr_*. One that names no
+  // sensor stands for every sensor's.
   std::string closed(pattern);
-  closed[open] = role.axis;
+  const std::size_t open = closed.find('*');
+  if (open != std::string::npos) closed[open] = role.axis;
+  if (closed.find_first_of("*?") != std::string::npos) return false;
   const Role meant = role_of(closed);
-  return common_name(meant) == common && meant.sensor == role.sensor;
+  const bool same = meant.sensor.empty() || meant.sensor == role.sensor;
+  return common_name(meant) == common && same;
 }
 
 std::vector<std::string> split_names(std::string_view names) {

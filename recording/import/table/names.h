@@ -24,6 +24,9 @@ struct Role {
 /// "PacketCounter", "seq", "index": a column that counts rows.
 bool is_counter_name(std::string_view name);
 
+/// "Absolute acceleration", "acc_norm": a column of a vector's length.
+bool is_norm_name(std::string_view name);
+
 /// The name of a time in seconds without that word ("header.stamp" of "header.stamp.sec"), and of
 /// one in nanoseconds ("header.stamp.nanosec"); empty for any other name.
 std::string stem_of_seconds(std::string_view name);
@@ -35,8 +38,8 @@ Role role_of(std::string_view name);
 /// How imunoise calls that column: "gyro_x", "acc_z", "temperature"; empty for an unknown role.
 std::string common_name(const Role& role);
 
-/// Whether `pattern` ('*' stands for any text, '?' for one character) matches the name or its
-/// common name.
+/// Whether `pattern` ('*' stands for any text, '?' for one character) matches the name, its common
+/// name, or is another common name of the same axis ("gyr_x", "wx", "gyr_*").
 bool matches(std::string_view pattern, std::string_view name);
 
 /// "ax,ay,az" taken apart.

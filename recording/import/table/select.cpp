@@ -35,19 +35,7 @@ std::vector<std::size_t> called(const std::string& name, const std::vector<Offer
     if (offers[i].name == name) return {i};
     if (matches(name, offers[i].name)) matching.push_back(i);
   }
-  if (!matching.empty()) return matching;
-  // Another common name of the same axis: gyr_x, wx and gyro_x are one. Of the same sensor; without
-  // one, of the only one.
-  const Role meant = role_of(name);
-  const std::string common = common_name(meant);
-  std::vector<std::size_t> alike;
-  for (std::size_t i = 0; i < offers.size() && !common.empty(); ++i) {
-    const Role role = role_of(offers[i].name);
-    if (common_name(role) != common) continue;
-    if (role.sensor == meant.sensor) return {i};
-    alike.push_back(i);
-  }
-  return meant.sensor.empty() && alike.size() == 1 ? alike : matching;
+  return matching;
 }
 
 // The axes of motion of the first chosen one's sensor, as names tell it, that are not chosen: of
@@ -94,7 +82,8 @@ Result<Unit> stated_unit(std::string_view text, const Role& role) {
   if (text.empty() || text == "-") {
     return role.unit.empty() ? Unit{"1", Quantity::kUnknown, 1.0} : parse_unit(role.unit);
   }
-  return parse_unit(text);
+  // Some apps write G for g; no accelerometer measures gauss.
+  return parse_unit(text == "G" && role.quantity == Quantity::kAcceleration ? "g" : text);
 }
 
 }  // namespace

@@ -59,11 +59,8 @@ bool is_inertial(const TimedStream& one) {
 }
 
 bool has_channel(const TimedStream& one, const std::string& wanted) {
-  return std::any_of(one.columns.begin(), one.columns.end(), [&](const Column& column) {
-    const std::string common = common_name(role_of(wanted));
-    return column.name == wanted || matches(wanted, column.name) ||
-           (!common.empty() && matches(common, column.name));
-  });
+  return std::any_of(one.columns.begin(), one.columns.end(),
+                     [&](const Column& column) { return matches(wanted, column.name); });
 }
 
 // How much later than `first` the samples of `second` usually come (ns), within half a step: the

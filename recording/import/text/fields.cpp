@@ -1,5 +1,9 @@
 #include "recording/import/text/fields.h"
 
+#include <fmt/core.h>
+
+#include <utility>
+
 #include "core/support/utf8.h"
 #include "recording/import/text/number.h"
 
@@ -73,8 +77,14 @@ HeaderField parse_header_field(std::string_view text) {
   if (!text.empty() && (text.back() == ']' || text.back() == ')')) {
     const std::size_t opening = text.rfind(text.back() == ']' ? '[' : '(');
     if (opening != std::string_view::npos && opening > 0) {
-      return {std::string(trim(text.substr(0, opening))),
-              std::string(trim(text.substr(opening + 1, text.size() - opening - 2)))};
+      std::string name(trim(text.substr(0, opening)));
+      const std::string_view inside = trim(text.substr(opening + 1, text.size() - opening - 2));
+      // "gyro(x)"; "gyro[0]": equal names are numbered later.
+      if (inside.size() == 1 && inside.front() >= 'x' && inside.front() <= 'z')
+        return {fmt::format("{}_{}", name, inside), ""};
+      if (inside.size() == 1 && inside.front() >= '0' && inside.front() <= '9')
+        return {std::move(name), ""};
+      return {std::move(name), std::string(inside)};
     }
   }
   return {std::string(text), ""};

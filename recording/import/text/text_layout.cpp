@@ -184,10 +184,10 @@ Result<bool> take_units(TextLayout& layout, const TextHead& head) {
   const std::vector<std::string> fields = split_header(row.text, layout.delimiter);
   if (kind_of(fields) == Kind::kNumbers) return false;
   const auto units = [&](const std::string& text) {
-    const std::string unit = text.size() > 2 && text.front() == '[' && text.back() == ']'
-                                 ? text.substr(1, text.size() - 2)
-                                 : text;
-    return unit;
+    const bool square = text.size() > 2 && text.front() == '[' && text.back() == ']';
+    const bool round = text.size() > 2 && text.front() == '(' && text.back() == ')';
+    const std::string unit = square || round ? text.substr(1, text.size() - 2) : text;
+    return is_missing(unit) ? std::string() : unit;
   };
   if (fields.size() != layout.columns.size()) return false;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -252,10 +252,16 @@ Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& opti
   }
   layout.decimal_comma = has_decimal_commas(head.rows, layout);
   // "#timestamp [ns],w_x [rad s^-1]": several public data sets comment their header out. Words
-  // between blanks could be any sentence, so this is for explicit delimiters only.
+  // between blanks could be any sentence: some of them must be names that are known.
   const std::vector<std::string> comment = split_header(head.last_comment, layout.delimiter);
-  if (!options.header && layout.delimiter != ' ' && first.size() >= 2 &&
-      comment.size() == first.size() && kind_of(comment) == Kind::kText) {
+  const auto is_known = [](const std::string& field) {
+    const std::string name = parse_header_field(field).name;
+    return is_time_name(name) || role_of(name).quantity != Quantity::kUnknown;
+  };
+  const bool names =
+      layout.delimiter != ' ' || std::count_if(comment.begin(), comment.end(), is_known) > 1;
+  if (!options.header && names && first.size() >= 2 && comment.size() == first.size() &&
+      kind_of(comment) == Kind::kText) {
     take_names(layout, comment);
     return layout;
   }

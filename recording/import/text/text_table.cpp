@@ -47,9 +47,15 @@ struct Head {
   std::optional<double> rate;  // stated by a comment, Hz
 };
 
+// What begins a comment; 0 characters where none does. "%time" is a name of ROS.
+std::size_t comment_mark(std::string_view text) {
+  if (text.starts_with("//") || text.starts_with("% ") || text.starts_with("%%")) return 2;
+  return text.starts_with('#') || text == "%" ? 1 : 0;
+}
+
 bool holds_no_samples(std::string_view line) {
   const std::string_view text = trim(line);
-  return text.empty() || text.front() == '#';
+  return text.empty() || comment_mark(text) > 0;
 }
 
 // "rate_hz: 100" or "rate_hz = 100"
@@ -71,7 +77,8 @@ void read_up_to(std::size_t rows, LineReader& lines, Head& head) {
     if (!holds_no_samples(*line)) {
       head.text.rows.push_back({lines.line_number(), as_utf8(*line)});
     } else if (head.text.rows.empty() && !trim(*line).empty()) {
-      head.text.last_comment = as_utf8(trim(*line).substr(1));
+      const std::string_view comment = trim(*line);
+      head.text.last_comment = as_utf8(trim(comment.substr(comment_mark(comment))));
       if (!head.rate) head.rate = rate_in_comment(head.text.last_comment);
     }
   }
@@ -107,6 +114,20 @@ std::vector<bool> columns_of_text(const TextHead& head, const TextLayout& layout
   return out;
 }
 
+bool is_of_motion(const HeaderField& column) { return of_inertia(role_of(column.name).quantity); }
+
+// Why a column is no channel unless it is asked for; empty: it is one. `others`: there are channels
+// of motion.
+std::string why_left_out(const HeaderField& column, bool text, bool others) {
+  if (text) return "holds text";
+  if (is_counter_name(column.name)) return "counts";
+  if (is_norm_name(column.name)) return "is the length of a vector";
+  const bool unit = !column.unit.empty() && column.unit != "-" && !parse_unit(column.unit);
+  if (!unit || !others || role_of(column.name).quantity != Quantity::kUnknown) return "";
+  return time_unit("", column.unit) ? "holds times"
+                                    : fmt::format("is in {}, which is no unit here", column.unit);
+}
+
 // The stamp of the measurement rather than that of the file that holds it.
 std::optional<std::size_t> time_of(const TextLayout& layout) {
   std::optional<std::size_t> first;
@@ -134,15 +155,14 @@ Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stat
   plan.notes = layout.notes;
   std::vector<Offer> offers;
   const std::vector<bool> text = columns_of_text(head, layout);
+  const bool others =
+      !options.beside && std::any_of(layout.columns.begin(), layout.columns.end(), is_of_motion);
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const HeaderField& column = layout.columns[c];
     const bool channel = !is_time_name(column.name) && !layout.unnamed[c];
-    const bool counts = is_counter_name(column.name);
-    offers.push_back({column.name, channel && !text[c] && !counts, column.unit});
-    if (channel && text[c])
-      plan.notes.push_back(fmt::format("column {} holds text: left out", column.name));
-    else if (channel && counts)
-      plan.notes.push_back(fmt::format("column {} counts: left out", column.name));
+    const std::string why = channel ? why_left_out(column, text[c], others) : std::string();
+    offers.push_back({column.name, channel && why.empty(), column.unit});
+    if (!why.empty()) plan.notes.push_back(fmt::format("column {} {}: left out", column.name, why));
   }
   Result<std::vector<std::size_t>> channels = select_columns(head.file, offers, options);
   if (!channels) return tl::make_unexpected(channels.error());
@@ -173,8 +193,8 @@ Result<void> read_rows(const File& file, const TextHead& head, std::size_t heade
   constexpr std::size_t rows_between_reports = 1U << 16U;
   std::size_t next_estimate = 1024;
   while (const std::optional<std::string_view> line = lines.next()) {
-    const char first = line->empty() ? '#' : line->front();
-    const bool suspect = first == '#' || first == ' ' || first == '\t';
+    constexpr std::string_view kSuspect = "#%/ \t";
+    const bool suspect = line->empty() || kSuspect.find(line->front()) != std::string_view::npos;
     if (suspect && holds_no_samples(*line)) continue;
     if (auto error = rows.add(*line, lines.line_number())) {
       return tl::make_unexpected(std::move(*error));

@@ -212,6 +212,18 @@ TEST(Diagnose, AFastMarkovProcessMayCoupleInFromWhatWasNotRecorded) {
   EXPECT_EQ(std::count(confused.begin(), confused.end(), "temperature"), 0);
 }
 
+using Series = std::vector<double>;
+
+Diagnosis diagnosed_beside(const std::vector<Series>& gyro, NamedChannel other,
+                           const std::vector<Series>& measured, Quantity quantity, Hertz rate) {
+  std::vector<Signal> replicates;
+  for (std::size_t k = 0; k < gyro.size(); ++k) {
+    replicates.emplace_back(std::span<const double>(gyro[k]), rate, Quantity::kAngularRate);
+    other.replicates.emplace_back(std::span<const double>(measured[k]), rate, quantity);
+  }
+  return diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {other}))));
+}
+
 // A gyroscope beside another one, which is noisier. Of a Markov process that both feel, or only the
 // first; or of one of its own, and the neighbour leaks into it.
 Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
@@ -221,10 +233,10 @@ Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
   const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
     return simulate(*parse_model(model, kRate), kSamples, seed, k);
   };
-  std::vector<std::vector<double>> own;
-  std::vector<std::vector<double>> other;
+  std::vector<Series> own;
+  std::vector<Series> other;
   for (std::uint32_t k = 0; k < kReplicates; ++k) {
-    const std::vector<double> shaking = made("AR1(phi=0.9, sigma2=0.04)", 21, k);
+    const Series shaking = made("AR1(phi=0.9, sigma2=0.04)", 21, k);
     own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 22, k));
     other.push_back(made("WN(sigma2=9) + RW(gamma2=1e-5)", 23, k));
     for (std::size_t t = 0; t < kSamples; ++t) {
@@ -232,14 +244,7 @@ Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
       other[k][t] += felt * strength * shaking[t];
     }
   }
-  std::vector<Signal> replicates;
-  NamedChannel neighbour{"gyro_y", {}};
-  for (std::uint32_t k = 0; k < kReplicates; ++k) {
-    replicates.emplace_back(std::span<const double>(own[k]), kRate, Quantity::kAngularRate);
-    neighbour.replicates.emplace_back(std::span<const double>(other[k]), kRate,
-                                      Quantity::kAngularRate);
-  }
-  return diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {neighbour}))));
+  return diagnosed_beside(own, {"gyro_y", {}}, other, Quantity::kAngularRate, kRate);
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
@@ -261,10 +266,10 @@ TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
   const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
     return simulate(*parse_model(model, kRate), kSamples, seed, k);
   };
-  std::vector<std::vector<double>> gyro;
-  std::vector<std::vector<double>> acceleration;
+  std::vector<Series> gyro;
+  std::vector<Series> acceleration;
   for (std::uint32_t k = 0; k < kReplicates; ++k) {
-    std::vector<double> angle = made("WN(sigma2=2.5e-5)", 31, k);
+    Series angle = made("WN(sigma2=2.5e-5)", 31, k);
     gyro.push_back(made("WN(sigma2=1) + RW(gamma2=1e-6)", 32, k));
     acceleration.push_back(made("WN(sigma2=150)", 33, k));
     for (std::size_t t = 2; t < kSamples; ++t) {
@@ -273,15 +278,8 @@ TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
       acceleration[k][t] += kGravity * angle[t];
     }
   }
-  std::vector<Signal> replicates;
-  NamedChannel seen{"acc_x", {}};
-  for (std::uint32_t k = 0; k < kReplicates; ++k) {
-    replicates.emplace_back(std::span<const double>(gyro[k]), kRate, Quantity::kAngularRate);
-    seen.replicates.emplace_back(std::span<const double>(acceleration[k]), kRate,
-                                 Quantity::kAcceleration);
-  }
   const Diagnosis diagnosis =
-      diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {seen}))));
+      diagnosed_beside(gyro, {"acc_x", {}}, acceleration, Quantity::kAcceleration, kRate);
   ASSERT_FALSE(diagnosis.effects.empty());
   const TriedTerm& best = diagnosis.effects[0].tried;
   EXPECT_EQ(best.cause, "tilt");
