@@ -260,6 +260,8 @@ void review_noise(const Current& current, TriedTerm& tried) {
       rings_too_long(tried.fitted.fit.model.noise.terms.back().process))
     tried.could_be.push_back("switched_line");
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
+  if (tried.cause == "resonance" && made_of_lines(tried.fitted.regression, tried.fitted.fit, added))
+    tried.could_be.push_back("line");
   tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
 }
 

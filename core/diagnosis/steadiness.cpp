@@ -56,4 +56,25 @@ TestOutcome steadiness(const Regression& regression, const JointFit& fit, const 
   return chi_square_test(chi, dof);
 }
 
+bool made_of_lines(const Regression& regression, const JointFit& fit, const Process& added) {
+  constexpr double kMost = 0.5;       // of the power
+  constexpr double kFewest = 8.0;     // coefficients
+  constexpr double kClearly = 6.0;    // standard errors
+  constexpr double kVariance = 96.0;  // of the square of χ² with one degree of freedom
+  const Term* term = term_like(fit.model.noise, added);
+  if (term == nullptr) return false;
+  const Model alone{{*term}};
+  double count = 0.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < regression.subject().replicates(); ++k) {
+    const Eigen::ArrayXd left = regression.residual_cosines(fit.effects.value, k).array();
+    const Eigen::ArrayXd spectrum = spectrum_of_cosines(fit.model.noise, left.size() + 1);
+    const Eigen::ArrayXd own = spectrum_of_cosines(alone, left.size() + 1);
+    const Eigen::ArrayXd within = (own > kMost * spectrum).cast<double>();
+    count += within.sum();
+    sum += (within * (left.square() / spectrum).square()).sum();
+  }
+  return count >= kFewest && sum / count > 3.0 + kClearly * std::sqrt(kVariance / count);
+}
+
 }  // namespace imunoise

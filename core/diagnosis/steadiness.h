@@ -11,4 +11,10 @@ namespace imunoise {
 /// noise that grows) fails here, though its mean spectrum fits.
 TestOutcome steadiness(const Regression& regression, const JointFit& fit, const Process& added);
 
+/// Is the last noise that was added a few lines (a wave that beats, several machines) rather than
+/// noise? At the frequencies where it is most of the power, squares over the fitted spectrum are χ²
+/// of one degree of freedom under noise; lines make few of them large: their mean square lies 6
+/// standard errors above 3.
+bool made_of_lines(const Regression& regression, const JointFit& fit, const Process& added);
+
 }  // namespace imunoise

@@ -150,6 +150,32 @@ TEST_F(PlainFiles, AMistypedProgramIsGuessed) {
   EXPECT_NE(got.errors.find("did you mean 'kalibr'?"), std::string::npos) << got.errors;
 }
 
+TEST_F(PlainFiles, AnotherCommonNameChoosesTheSameChannel) {
+  write_imu("imu.csv", 8000);
+  for (const char* const command :
+       {"fit imu.csv --model WN", "test imu.csv --model WN --split-into 2",
+        "select imu.csv --model WN --model 'WN + RW'", "diagnose imu.csv --model WN"}) {
+    const json got = json_of(fmt::format("{} --channel gyr_x", command));
+    EXPECT_EQ(got["channel"], "wx") << command;
+  }
+  const Outcome exported = run("export imu.csv --channel gyr_x --model WN --to csv");
+  EXPECT_EQ(exported.status, 0) << exported.errors;
+}
+
+TEST_F(PlainFiles, ExportRefusesWhatHasNoEffectOnAResult) {
+  write_imu("imu.csv", 4000);
+  ASSERT_EQ(run("fit imu.csv --channel wx --model WN --json > fit.json").status, 0);
+  EXPECT_EQ(run("export fit.json --to csv").status, 0);
+  for (const char* const option : {"--model WN", "--rate 200", "--unit 'wx=rad/s'", "--from 1"}) {
+    const Outcome got = run(fmt::format("export fit.json --to csv {}", option));
+    EXPECT_EQ(got.status, 1) << option;
+    EXPECT_NE(got.errors.find("is a result of imunoise"), std::string::npos) << got.errors;
+  }
+  const Outcome twice = run("export imu.csv imu.csv --model WN --to csv");
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_EQ(twice.errors.find("known: )"), std::string::npos) << twice.errors;
+}
+
 // Runs the program with standard error on a terminal; returns what it wrote there.
 std::string on_terminal(const std::filesystem::path& folder, std::vector<std::string> arguments,
                         int& status) {

@@ -29,7 +29,7 @@ struct TrialPlan {
   std::vector<double> strengths_or(std::vector<double> own) const;
 
   std::uint64_t seed(std::size_t repeat) const {
-    return (test_seeds ? 8'000'001U : 1U) + static_cast<std::uint64_t>(repeat);
+    return (test_seeds ? 9'000'001U : 1U) + static_cast<std::uint64_t>(repeat);
   }
   bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }
 };

@@ -286,6 +286,45 @@ TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
   EXPECT_EQ(best.shared_with, "acc_x");
 }
 
+// A wave that beats has the spectrum of a narrow resonance; its power lies in three lines.
+TEST(Diagnose, AWaveThatBeatsIsNoResonanceForSure) {
+  constexpr Hertz kRate{100.0};
+  constexpr std::size_t kSamples = 8192;
+  const auto best = [&](bool beats) {
+    std::vector<Series> all;
+    std::vector<Signal> replicates;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      all.push_back(
+          simulate(*parse_model("WN(sigma2=1) + RW(gamma2=1e-6)", kRate), kSamples, 41, k));
+      Series ringing = simulate(*parse_model("WN(sigma2=4e-5)", kRate), kSamples, 42, k);
+      const double turn = 2.0 * std::numbers::pi * 17.3 / kRate.value;
+      const double damping = std::exp(-0.006 * turn);
+      for (std::size_t t = 2; t < kSamples; ++t) {
+        ringing[t] +=
+            2.0 * damping * std::cos(turn) * ringing[t - 1] - damping * damping * ringing[t - 2];
+        const auto i = static_cast<double>(t);
+        const double swing = 1.0 + std::sin(2.0 * std::numbers::pi * 20.3 * i / kSamples + k);
+        all[k][t] += beats ? 0.25 * swing * std::sin(turn * i + 2.0 * k) : 3.0 * ringing[t];
+      }
+    }
+    for (const Series& one : all)
+      replicates.emplace_back(std::span<const double>(one), kRate, Quantity::kAngularRate);
+    Diagnosis out = diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {}))));
+    EXPECT_FALSE(out.effects.empty());
+    return std::move(out.effects.front());
+  };
+  const auto says_line = [](const RankedTerm& one) {
+    const auto& confused = one.confused_with;
+    return std::find(confused.begin(), confused.end(), "line") != confused.end();
+  };
+  const RankedTerm beating = best(true);
+  const RankedTerm ringing = best(false);
+  EXPECT_EQ(beating.tried.cause, "resonance");
+  EXPECT_TRUE(says_line(beating));
+  EXPECT_EQ(ringing.tried.cause, "resonance");
+  EXPECT_FALSE(says_line(ringing));
+}
+
 TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {
   const Diagnosis diagnosis = beside_another(0.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
