@@ -149,10 +149,12 @@ std::string summary_of(const v1::Calibration& calibration) {
       fmt::format("{} of {} channels have a model", fitted, calibration.channels_size());
   if (misfits > 0)
     out += fmt::format("; {} of these do not fit{}", misfits, missing_in(calibration));
-  if (doubts > 0) out += fmt::format("; of {} it is doubtful that they fit", doubts);
+  if (doubts > 0) out += fmt::format("; {} of these may not fit", doubts);
   if (fitted > 0 && misfits + doubts == 0) out += ", and every model fits";
   if (calibration.settings().diagnose() && fitted > 0)
-    out += effects == 0 ? "; no effect is missing" : fmt::format("; {} lack an effect", effects);
+    out += effects == 0
+               ? "; no effect is missing"
+               : fmt::format("; {} {} an effect", effects, effects == 1 ? "lacks" : "lack");
   if (troubled > 0) out += fmt::format("; {} had trouble", troubled);
   return out + ".";
 }

@@ -198,6 +198,12 @@ TEST_F(Loggers, ABlankBeforeTheZone) {
   ASSERT_TRUE(got) << got.error().message;
   EXPECT_DOUBLE_EQ(got->front().rate.value, 100.0);
   EXPECT_EQ(got->front().channels[1].unit.symbol, "g");
+  // A blank without a zone.
+  const auto none = table("time,gyro_x [rad/s]", [&](int i) {
+    return fmt::format("\"2021-06-12 12:00:{:06.3f} \",{:.6e}", 0.01 * i, noise(i, 0));
+  });
+  ASSERT_TRUE(none) << none.error().message;
+  EXPECT_DOUBLE_EQ(none->front().rate.value, 100.0);
 }
 
 }  // namespace

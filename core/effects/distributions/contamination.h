@@ -7,8 +7,8 @@
 
 namespace imunoise {
 
-/// Deviations of which a share is `width` times as wide as the others, whose standard deviation is
-/// 1 (Tukey 1960: contaminated normal distribution).
+/// A contaminated normal distribution (Tukey 1960): most deviations have the standard deviation 1,
+/// a share of them has `width`.
 struct Contamination {
   double share = 0.0;
   double width = 1.0;

@@ -117,7 +117,7 @@ std::optional<UsualStep> usual_step(const Clock& clock) {
   double squares = 0.0;
   double count = 0.0;
   double multiples = 0.0;
-  // All of them: rounded stamps repeat a pattern, of which a stride may see one step alone.
+  // Every step counts: rounded stamps repeat a pattern, and a stride may see only one of its steps.
   for (std::size_t i = 1; i < clock.size(); ++i) {
     const double step = clock.step(i);
     const double off = step - median * std::clamp(std::round(step / median), 1.0, kMost);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recording/import/preflight/holes.h"
 #include "recording/import/preflight/motion.h"
 #include "recording/import/table/options.h"
 
@@ -18,9 +19,8 @@ std::vector<Cut> repeating(const std::vector<Column>& columns,
   std::vector<Cut> out;
   const std::size_t rows = size(columns.front().samples);
   for (std::size_t i = 1; i < rows; ++i) {
-    const bool same = std::all_of(moving.begin(), moving.end(), [&](std::size_t c) {
-      return std::visit([&](const auto& v) { return v[i] == v[i - 1]; }, columns[c].samples);
-    });
+    const bool same = std::all_of(moving.begin(), moving.end(),
+                                  [&](std::size_t c) { return repeats(columns[c], i); });
     if (!same) continue;
     if (out.empty() || out.back().end != i) out.push_back({i, i});
     out.back().end = i + 1;

@@ -12,6 +12,11 @@ bool missing(const Column& column, std::size_t row) {
   return numbers != nullptr && !std::isfinite((*numbers)[row]);
 }
 
+bool repeats(const Column& column, std::size_t row) {
+  return std::visit([&](const auto& values) { return values[row] == values[row - 1]; },
+                    column.samples);
+}
+
 std::string Hole::said() const {
   const bool several = names.size() > 1;
   return fmt::format("channel{} {} {} {} value{}{}", several ? "s" : "", fmt::join(names, ", "),

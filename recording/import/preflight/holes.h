@@ -1,6 +1,6 @@
 #pragma once
 
-// Values that are missing.
+// Values that are missing, or are those of the row before.
 
 #include <cstddef>
 #include <span>
@@ -13,6 +13,9 @@ namespace imunoise::recording {
 
 /// Whether a column has no value in a row.
 bool missing(const Column& column, std::size_t row);
+
+/// Whether a column has the value of the row before. Precondition: row > 0.
+bool repeats(const Column& column, std::size_t row);
 
 /// Values that columns miss; those that miss as many from the same row on are told together.
 struct Hole {

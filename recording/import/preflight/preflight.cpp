@@ -189,12 +189,6 @@ class Judge {
     return {};
   }
 
-  bool repeats(std::size_t i) const {
-    return std::all_of(table_.columns.begin(), table_.columns.end(), [&](const Column& one) {
-      return std::visit([&](const auto& v) { return v[i] == v[i - 1]; }, one.samples);
-    });
-  }
-
   Result<void> leave_out_repeated(const std::vector<std::size_t>& rows) {
     if (rows.empty()) return {};
     find(Severity::kLeftOut,
@@ -206,7 +200,10 @@ class Judge {
   }
 
   Result<void> follow_time() {
-    const auto same = [&](std::size_t i) { return repeats(i); };
+    const auto same = [&](std::size_t i) {
+      return std::all_of(table_.columns.begin(), table_.columns.end(),
+                         [&](const Column& one) { return repeats(one, i); });
+    };
     if (auto read = read_clock(); !read) return read;
     if (auto left = leave_out_repeated(logged_twice(*clock_, same)); !left) return left;
     Pace pace = pace_of(*clock_, same);
@@ -304,7 +301,8 @@ class Judge {
                          "the one before: left out",
                          time_of(one.begin), time_of(one.end - 1)));
     }
-    if (told > kTold) find(Severity::kLeftOut, fmt::format("{} more of these", told - kTold));
+    if (told > kTold)
+      find(Severity::kLeftOut, fmt::format("{} more such times: left out", told - kTold));
   }
 
   // What moves one channel alone may be its own noise: it is told, and used.

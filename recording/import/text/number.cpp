@@ -100,10 +100,10 @@ std::optional<std::int64_t> take_date(std::string_view& text) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
-// "Z", "+01:00", "-0330": seconds to subtract. Nothing where something else follows.
+// "Z", "+01:00", "-0330", " +0200": seconds to subtract. Nothing where something else follows.
 std::optional<int> zone_of(std::string_view text) {
-  if (text.empty() || text == "Z" || text == " UTC") return 0;
   take_char(text, " ");
+  if (text.empty() || text == "Z" || text == "UTC") return 0;
   const int sign = text.front() == '-' ? -1 : 1;
   if (!take_char(text, "+-")) return std::nullopt;
   const auto hours = take_digits(text, 2);

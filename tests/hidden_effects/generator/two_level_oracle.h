@@ -8,8 +8,8 @@
 
 namespace imunoise::hidden {
 
-/// Two levels ± height/2, of which either comes first; before each later sample it jumps with
-/// probability 1/dwell (dwell in samples).
+/// Noise that jumps between the levels ± height/2. It begins at either with the same probability;
+/// before each later sample it jumps with probability 1/dwell (dwell in samples).
 struct TwoLevelLaw {
   double height = 1.0;
   double dwell = 1000.0;

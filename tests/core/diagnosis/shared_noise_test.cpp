@@ -1,0 +1,150 @@
+// Noise that a neighbouring sensor feels, too, and noise that is a few lines in truth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/diagnosis/diagnose.h"
+#include "tests/core/diagnosis/subject_of.h"
+
+namespace imunoise {
+namespace {
+
+using Series = std::vector<double>;
+
+Diagnosis diagnosed_beside(const std::vector<Series>& gyro, NamedChannel other,
+                           const std::vector<Series>& measured, Quantity quantity, Hertz rate) {
+  std::vector<Signal> replicates;
+  for (std::size_t k = 0; k < gyro.size(); ++k) {
+    replicates.emplace_back(std::span<const double>(gyro[k]), rate, Quantity::kAngularRate);
+    other.replicates.emplace_back(std::span<const double>(measured[k]), rate, quantity);
+  }
+  return diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {other}))));
+}
+
+// A gyroscope beside another one, which is noisier. Of a Markov process that both feel, or only the
+// first; or of one of its own, and the neighbour leaks into it.
+Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
+  constexpr Hertz kRate{50.0};
+  constexpr std::size_t kSamples = 16'384;
+  constexpr std::uint32_t kReplicates = 4;
+  const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
+    return simulate(*parse_model(model, kRate), kSamples, seed, k);
+  };
+  std::vector<Series> own;
+  std::vector<Series> other;
+  for (std::uint32_t k = 0; k < kReplicates; ++k) {
+    const Series shaking = made("AR1(phi=0.9, sigma2=0.04)", 21, k);
+    own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 22, k));
+    other.push_back(made("WN(sigma2=9) + RW(gamma2=1e-5)", 23, k));
+    for (std::size_t t = 0; t < kSamples; ++t) {
+      own[k][t] += strength * shaking[t] + leaked * other[k][t];
+      other[k][t] += felt * strength * shaking[t];
+    }
+  }
+  return diagnosed_beside(own, {"gyro_y", {}}, other, Quantity::kAngularRate, kRate);
+}
+
+TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
+  const Diagnosis diagnosis = beside_another(1.0, 0.0);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "common_vibration");
+  EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
+}
+
+// The accelerometer sees gravity turn, beneath noise of its own: alone it shows less than the
+// gyroscope's spectrum does.
+TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
+  constexpr Hertz kRate{10.0};
+  constexpr std::size_t kSamples = 16'384;
+  constexpr std::uint32_t kReplicates = 4;
+  constexpr double kGravity = 9.80665;
+  const double turn = 2.0 * std::numbers::pi * 0.04 / kRate.value;
+  const double damping = std::exp(-0.2 * turn);
+  const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
+    return simulate(*parse_model(model, kRate), kSamples, seed, k);
+  };
+  std::vector<Series> gyro;
+  std::vector<Series> acceleration;
+  for (std::uint32_t k = 0; k < kReplicates; ++k) {
+    Series angle = made("WN(sigma2=2.5e-5)", 31, k);
+    gyro.push_back(made("WN(sigma2=1) + RW(gamma2=1e-6)", 32, k));
+    acceleration.push_back(made("WN(sigma2=150)", 33, k));
+    for (std::size_t t = 2; t < kSamples; ++t) {
+      angle[t] += 2.0 * damping * std::cos(turn) * angle[t - 1] - damping * damping * angle[t - 2];
+      gyro[k][t] += (angle[t] - angle[t - 1]) * kRate.value;
+      acceleration[k][t] += kGravity * angle[t];
+    }
+  }
+  const Diagnosis diagnosis =
+      diagnosed_beside(gyro, {"acc_x", {}}, acceleration, Quantity::kAcceleration, kRate);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  EXPECT_EQ(best.cause, "tilt");
+  EXPECT_EQ(best.shared_with, "acc_x");
+}
+
+// A wave that beats has the spectrum of a narrow resonance; its power lies in three lines.
+TEST(Diagnose, AWaveThatBeatsIsNoResonanceForSure) {
+  constexpr Hertz kRate{100.0};
+  constexpr std::size_t kSamples = 8192;
+  const auto best = [&](bool beats) {
+    std::vector<Series> all;
+    std::vector<Signal> replicates;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      all.push_back(
+          simulate(*parse_model("WN(sigma2=1) + RW(gamma2=1e-6)", kRate), kSamples, 41, k));
+      Series ringing = simulate(*parse_model("WN(sigma2=4e-5)", kRate), kSamples, 42, k);
+      const double turn = 2.0 * std::numbers::pi * 17.3 / kRate.value;
+      const double damping = std::exp(-0.006 * turn);
+      for (std::size_t t = 2; t < kSamples; ++t) {
+        ringing[t] +=
+            2.0 * damping * std::cos(turn) * ringing[t - 1] - damping * damping * ringing[t - 2];
+        const auto i = static_cast<double>(t);
+        const double swing = 1.0 + std::sin(2.0 * std::numbers::pi * 20.3 * i / kSamples + k);
+        all[k][t] += beats ? 0.25 * swing * std::sin(turn * i + 2.0 * k) : 3.0 * ringing[t];
+      }
+    }
+    for (const Series& one : all)
+      replicates.emplace_back(std::span<const double>(one), kRate, Quantity::kAngularRate);
+    Diagnosis out = diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {}))));
+    EXPECT_FALSE(out.effects.empty());
+    return std::move(out.effects.front());
+  };
+  const auto says_line = [](const RankedTerm& one) {
+    const auto& confused = one.confused_with;
+    return std::find(confused.begin(), confused.end(), "line") != confused.end();
+  };
+  const RankedTerm beating = best(true);
+  const RankedTerm ringing = best(false);
+  EXPECT_EQ(beating.tried.cause, "resonance");
+  EXPECT_TRUE(says_line(beating));
+  EXPECT_EQ(ringing.tried.cause, "resonance");
+  EXPECT_FALSE(says_line(ringing));
+}
+
+TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {
+  const Diagnosis diagnosis = beside_another(0.0, 0.0);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
+}
+
+TEST(Diagnose, NoiseThatTheNeighbourHardlyFeelsIsItsOwn) {
+  const Diagnosis diagnosis = beside_another(0.02, 0.0, 10.0);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
+}
+
+TEST(Diagnose, ALeakBesideNoiseOfItsOwnMakesNoVibrationOfIt) {
+  const Diagnosis diagnosis = beside_another(0.0, 0.1);
+  for (const RankedTerm& one : diagnosis.effects) EXPECT_TRUE(one.tried.shared_with.empty());
+  const auto markov =
+      std::find_if(diagnosis.effects.begin(), diagnosis.effects.end(),
+                   [](const RankedTerm& one) { return one.tried.cause == "gauss_markov"; });
+  EXPECT_NE(markov, diagnosis.effects.end());
+}
+
+}  // namespace
+}  // namespace imunoise
