@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "core/effects/own_powers.h"
-#include "core/inference/normal_scores.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
+#include "core/wavelet/scales.h"
 
 namespace imunoise {
 namespace {
@@ -18,24 +18,6 @@ constexpr Index kShortestCut = 4096;  // samples
 
 Scales scales_of(const Eigen::VectorXd& samples) {
   return Scales::for_samples(static_cast<std::size_t>(samples.size()));
-}
-
-WaveletVariance variance_of(const Eigen::VectorXd& samples, const Subject& subject,
-                            const Scales& scales) {
-  const std::span<const double> all(samples.data(), static_cast<std::size_t>(samples.size()));
-  return wavelet_variance(Signal(all, subject.rate, subject.quantity), scales);
-}
-
-// One number a replicate.
-std::vector<double> wavelet_errors(const std::vector<WaveletVariance>& left, const Model& noise) {
-  const auto scores = normal_scores(noise, left, moment_covariances(noise, left));
-  std::vector<double> out;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    const Eigen::VectorXd z =
-        scores[k].residual(left[k].variance, variance(noise, left[k].scales.half_widths()));
-    out.push_back(z.size() > 0 ? z.squaredNorm() / static_cast<double>(z.size()) : 1.0);
-  }
-  return out;
 }
 
 // Of one replicate.
@@ -98,30 +80,6 @@ bool can_hold_out(const FittedModel& fitted) {
 
 double HeldOut::total_likelihood() const { return std::accumulate(nats.begin(), nats.end(), 0.0); }
 
-LeftOver left_over(const FittedModel& fitted) {
-  const Subject& subject = fitted.regression.subject();
-  LeftOver out{std::vector<WaveletVariance>(subject.replicates()), {}};
-  std::vector<WaveletVariance> all(subject.replicates());
-  const Scales run_off = run_off_scales(subject);
-  for_each_index(subject.replicates(), [&](std::size_t k) {
-    const Eigen::VectorXd left = fitted.regression.residual_samples(fitted.fit.effects.value, k);
-    const Scales octaves = scales_of(left);
-    all[k] = variance_of(left, subject, octaves.with(run_off));
-    out.variances[k] = at_scales(all[k], octaves);
-  });
-  out.run_off = run_off_of(fitted, all);
-  return out;
-}
-
-double training_error(const FittedModel& fitted, const LeftOver& left) {
-  const std::vector<Model>& own = fitted.fit.own_noise;
-  std::vector<double> errors;
-  if (own.empty()) errors = wavelet_errors(left.variances, fitted.fit.model.noise);
-  for (std::size_t k = 0; k < own.size(); ++k)
-    errors.push_back(wavelet_errors({left.variances[k]}, own[k]).front());
-  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-}
-
 HeldOut held_out(const FittedModel& fitted) {
   const Subject& subject = fitted.regression.subject();
   const bool single = subject.replicates() == 1;
@@ -130,6 +88,10 @@ HeldOut held_out(const FittedModel& fitted) {
     return term.effect->own_noise != nullptr;
   });
   const Regression all = single ? fitted.regression.in_blocks(kBlocks) : fitted.regression;
+  // The others' own noise says nothing about this one, unless to weigh what modulates all.
+  const bool needed = own_noise == effects.end() || !variance_courses(all).empty();
+  const auto place = static_cast<std::size_t>(own_noise - effects.begin());
+  const Regression shared = needed ? all : all.without(place);
   const std::size_t count = all.subject().replicates();
   HeldOut out{std::vector<double>(count), 0};
   for (const SharedVector& one : subject.samples)
@@ -139,7 +101,7 @@ HeldOut held_out(const FittedModel& fitted) {
     for (std::size_t i = 0; i < count; ++i) {
       if (i != k) others.push_back(i);
     }
-    const JointFit fit = joint_fit(all.of(others), fitted.fit.model.noise);
+    const JointFit fit = joint_fit(shared.of(others), fitted.fit.model.noise, {}, Begin::kNear);
     const Model& noise = fit.model.noise;
     const Regression one = all.of({k});
     const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;

@@ -51,9 +51,16 @@ std::vector<Process> cascade_family(double ratio, double longest) {
   return out;
 }
 
+bool peaks(const Model& noise) {
+  return std::all_of(noise.terms.begin(), noise.terms.end(), [](const Term& term) {
+    const auto* resonance = std::get_if<Resonance>(&term.process);
+    return resonance == nullptr || resonance->has_peak();
+  });
+}
+
 // A second-order autoregression. It contains Markov noise and the resonance, so that it is offered
 // only where it explains clearly more than both: with one parameter more chance gains 6 nats once
-// in 2,000.
+// in 2,000. A resonance without a peak is noise behind two lags by another name.
 void add_second_order(const Current& current, const ScoreSpace& space, double longest,
                       Suggestions& out) {
   constexpr double kClearly = 6.0;
@@ -66,13 +73,14 @@ void add_second_order(const Current& current, const ScoreSpace& space, double lo
       [](const Suggestion& a, const Suggestion& b) { return a.score_nats < b.score_nats; });
   best.search.path = 0.0;
   for (const Suggestion& one : found) best.search.path += one.search.path;
-  const auto objective = [&](const Suggestion& of) {
-    return whittle(std::get<NoiseChange>(of.added).start, current.pooled).objective;
+  const auto fitted = [&](const Suggestion& of) {
+    return whittle(std::get<NoiseChange>(of.added).start, current.pooled);
   };
-  const double reached = objective(best);
+  const double reached = fitted(best).objective;
   const bool special = std::any_of(out.begin(), out.end(), [&](const Suggestion& other) {
-    return (other.cause == "gauss_markov" || other.cause == "resonance") &&
-           objective(other) < reached + kClearly;
+    if (other.cause != "gauss_markov" && other.cause != "resonance") return false;
+    const WhittleEstimate found = fitted(other);
+    return peaks(found.model) && found.objective < reached + kClearly;
   });
   if (special) best.score_nats = 0.0;
   out.push_back(std::move(best));

@@ -190,7 +190,7 @@ void review_own_powers(const Current& current, TriedTerm& tried) {
 
 WhittleEstimate own_noise_of(const EffectTerm& term, const Model& noise,
                              std::span<const BandedPower> measured) {
-  return whittle(with_shapes(term) ? noise : powers_only(noise), measured);
+  return whittle(with_shapes(term) ? noise : powers_only(noise), measured, {}, Begin::kNear);
 }
 
 const Effect& own_powers() {

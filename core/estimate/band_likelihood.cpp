@@ -67,6 +67,11 @@ Eigen::MatrixXd BandLikelihood::slopes(const std::vector<SpectralDirection>& dir
   Eigen::MatrixXd out(factor_.size(), static_cast<Eigen::Index>(directions.size()));
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const auto& [spectrum, matrix] = directions[d];
+    if (channels_ == 1) {  // the same, without matrices
+      out.col(static_cast<Eigen::Index>(d)) =
+          (matrix(0, 0) * root * spectrum * factor_.col(0).square()).matrix();
+      continue;
+    }
     const Eigen::ArrayXXd white =
         whitened(matrix.reshaped().transpose().array().replicate(bands, 1));
     out.col(static_cast<Eigen::Index>(d)) =

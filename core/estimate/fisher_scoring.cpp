@@ -1,19 +1,21 @@
 #include "core/estimate/fisher_scoring.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "core/estimate/believed_information.h"
 #include "core/support/linear_algebra.h"
 
 namespace imunoise {
 namespace {
 
-constexpr double kLongestStep = 1.0;     // of a free coordinate
-constexpr double kSmallestShare = 1e-6;  // of a step
-constexpr double kSmallestGain = 1e-7;   // nats: a few 1e-4 of a standard error
-constexpr double kFelt = 1.0;            // information of a free coordinate that is not lost
-constexpr double kWalk = 2.0;            // step in search of it
-constexpr double kFarthest = 32.0;       // a logit is at its end from anywhere
+constexpr double kLongestStep = 1.0;    // of a free coordinate
+constexpr double kSmallestGain = 1e-7;  // nats: a few 1e-4 of a standard error
+constexpr double kNear = 1.0;           // nats that a step gains: the top is near
+constexpr double kFelt = 1.0;           // information of a free coordinate that is not lost
+constexpr double kWalk = 2.0;           // step in search of it
+constexpr double kFarthest = 32.0;      // a logit is at its end from anywhere
 
 // Which coordinates lie in cones, and the cones' sizes; the others are free.
 struct Places {
@@ -49,11 +51,68 @@ Eigen::VectorXd greatest(const Places& places, const Curvature& curvature,
   const Eigen::VectorXd powers =
       conic_least_squares(within - across * inverse * across.transpose(),
                           moment - across * inverse * free_moment, sizes);
-  const Eigen::VectorXd steps = inverse * (free_moment - across.transpose() * powers);
   Eigen::VectorXd out = at;
   out(inside) = powers;
-  out(free) += steps.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
+  out(free) += inverse * (free_moment - across.transpose() * powers);
   return out;
+}
+
+// What the likelihood would gain along a way, were it as straight and as curved as here.
+double foretold(const Curvature& curvature, const Eigen::VectorXd& way) {
+  return curvature.score.dot(way) - 0.5 * way.dot(curvature.information * way);
+}
+
+// The way to there, no free coordinate farther than one step: cut one by one, or all by the same
+// share, whichever is foretold more.
+Eigen::VectorXd way_to(const Eigen::VectorXd& target, const Places& places,
+                       const Curvature& curvature, const Eigen::VectorXd& at) {
+  const Eigen::VectorXd whole = target - at;
+  if (places.free.empty()) return whole;
+  Eigen::VectorXd cut = whole;
+  cut(places.free) = whole(places.free).cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
+  const double longest = whole(places.free).cwiseAbs().maxCoeff();
+  const Eigen::VectorXd part = whole * std::min(1.0, kLongestStep / longest);
+  return foretold(curvature, cut) > foretold(curvature, part) ? cut : part;
+}
+
+// How far steps are trusted: by how many times Fisher's information they are damped.
+class Damping {
+ public:
+  double value() const { return value_; }
+  void more() { value_ = std::max(kFirst, kFactor * value_); }
+  /// After a step that gained this share of what was foretold.
+  void learn(double share) {
+    constexpr double kTooLittle = 0.25;
+    constexpr double kEnough = 0.75;
+    if (share < kTooLittle) more();
+    if (share > kEnough) value_ = value_ > kFirst / kFactor ? value_ / kFactor : 0.0;
+  }
+
+ private:
+  static constexpr double kFirst = 1.0;
+  static constexpr double kFactor = 4.0;
+  double value_ = 0.0;
+};
+
+// One step uphill, shorter and shorter until the likelihood grows. Returns by how much.
+double step_up(const Likelihood& likelihood, const Places& places, bool near, Damping& damping,
+               Scored& from) {
+  Curvature here = likelihood.curvature(from.at);
+  const BelievedInformation believed(here.information, near ? here.correction : Eigen::MatrixXd{});
+  for (;; damping.more()) {
+    here.information = believed.damped(damping.value());
+    const Eigen::VectorXd way = way_to(greatest(places, here, from.at), places, here, from.at);
+    const double hope = foretold(here, way);
+    if (!(hope >= kSmallestGain)) return 0.0;
+    const Eigen::VectorXd next = from.at + way;
+    const double objective = likelihood.objective(next);
+    const double gain = from.objective - objective;
+    if (!(gain > 0.0)) continue;
+    damping.learn(gain / hope);
+    from.at = next;
+    from.objective = objective;
+    return gain;
+  }
 }
 
 // The start with one lost coordinate where it is felt, if there is such a place. That may take
@@ -81,19 +140,12 @@ Scored fisher_scoring(const Likelihood& likelihood, const Eigen::VectorXd& start
   assert(start.size() == places.coordinates);
   Scored out{start, likelihood.objective(start), Termination::kEvaluations};
   if (!std::isfinite(out.objective)) return out;
+  Damping damping;
+  bool near = false;
   for (int step = 0; step < most_steps && out.termination == Termination::kEvaluations; ++step) {
-    const Eigen::VectorXd target = greatest(places, likelihood.curvature(out.at), out.at);
-    double gain = 0.0;
-    for (double share = 1.0; share > kSmallestShare && !(gain > 0.0); share *= 0.5) {
-      const Eigen::VectorXd next = out.at + share * (target - out.at);
-      const double objective = likelihood.objective(next);
-      gain = out.objective - objective;
-      if (gain > 0.0) {
-        out.at = next;
-        out.objective = objective;
-      }
-    }
-    if (!(gain >= kSmallestGain)) out.termination = Termination::kConverged;
+    const double gain = step_up(likelihood, places, near, damping, out);
+    if (!(gain >= kSmallestGain) && near) out.termination = Termination::kConverged;
+    near = near || gain < kNear;
     if (progress.stopped()) out.termination = Termination::kStopped;
   }
   return out;

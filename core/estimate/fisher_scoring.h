@@ -13,6 +13,8 @@ namespace imunoise {
 struct Curvature {
   Eigen::MatrixXd information;  ///< Fisher's, n × n
   Eigen::VectorXd score;        ///< slope of the log likelihood, n
+  /// What the observed information has more, n × n; empty where it is not known.
+  Eigen::MatrixXd correction{};
 };
 
 /// A likelihood to be maximised over n coordinates.
@@ -32,10 +34,11 @@ struct Scored {
   Termination termination = Termination::kConverged;
 };
 
-/// Fisher scoring from `start`; one whose objective is not finite is returned as it is. Each step
-/// solves the least squares of the linearised likelihood inside the cones, and is halved until the
-/// likelihood grows. A free coordinate moves by at most 1 a step, so it is best on a logarithmic or
-/// logit scale.
+/// Fisher scoring from `start`, and Newton's steps by the observed information, where it is known,
+/// once a step gains less than a nat. A start whose objective is not finite is returned as it is.
+/// Each step solves the least squares of the linearised likelihood inside the cones, with more and
+/// more damping until the likelihood grows. A free coordinate moves by at most 1 a step, so it is
+/// best on a logarithmic or logit scale.
 Scored fisher_scoring(const Likelihood& likelihood, const Eigen::VectorXd& start,
                       const Progress& progress = {}, int most_steps = 100);
 

@@ -6,6 +6,7 @@
 #include "core/estimate/band_likelihood.h"
 #include "core/estimate/fisher_scoring.h"
 #include "core/estimate/searched_parameter.h"
+#include "core/estimate/spectral_expansion.h"
 
 namespace imunoise {
 namespace {
@@ -66,20 +67,56 @@ void fit_ramp(Model& model, std::span<const BandedPower> replicates) {
   set_values(ramp->process, std::vector<double>{(cross / power) * (cross / power)});
 }
 
+// The expansions of all processes with coordinates, in the order of these.
+std::vector<SpectralExpansion> expansions_of(const Model& model,
+                                             const std::vector<ParameterPlace>& coordinates,
+                                             const Frequencies& frequency) {
+  std::vector<SpectralExpansion> out;
+  std::vector<std::size_t> parameters;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    parameters.push_back(coordinates[i].parameter);
+    const bool last = i + 1 == coordinates.size() || coordinates[i + 1].term != coordinates[i].term;
+    if (!last) continue;
+    out.emplace_back(process_of(model, coordinates[i]), parameters, frequency);
+    parameters.clear();
+  }
+  return out;
+}
+
+// Observed and Fisher's information. Of -log likelihood Σ n/2 (log S + C/S), and e = C/S - 1, the
+// second derivatives are Σ n/2 ((1 + 2e) S_i S_j / S² - e S_ij / S); Fisher's information is their
+// mean under a true model, e = 0. S_ij is zero for parameters of different processes.
 Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& coordinates,
                        std::span<const BandedPower> replicates) {
   const auto n = static_cast<Eigen::Index>(coordinates.size());
-  Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (const BandedPower& bands : replicates) {
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     const BandLikelihood likelihood(bands.count, s);
+    const std::vector<SpectralExpansion> expansions =
+        expansions_of(model, coordinates, bands.frequency);
     std::vector<SpectralDirection> directions;
-    for (const ParameterPlace& c : coordinates)
-      directions.push_back(direction_of(model, c, bands.frequency));
+    for (const SpectralExpansion& one : expansions) {
+      for (const Eigen::ArrayXd& slope : one.slopes)
+        directions.push_back({slope, Eigen::MatrixXd::Ones(1, 1)});
+    }
     const Eigen::MatrixXd slopes = likelihood.slopes(directions);
+    const Eigen::ArrayXd power = residual_power(bands, s, ramp_power(model));
     out.information += slopes.transpose() * slopes;
-    out.score +=
-        slopes.transpose() * likelihood.excess(residual_power(bands, s, ramp_power(model)));
+    out.score += slopes.transpose() * likelihood.excess(power);
+    const Eigen::ArrayXd excess = (s > 0.0).select(power / s - 1.0, 0.0);
+    out.correction += slopes.transpose() * (2.0 * excess).matrix().asDiagonal() * slopes;
+    const Eigen::ArrayXd weight = (s > 0.0).select(0.5 * bands.count * excess / s, 0.0);
+    Eigen::Index first = 0;
+    for (const SpectralExpansion& one : expansions) {
+      const auto size = static_cast<Eigen::Index>(one.slopes.size());
+      for (Eigen::Index i = 0; i < size; ++i) {
+        for (Eigen::Index j = 0; j < size; ++j)
+          out.correction(first + i, first + j) -=
+              (weight * one.bend(static_cast<std::size_t>(i), static_cast<std::size_t>(j))).sum();
+      }
+      first += size;
+    }
   }
   return out;
 }
@@ -132,8 +169,11 @@ Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPo
   return out;
 }
 
-WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replicates,
-                        const Progress& progress) {
+namespace {
+
+// The maximum in these bands.
+WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replicates,
+                        const Progress& progress, Begin begin) {
   const std::vector<ParameterPlace> coordinates = coordinates_of(start);
   Eigen::VectorXd at(static_cast<Eigen::Index>(coordinates.size()));
   Likelihood likelihood;
@@ -157,8 +197,25 @@ WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replica
   likelihood.curvature = [&](const Eigen::VectorXd& x) {
     return curvature_at(model_at(x), coordinates, replicates);
   };
-  const Scored scored = maximise(likelihood, at, progress);
+  const Scored scored = begin == Begin::kNear ? fisher_scoring(likelihood, at, progress)
+                                              : maximise(likelihood, at, progress);
   return {sorted(model_at(scored.at)), scored.objective, scored.termination};
+}
+
+}  // namespace
+
+WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replicates,
+                        const Progress& progress, Begin begin) {
+  constexpr Eigen::Index kMany = 1000;  // bands, of which wider ones are less than half
+  const bool many = std::any_of(replicates.begin(), replicates.end(), [](const BandedPower& one) {
+    return one.frequency.size() > kMany;
+  });
+  if (!many) return maximum(start, replicates, progress, begin);
+  std::vector<BandedPower> wide;
+  for (const BandedPower& one : replicates) wide.push_back(in_wider_bands(one));
+  const Model rough = maximum(start, wide, progress, begin).model;
+  const bool helps = whittle_objective(rough, replicates) < whittle_objective(start, replicates);
+  return maximum(helps ? rough : start, replicates, progress, helps ? Begin::kNear : begin);
 }
 
 }  // namespace imunoise

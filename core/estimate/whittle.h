@@ -34,10 +34,17 @@ struct WhittleEstimate {
   Termination termination = Termination::kConverged;
 };
 
+/// Where a search for a maximum begins.
+enum class Begin {
+  kAnywhere,  ///< shapes may be lost, see maximise()
+  kNear,      ///< at the maximum of a likelihood much like this one
+};
+
 /// Maximum of the likelihood next to `start`, whose values are all set: Fisher scoring, powers ≥ 0.
 /// Given parameters stay. Efficient where the model is right; where it is not, the many
-/// coefficients of high frequencies decide, while moments weigh every octave.
+/// coefficients of high frequencies decide, while moments weigh every octave. The way leads through
+/// wider bands, where it is quick; what is narrower than these moves at its end.
 WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replicates,
-                        const Progress& progress = {});
+                        const Progress& progress = {}, Begin begin = Begin::kAnywhere);
 
 }  // namespace imunoise

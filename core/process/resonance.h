@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/process/contract.h"
 #include "core/process/second_order_recursion.h"
 
@@ -32,6 +34,9 @@ struct Resonance {
   Eigen::ArrayXd spectra(const Frequencies& f) const { return at(2.0 * f.half_sines().square()); }
   /// The same from 1 - cos 2πf.
   Eigen::ArrayXd at(const Eigen::ArrayXd& versines) const;
+  /// Whether its spectrum has a peak beside frequency 0. If not, it falls off like noise behind two
+  /// lags.
+  bool has_peak() const { return (1.0 + r * r) * std::cos(omega) < 2.0 * r; }
   SumCovariance sum_covariance() const;
   std::vector<DerivedQuantity> derived(Hertz rate) const;
   std::vector<std::vector<double>> scan(const Scales& scales) const;

@@ -17,11 +17,13 @@ constexpr double kSettled = 1e-4;  // nats
 
 }  // namespace
 
-JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress) {
+JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress,
+                   Begin begin) {
   JointFit out{.model = {start, regression.effects()}, .effects = regression.under(start)};
   for (int round = 0; round < kRounds && !progress.stopped(); ++round) {
     const std::vector<BandedPower> left = pooled(regression.residual(out.effects, out.model.noise));
-    const WhittleEstimate found = whittle(out.model.noise, left, progress);
+    const WhittleEstimate found =
+        whittle(out.model.noise, left, progress, round == 0 ? begin : Begin::kNear);
     out.model.noise = found.model;
     out.termination = found.termination;
     out.effects = regression.under(out.model.noise);

@@ -24,7 +24,8 @@ struct JointFit {
 /// Maximum of Whittle's likelihood next to `start`, whose values are all set: coefficients by
 /// generalised least squares under the noise, noise from what they leave (with the degrees of
 /// freedom that they took), in turns until neither moves.
-JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress = {});
+JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress = {},
+                   Begin begin = Begin::kAnywhere);
 
 /// What the replicates that count would be, were the fit true: transformed, divided by the root of
 /// the spectrum, and transformed back; less what

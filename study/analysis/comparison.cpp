@@ -7,7 +7,6 @@
 #include "core/diagnosis/views/scale_kurtosis.h"
 #include "core/diagnosis/views/sensor_pairs.h"
 #include "core/diagnosis/views/spectral_view.h"
-#include "core/estimate/estimators.h"
 
 namespace imunoise::study {
 namespace {
@@ -16,11 +15,10 @@ namespace {
 void add_replicates(const FittedModel& trial, const LeftOver& left,
                     const std::vector<std::string>& names, v1::Comparison& to) {
   const Model& noise = trial.fit.model.noise;
-  const MomentCovariances covariances = moment_covariances(noise, left.variances);
   for (std::size_t k = 0; k < left.variances.size(); ++k) {
     const WaveletVariance& own = left.variances[k];
     const Eigen::ArrayXd nu = variance(noise, own.scales.half_widths());
-    const Eigen::ArrayXd spread = covariances[k].diagonal().array();
+    const Eigen::ArrayXd spread = left.covariances[k].diagonal().array();
     v1::ReplicateResidual& one = *to.add_replicates();
     one.set_name(names[k]);
     one.set_samples(static_cast<std::uint32_t>(own.samples));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/views/left_over.h"
 #include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::study {

@@ -234,11 +234,10 @@ v1::Rung rung_of(const EvaluatedModel& evaluated, const Step& step, double first
 v1::NoiseBudget budget_of(const FittedModel& trial, const LeftOver& left) {
   const Model& noise = trial.fit.model.noise;
   const std::vector<WaveletVariance>& measured = left.variances;
-  const MomentCovariances covariances = moment_covariances(noise, measured);
-  const PerReplicate<NormalScores> scores = normal_scores(noise, measured, covariances);
+  const PerReplicate<NormalScores> scores = normal_scores(noise, measured, left.covariances);
   std::vector<std::vector<bool>> tested;
   for (std::size_t k = 0; k < measured.size(); ++k) tested.push_back(scores[k].used());
-  return noise_budget(noise, measured, covariances, tested, 0.95);
+  return noise_budget(noise, measured, left.covariances, tested, 0.95);
 }
 
 }  // namespace imunoise::study

@@ -4,6 +4,7 @@
 
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/heldout.h"
+#include "core/diagnosis/views/left_over.h"
 #include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::study {

@@ -2,6 +2,7 @@
 
 #include "core/diagnosis/heldout.h"
 #include "core/diagnosis/missing_resonance.h"
+#include "core/diagnosis/views/left_over.h"
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/less_effects.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnosis/heldout.h"
+#include "core/diagnosis/views/left_over.h"
 #include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::study {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/diagnosis/views/normal_power.h"
-#include "core/estimate/estimators.h"
 #include "core/inference/parameter_covariance.h"
 
 namespace imunoise {
@@ -29,14 +28,12 @@ struct PooledRatio {
   Eigen::MatrixXd covariance;
 };
 
-PooledRatio pooled_ratio(const Model& noise, const std::vector<WaveletVariance>& replicates,
-                         const Eigen::ArrayXd& expected) {
+PooledRatio pooled_ratio(const LeftOver& left, const Eigen::ArrayXd& expected) {
   const Index n = expected.size();
   Eigen::ArrayXd weights = Eigen::ArrayXd::Zero(n);
   PooledRatio out{Eigen::ArrayXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
-  const MomentCovariances covariances = moment_covariances(noise, replicates);
-  for (std::size_t k = 0; k < replicates.size(); ++k) {
-    const WaveletVariance& own = replicates[k];
+  for (std::size_t k = 0; k < left.variances.size(); ++k) {
+    const WaveletVariance& own = left.variances[k];
     const auto size = static_cast<Index>(own.scales.size());
     const Eigen::ArrayXd weight =
         static_cast<double>(own.samples) + 1.0 - 2.0 * own.scales.half_widths();
@@ -44,7 +41,7 @@ PooledRatio pooled_ratio(const Model& noise, const std::vector<WaveletVariance>&
     weights.head(size) += weight;
     out.ratio.head(size) += relative * own.variance;
     out.covariance.topLeftCorner(size, size) +=
-        relative.matrix().asDiagonal() * covariances[k] * relative.matrix().asDiagonal();
+        relative.matrix().asDiagonal() * left.covariances[k] * relative.matrix().asDiagonal();
   }
   out.ratio /= weights;
   const Eigen::VectorXd inverse = weights.inverse().matrix();
@@ -54,11 +51,11 @@ PooledRatio pooled_ratio(const Model& noise, const std::vector<WaveletVariance>&
 
 }  // namespace
 
-AveragingTimes averaging_times(const Model& noise, const std::vector<WaveletVariance>& replicates) {
-  const Scales& scales = longest_scales(replicates);
+AveragingTimes averaging_times(const Model& noise, const LeftOver& left) {
+  const Scales& scales = longest_scales(left.variances);
   const Eigen::ArrayXd m = scales.half_widths();
   const Eigen::ArrayXd expected = variance(noise, m);
-  const PooledRatio pooled = pooled_ratio(noise, replicates, expected);
+  const PooledRatio pooled = pooled_ratio(left, expected);
   std::vector<Index> used;
   for (Index i = 0; i < m.size(); ++i) {
     if (2.0 / pooled.covariance(i, i) >= kFewestDegrees) used.push_back(i);
@@ -72,7 +69,7 @@ AveragingTimes averaging_times(const Model& noise, const std::vector<WaveletVari
   for (Index i = 0; i < n; ++i) {
     const Index at = used[static_cast<std::size_t>(i)];
     const double spread = std::sqrt(pooled.covariance(at, at));
-    out.seconds(i) = 2.0 * m(at) / replicates.front().rate.value;
+    out.seconds(i) = 2.0 * m(at) / left.variances.front().rate.value;
     out.ratio(i) = pooled.ratio(at);
     out.relative(i) = 0.5 * spread;
     z(i) = normal_score(pooled.ratio(at), 2.0 / (spread * spread));
@@ -88,8 +85,9 @@ AveragingTimes averaging_times(const Model& noise, const std::vector<WaveletVari
   z = whitening * z;
   a = whitening * a;
   const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
-  const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
-  out.test = chi_square_test(left.squaredNorm(), std::max<Index>(0, z.size() - inverse.rank));
+  const Eigen::VectorXd unexplained = z - a * (inverse.matrix * (a.transpose() * z));
+  out.test =
+      chi_square_test(unexplained.squaredNorm(), std::max<Index>(0, z.size() - inverse.rank));
   return out;
 }
 

@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/diagnosis/views/left_over.h"
 #include "core/inference/goodness.h"
-#include "core/wavelet/wavelet_variance.h"
+#include "core/model/model.h"
 
 namespace imunoise {
 
@@ -17,6 +18,6 @@ struct AveragingTimes {
 };
 
 /// Replicates may differ in length: a scale counts those that have it.
-AveragingTimes averaging_times(const Model& noise, const std::vector<WaveletVariance>& replicates);
+AveragingTimes averaging_times(const Model& noise, const LeftOver& left);
 
 }  // namespace imunoise

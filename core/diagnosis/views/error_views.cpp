@@ -38,8 +38,7 @@ auto worst_of(const Range& range, const Measure& measure) {
                           [&](const auto& a, const auto& b) { return measure(a) < measure(b); });
 }
 
-std::optional<ErrorView> over_averaging_times(const Model& noise,
-                                              const std::vector<WaveletVariance>& left) {
+std::optional<ErrorView> over_averaging_times(const Model& noise, const LeftOver& left) {
   const AveragingTimes at = averaging_times(noise, left);
   auto out = mean_view("averaging_times", at.test, at.relative.square().inverse().sum());
   if (!out) return out;
@@ -139,8 +138,7 @@ std::optional<ErrorView> of_witnesses(const Current& current) {
 
 }  // namespace
 
-std::vector<ErrorView> error_views(const FittedModel& fitted,
-                                   const std::vector<WaveletVariance>& left,
+std::vector<ErrorView> error_views(const FittedModel& fitted, const LeftOver& left,
                                    const MisfitReport& misfit) {
   const Current current = current_of(fitted.regression, fitted.fit);
   std::vector<ErrorView> out;

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/diagnosis/views/left_over.h"
 #include "core/diagnosis/views/misfit.h"
-#include "core/wavelet/wavelet_variance.h"
 
 namespace imunoise {
 
@@ -40,8 +40,7 @@ struct ErrorView {
 /// innovations' power that the best explains, %), replicates (power, %). A view that the data
 /// cannot show (one replicate, no witness, too few averaging times) is left out. `left`: what the
 /// effects leave of each replicate, in octaves.
-std::vector<ErrorView> error_views(const FittedModel& fitted,
-                                   const std::vector<WaveletVariance>& left,
+std::vector<ErrorView> error_views(const FittedModel& fitted, const LeftOver& left,
                                    const MisfitReport& misfit);
 
 }  // namespace imunoise

@@ -78,7 +78,7 @@ std::vector<v1::ErrorView> views_of(const FittedModel& trial, const LeftOver& le
                                     const MisfitReport& misfit,
                                     const std::vector<std::string>& replicates) {
   std::vector<v1::ErrorView> out;
-  for (const ErrorView& one : error_views(trial, left.variances, misfit))
+  for (const ErrorView& one : error_views(trial, left, misfit))
     out.push_back(message_of(one, trial.regression.subject(), replicates));
   return out;
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnosis/heldout.h"
 #include "core/diagnosis/views/error_views.h"
+#include "core/diagnosis/views/left_over.h"
 #include "imunoise/v1/diagnosis.pb.h"
 
 namespace imunoise::study {

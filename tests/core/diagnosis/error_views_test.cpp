@@ -12,6 +12,7 @@
 #include <random>
 
 #include "core/diagnosis/heldout.h"
+#include "core/diagnosis/views/left_over.h"
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {
@@ -23,7 +24,7 @@ double heat(std::size_t k, double s) {
 
 std::map<std::string, ErrorView> views_of(const FittedModel& trial) {
   std::map<std::string, ErrorView> out;
-  for (const ErrorView& one : error_views(trial, left_over(trial).variances, misfit_of(trial)))
+  for (const ErrorView& one : error_views(trial, left_over(trial), misfit_of(trial)))
     out.emplace(std::string(one.view), one);
   return out;
 }
