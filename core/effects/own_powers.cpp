@@ -32,7 +32,7 @@ void fit_own_powers(const EffectTerm& term, const Regression& regression, JointF
   const std::vector<BandedPower> residual = regression.residual(fit.effects.value);
   std::vector<WhittleEstimate> found(residual.size());
   for_each_index(residual.size(), [&](std::size_t i) {
-    found[i] = own_noise_of(term, fit.model.noise, std::span(&residual[i], 1));
+    found[i] = own_noise_of(term, fit.model.noise, fit.model.noise, std::span(&residual[i], 1));
   });
   fit.log_likelihood = 0.0;
   fit.own_noise.assign(regression.subject().replicates(), fit.model.noise);
@@ -188,9 +188,9 @@ void review_own_powers(const Current& current, TriedTerm& tried) {
 
 }  // namespace
 
-WhittleEstimate own_noise_of(const EffectTerm& term, const Model& noise,
+WhittleEstimate own_noise_of(const EffectTerm& term, const Model& shared, const Model& own,
                              std::span<const BandedPower> measured) {
-  return whittle(with_shapes(term) ? noise : powers_only(noise), measured, {}, Begin::kNear);
+  return whittle(with_shapes(term) ? own : powers_only(shared), measured, {}, Begin::kNear);
 }
 
 const Effect& own_powers() {

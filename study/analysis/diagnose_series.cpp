@@ -24,7 +24,7 @@
 namespace imunoise::study {
 namespace {
 
-constexpr int kMostRungs = 12;
+constexpr int kMostRungs = 16;
 constexpr Eigen::Index kMany = 2'000'000;  // samples of all replicates: a ladder takes short cuts
 
 Step step_of(const TriedTerm& tried) {

@@ -136,6 +136,55 @@ TEST(Ladder, TheHeadlineNamesAllThatItFoundWithAmplitudes) {
   EXPECT_GT(quantum.upper(), std::sqrt(0.3) / 50.0);
 }
 
+// The findings of a ladder that added these, each of a known cause, and ended with this model.
+v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string>& added) {
+  FullModel start = *parse_full_model(model, kFifty);
+  for (Term& term : start.noise.terms) term.given.assign(term.given.size(), false);
+  const std::vector<double> samples = simulate(start.noise, 4096, 52, 0);
+  const Signal signal(std::span<const double>(samples), kFifty, Quantity::kAngularRate);
+  const FittedModel last =
+      fit_full_model(std::make_shared<const Subject>(make_subject({signal, signal}, {})), start);
+  v1::DiagnosisReport out;
+  out.add_ladder();
+  for (const std::string& term : added) {
+    v1::Rung& rung = *out.add_ladder();
+    rung.set_added(term);
+    rung.set_effect("resonance");
+  }
+  add_findings(last, out);
+  return out;
+}
+
+// Two resonances are two, each with its own frequency: ω/2π of 50 Hz, 4.8 and 17.5 Hz.
+TEST(Ladder, EachResonanceHasItsOwnFrequency) {
+  const v1::DiagnosisReport report = findings_of(
+      "WN(sigma2=1) + RES(sigma2=1, r=0.97, omega=0.6) + RES(sigma2=1, r=0.97, omega=2.2)",
+      {"RES", "RES"});
+  ASSERT_EQ(report.findings_size(), 2);
+  EXPECT_EQ(report.findings(0).amplitude().name(), "frequency");
+  std::set<long> hertz;
+  for (const v1::LadderFinding& one : report.findings())
+    hertz.insert(std::lround(10.0 * one.amplitude().value()));
+  EXPECT_EQ(hertz, (std::set<long>{48, 175}));
+}
+
+// Noise that comes with a coupling is one rung, and no less found than either alone.
+TEST(Ladder, NamesNoiseThatCameWithACoupling) {
+  const v1::DiagnosisReport report =
+      findings_of("WN(sigma2=1) + RW(gamma2=1e-5) + line(f=0.02)", {"RW + line(f=0.02)"});
+  ASSERT_EQ(report.findings_size(), 1);
+  EXPECT_EQ(report.findings(0).term(), "RW + line(f=0.02)");
+  EXPECT_EQ(report.findings(0).amplitude().unit(), "rad/s");
+}
+
+// Of what a rung added, the part that was dropped later is not named.
+TEST(Ladder, NamesOnlyWhatTheLastModelHas) {
+  const v1::DiagnosisReport report =
+      findings_of("WN(sigma2=1) + line(f=0.02)", {"RW + line(f=0.02)", "RW"});
+  ASSERT_EQ(report.findings_size(), 1);
+  EXPECT_EQ(report.findings(0).term(), "line(f=0.02)");
+}
+
 // What a coupling adds to the samples is told in their unit.
 TEST(Ladder, ACouplingIsToldByWhatItAddsToTheSamples) {
   auto recordings = three_of("WN(sigma2=1)", 0.0, 1.0);

@@ -81,17 +81,68 @@ ReportedNumber size_of_noise(const FittedModel& model, std::size_t term) {
   return {};
 }
 
-std::optional<ReportedNumber> size_of_added(const FittedModel& model, const std::string& added) {
-  const std::vector<EffectTerm>& effects = model.regression.effects();
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (print(effects[e]) == added) return size_of(model, e);
+// "RES + witness(b)": what one rung added, apart.
+std::vector<std::string> parts_of(const std::string& added) {
+  constexpr std::string_view kPlus = " + ";
+  std::vector<std::string> out;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; end != std::string::npos; begin = end + kPlus.size()) {
+    end = added.find(kPlus, begin);
+    out.push_back(added.substr(begin, end == std::string::npos ? end : end - begin));
   }
-  const std::vector<Term>& terms = model.fit.model.noise.terms;
-  for (std::size_t t = terms.size(); t-- > 0;) {
-    if (printed_alone(terms[t]) == added) return size_of_noise(model, t);
-  }
-  return std::nullopt;
+  return out;
 }
+
+// What the last model has of it, and how large that is.
+struct Kept {
+  std::string term{};
+  std::optional<ReportedNumber> size{};
+};
+
+// The last model, each of whose noise terms is one rung's only.
+class LastModel {
+ public:
+  explicit LastModel(const FittedModel& model)
+      : model_(model), taken_(model.fit.model.noise.terms.size(), false) {}
+
+  /// Of what one rung added. The size is that of an effect, else of noise.
+  Kept kept(const std::string& added) {
+    Kept out;
+    std::optional<ReportedNumber> of_noise;
+    for (const std::string& part : parts_of(added)) {
+      const auto effect = effect_of(part);
+      const auto noise = effect ? std::nullopt : take_noise(part);
+      if (!effect && !noise) continue;  // it was dropped later
+      out.term += fmt::format("{}{}", out.term.empty() ? "" : " + ", part);
+      if (effect && !out.size) out.size = size_of(model_, *effect);
+      if (noise) of_noise = size_of_noise(model_, *noise);
+    }
+    if (!out.size) out.size = of_noise;
+    return out;
+  }
+
+ private:
+  std::optional<std::size_t> effect_of(const std::string& part) const {
+    const std::vector<EffectTerm>& effects = model_.regression.effects();
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      if (print(effects[e]) == part) return e;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::size_t> take_noise(const std::string& part) {
+    const std::vector<Term>& terms = model_.fit.model.noise.terms;
+    for (std::size_t t = terms.size(); t-- > 0;) {
+      if (taken_[t] || printed_alone(terms[t]) != part) continue;
+      taken_[t] = true;
+      return t;
+    }
+    return std::nullopt;
+  }
+
+  const FittedModel& model_;
+  std::vector<bool> taken_;
+};
 
 std::string sentence_of(const v1::LadderFinding& found) {
   const v1::EffectParameter& size = found.amplitude();
@@ -125,14 +176,15 @@ void add_findings(const FittedModel& last, v1::DiagnosisReport& to) {
     }
     kept.push_back(&to.ladder(i));
   }
+  LastModel model(last);
   for (const v1::Rung* rung : kept) {
-    const auto size = size_of_added(last, rung->added());
-    if (!size) continue;  // it was dropped with the rung that added it
+    const Kept left = model.kept(rung->added());
+    if (!left.size) continue;  // it was dropped with the rung that added it
     v1::LadderFinding& found = *to.add_findings();
     found.set_effect(rung->effect());
     found.set_title(std::string(cause_info(rung->effect()).title));
-    found.set_term(rung->added());
-    if (!size->name.empty()) *found.mutable_amplitude() = message_of(*size);
+    found.set_term(left.term);
+    if (!left.size->name.empty()) *found.mutable_amplitude() = message_of(*left.size);
     found.set_sentence(sentence_of(found));
   }
 }
