@@ -48,8 +48,8 @@ double modulation_gain(const Regression& one, const JointFit& fit,
 }
 
 // What noise of its own gains on the quarters of a replicate, each by a fit to the other three.
-// The search begins at what was fitted to all four, `own`: from the others' noise it can end in a
-// lower maximum, by hundreds of nats.
+// The search begins at what was fitted to all four, `own`: from the noise of other replicates it
+// can end in a lower maximum.
 double own_noise_gain(const EffectTerm& term, const Model& noise, const Model& own,
                       const Eigen::VectorXd& left, const Subject& subject) {
   const std::size_t length = quick_length(static_cast<std::size_t>(left.size()) / kBlocks);

@@ -121,6 +121,37 @@ Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& co
   return out;
 }
 
+// The maximum in these bands.
+WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replicates,
+                        const Progress& progress, Begin begin) {
+  const std::vector<ParameterPlace> coordinates = coordinates_of(start);
+  Eigen::VectorXd at(static_cast<Eigen::Index>(coordinates.size()));
+  Likelihood likelihood;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    at(static_cast<Eigen::Index>(i)) =
+        searched(process_of(start, coordinates[i]), coordinates[i].parameter);
+    likelihood.cones.push_back(coordinates[i].parameter == 0 ? 1 : Likelihood::kFree);
+  }
+  const auto model_at = [&](const Eigen::VectorXd& x) {
+    Model out = start;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      const ParameterPlace& c = coordinates[i];
+      set_searched(out.terms[c.term].process, c.parameter, x(static_cast<Eigen::Index>(i)));
+    }
+    fit_ramp(out, replicates);
+    return out;
+  };
+  likelihood.objective = [&](const Eigen::VectorXd& x) {
+    return whittle_objective(model_at(x), replicates);
+  };
+  likelihood.curvature = [&](const Eigen::VectorXd& x) {
+    return curvature_at(model_at(x), coordinates, replicates);
+  };
+  const Scored scored = begin == Begin::kNear ? fisher_scoring(likelihood, at, progress)
+                                              : maximise(likelihood, at, progress);
+  return {sorted(model_at(scored.at)), scored.objective, scored.termination};
+}
+
 }  // namespace
 
 double whittle_objective(const Model& model, std::span<const BandedPower> replicates) {
@@ -169,44 +200,9 @@ Eigen::MatrixXd whittle_information(const Model& model, std::span<const BandedPo
   return out;
 }
 
-namespace {
-
-// The maximum in these bands.
-WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replicates,
-                        const Progress& progress, Begin begin) {
-  const std::vector<ParameterPlace> coordinates = coordinates_of(start);
-  Eigen::VectorXd at(static_cast<Eigen::Index>(coordinates.size()));
-  Likelihood likelihood;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    at(static_cast<Eigen::Index>(i)) =
-        searched(process_of(start, coordinates[i]), coordinates[i].parameter);
-    likelihood.cones.push_back(coordinates[i].parameter == 0 ? 1 : Likelihood::kFree);
-  }
-  const auto model_at = [&](const Eigen::VectorXd& x) {
-    Model out = start;
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      const ParameterPlace& c = coordinates[i];
-      set_searched(out.terms[c.term].process, c.parameter, x(static_cast<Eigen::Index>(i)));
-    }
-    fit_ramp(out, replicates);
-    return out;
-  };
-  likelihood.objective = [&](const Eigen::VectorXd& x) {
-    return whittle_objective(model_at(x), replicates);
-  };
-  likelihood.curvature = [&](const Eigen::VectorXd& x) {
-    return curvature_at(model_at(x), coordinates, replicates);
-  };
-  const Scored scored = begin == Begin::kNear ? fisher_scoring(likelihood, at, progress)
-                                              : maximise(likelihood, at, progress);
-  return {sorted(model_at(scored.at)), scored.objective, scored.termination};
-}
-
-}  // namespace
-
 WhittleEstimate whittle(const Model& start, std::span<const BandedPower> replicates,
                         const Progress& progress, Begin begin) {
-  constexpr Eigen::Index kMany = 1000;  // bands, of which wider ones are less than half
+  constexpr Eigen::Index kMany = 1000;  // bands: wide ones are then fewer than half as many
   const bool many = std::any_of(replicates.begin(), replicates.end(), [](const BandedPower& one) {
     return one.frequency.size() > kMany;
   });

@@ -17,7 +17,8 @@ struct AveragingTimes {
   TestOutcome test;         ///< of all, orthogonal to what the model's parameters can explain
 };
 
-/// Replicates may differ in length: a scale counts those that have it.
+/// `left`: left_over() of a model with this noise. Replicates may differ in length: a scale counts
+/// those that have it.
 AveragingTimes averaging_times(const Model& noise, const LeftOver& left);
 
 }  // namespace imunoise
