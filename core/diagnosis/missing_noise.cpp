@@ -9,6 +9,7 @@
 #include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/score_space.h"
 #include "core/diagnosis/steadiness.h"
+#include "core/search/noise_bump.h"
 
 namespace imunoise {
 namespace {
@@ -241,7 +242,7 @@ std::vector<Cause> noise_causes() {
        "resonance",
        "The sensing element, its mount or the bench rings when noise excites it.",
        "the same on another mount, and with a tap on the bench",
-       {"line", "gauss_markov"},
+       {"line", "gauss_markov", "oscillation"},
        "resonance",
        false,
        true},
@@ -270,6 +271,7 @@ void review_noise(const Current& current, TriedTerm& tried) {
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
   if (tried.cause == "resonance" && made_of_lines(tried.fitted.regression, tried.fitted.fit, added))
     tried.could_be.push_back("line");
+  if (tried.cause == "resonance" && may_be_tone(current)) tried.could_be.push_back("oscillation");
   tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
 }
 

@@ -10,6 +10,7 @@
   EFFECT(warm_up)                \
   EFFECT(line)                   \
   EFFECT(wander)                 \
+  EFFECT(oscillation)            \
   EFFECT(step)                   \
   EFFECT(common_course)          \
   EFFECT(witness)                \

@@ -55,6 +55,7 @@ const std::vector<Example>& examples() {
       {"variance_wander(tau=20, deviation=0.8)", 0.5},
       {"bursts(length=20, every=200, ratio=6)", 0.3},
       {"wander(from=0.6, to=0.8, amplitude=0.8)", 0.3},
+      {"oscillation(from=0.5, to=0.9, amplitude=1.5)", 0.2},
       {"two_lags(heat, fast=3, slow=20, coefficient=0.1)"},
   };
   return all;

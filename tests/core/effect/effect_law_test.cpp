@@ -143,6 +143,7 @@ const std::vector<std::string>& simulated_terms() {
       "common_course(terms=6, amplitude=1)",
       "line(f=7.3, amplitude=0.3)",
       "wander(from=7.1, to=7.4, amplitude=0.4)",
+      "oscillation(from=6, to=10, amplitude=0.8)",
       "step(replicate=2, t=90, height=0.8)",
       "witness(temperature, coefficient=0.4)",
       "two_lags(temperature, fast=3, slow=6, coefficient=1.5)",

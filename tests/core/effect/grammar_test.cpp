@@ -33,6 +33,7 @@ TEST(EffectTerm, EveryKindIsReadAsItIsPrinted) {
                            "WN + heavy_tails(dof=4)",
                            "WN + variance_wander(tau=30)",
                            "WN + bursts(length=2, every=30)",
+                           "WN + oscillation(from=15, to=30)",
                            "AR1 + WN + own_powers"}) {
     const Result<FullModel> read = parse_full_model(text, kEffectRate);
     ASSERT_TRUE(read) << text << ": " << read.error().message;

@@ -1,0 +1,186 @@
+// oscillation: a tone of constant amplitude whose phase and frequency are never at rest.
+//
+// Its spectrum is that of noise that rings. Its amplitude tells them apart: noise that rings grows
+// and fades, an oscillator does not. What it adds is no sum of waves, so it is no regressor: a
+// filter follows it, and each sample becomes the normal number that says where it lies among what
+// those before it make likely.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/effect/columns.h"
+#include "core/effects/distributions/wandering_tone.h"
+#include "core/effects/draws.h"
+#include "core/search/noise_bump.h"
+#include "core/search/search_view.h"
+#include "core/spectrum/bands.h"
+#include "core/spectrum/cosine_transform.h"
+#include "core/support/parallel.h"
+
+namespace imunoise::effects {
+
+const Effect& oscillation();
+
+namespace {
+
+using Index = Eigen::Index;
+using Occupancy = WanderingTone::Occupancy;
+
+enum OscillationParameter : std::size_t { kOscillationFrom, kOscillationTo, kOscillationAmplitude };
+
+struct FoundTone : Found {
+  explicit FoundTone(FittedTone tone) : fitted(std::move(tone)) {}
+  FittedTone fitted;
+};
+
+NoiseBump band_of(const EffectTerm& term, Hertz rate) {
+  return {term[kOscillationFrom] / rate.value, term[kOscillationTo] / rate.value};
+}
+
+std::shared_ptr<const Subject> without_oscillation(const EffectTerm& term, const Current& current) {
+  auto out = std::make_shared<Subject>(current.subject());
+  const NoiseBump band = band_of(term, out->rate);
+  const std::size_t count = out->replicates();
+  std::vector<Eigen::ArrayXd> deviation(count);
+  std::vector<ToneSeries> white(count);
+  for_each_index(count, [&](std::size_t k) {
+    deviation[k] = spectrum_beside(current, band, k).sqrt();
+    const Index middle = coefficients_below(0.5 * (band.from + band.to), deviation[k].size() + 1);
+    white[k] = {inverse_cosine_transform((current.cosines[k].array() / deviation[k]).matrix()),
+                deviation[k](middle)};
+  });
+  auto found = std::make_shared<FoundTone>(fit_tone(band.from, band.to, white));
+  out->reshaped_nats.resize(count, 0.0);
+  out->own_nats.resize(count, 0.0);
+  for_each_index(count, [&](std::size_t k) {
+    Eigen::VectorXd normal;
+    const ToneFilter filter = found->fitted.filter(white[k], k);
+    const ToneFilter::Passed passed = filter.pass(white[k].samples, normal);
+    // The density of the samples over that of the normal numbers in their place.
+    out->reshaped_nats[k] +=
+        passed.nats + 0.5 * (normal.squaredNorm() - white[k].samples.squaredNorm());
+    out->own_nats[k] += static_cast<double>(WanderingTone::kPlaces - 1);
+    const Eigen::ArrayXd left = cosine_transform(std::move(normal)).array() * deviation[k];
+    Eigen::VectorXd cosines =
+        (out->cosines[k].array() + left - current.cosines[k].array()).matrix();
+    out->samples[k] = inverse_cosine_transform(cosines);
+    out->cosines[k] = std::move(cosines);
+  });
+  out->keep(term, std::move(found));
+  return out;
+}
+
+std::string_view oscillation_fault(const EffectTerm& term) {
+  return term[kOscillationFrom] < term[kOscillationTo] ? "" : "from must lie below to";
+}
+
+Result<void> check_oscillation(const EffectTerm& term, const Subject& subject) {
+  if (term[kOscillationTo] > 0.5 * subject.rate.value) return too_fast(term, subject);
+  return {};
+}
+
+// The frequency stays near the middle of the band and changes within some turns of what it
+// deviates by.
+void simulate_oscillation(const EffectTerm& term, const SimulatedReplicate& at,
+                          Eigen::VectorXd& samples) {
+  constexpr double kFullTurn = 2.0 * std::numbers::pi;
+  const double rate = at.beside.rate.value;
+  const double width = (term[kOscillationTo] - term[kOscillationFrom]) / rate;
+  const double middle = 0.5 * (term[kOscillationTo] + term[kOscillationFrom]) / rate;
+  const double deviation = width / 8.0;
+  const double keep = std::exp(-0.5 * width);
+  double away = at.random.normal();
+  double phase = kFullTurn * uniform_number(at.random);
+  for (double& x : samples) {
+    x += term[kOscillationAmplitude] * std::cos(phase);
+    phase += kFullTurn * (middle + deviation * away);
+    away = keep * away + std::sqrt(1.0 - keep * keep) * at.random.normal();
+  }
+}
+
+Suggestions search_oscillation(const SearchView& view) {
+  constexpr double kSurely = -4.0;  // standard errors; a tone keeps to its amplitude
+  const Current& current = view.current();
+  const Subject& subject = view.subject();
+  const std::optional<NoiseBump> bump = highest_bump(current);
+  if (!bump) return {};
+  const EffectTerm band(
+      oscillation(), "",
+      {{"from", bump->from * subject.rate.value}, {"to", bump->to * subject.rate.value}});
+  const BumpTails tails = tails_of(current, *bump);
+  const double light = tails.excess / tails.error;
+  // Nats by which a distribution of that kurtosis differs from a normal one.
+  const double nats = light < kSurely ? 0.5 * light * light : 0.0;
+  const auto places = static_cast<double>(WanderingTone::kPlaces - 1);
+  return {{.cause = "oscillation",
+           .added = rounded(band, 0.0, subject.rate),
+           .score_nats = nats,
+           .dof = 3.0 + places * static_cast<double>(subject.replicates())}};
+}
+
+std::vector<ReportedNumber> oscillation_numbers(const FittedEffect& effect) {
+  const auto* const found = effect.subject().found_by<FoundTone>(effect.term());
+  if (found == nullptr) return {};
+  const WanderingTone& tone = found->fitted.tone;
+  const double rate = effect.subject().rate.value;
+  Occupancy occupancy = Occupancy::Zero();
+  for (const Occupancy& one : found->fitted.occupancy) occupancy += one;
+  occupancy /= occupancy.sum();
+  double mean = 0.0;
+  double square = 0.0;
+  for (Index j = 0; j < occupancy.size(); ++j) {
+    mean += occupancy(j) * tone.frequency(j);
+    square += occupancy(j) * tone.frequency(j) * tone.frequency(j);
+  }
+  return {with_error({"amplitude", tone.amplitude, unit_of(effect.term(), effect.subject())},
+                     found->fitted.amplitude_error),
+          {"mean_frequency_hz", mean * rate, "Hz"},
+          {"frequency_deviation_hz", std::sqrt(std::max(0.0, square - mean * mean)) * rate, "Hz"}};
+}
+
+}  // namespace
+
+const Effect& oscillation() {
+  static const Effect kOscillation{
+      .name = "oscillation",
+      .title = "oscillation",
+      .meaning = "Adds a tone of constant amplitude whose frequency is never at rest.",
+      .parameters = {{.name = "from",
+                      .meaning = "lowest frequency that the tone may take",
+                      .unit = "Hz",
+                      .required = true,
+                      .reported = "from_hz",
+                      .rounding = Rounding::kFourDigits},
+                     {.name = "to",
+                      .meaning = "highest frequency that the tone may take",
+                      .unit = "Hz",
+                      .required = true,
+                      .reported = "to_hz",
+                      .rounding = Rounding::kFourDigits},
+                     {.name = "amplitude",
+                      .meaning = "amplitude of the tone",
+                      .reported = "amplitude",
+                      .truth = true}},
+      .causes = {{.id = "oscillation",
+                  .title = "oscillation of unsteady frequency",
+                  .physics =
+                      "Something oscillates by itself, and the sampling is too slow or too "
+                      "uneven to see it as one line: the drive of a gyroscope or a switching "
+                      "supply above half the sampling rate, or a machine whose speed "
+                      "varies.",
+                  .record_next = "the same at another sampling rate: a tone from above half of it "
+                                 "moves",
+                  .looks_like = {"resonance", "wandering_line"},
+                  .family = "oscillation"}},
+      .fault = oscillation_fault,
+      .check = check_oscillation,
+      .cleaned = without_oscillation,
+      .simulate = simulate_oscillation,
+      .search = search_oscillation,
+      .numbers = oscillation_numbers,
+  };
+  return kOscillation;
+}
+
+}  // namespace imunoise::effects

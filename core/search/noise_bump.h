@@ -1,0 +1,40 @@
+#pragma once
+
+// Noise that stands out in a band of frequencies, seen in what a fit leaves.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+
+#include "core/regression/current.h"
+
+namespace imunoise {
+
+/// Between two frequencies, cycles per sample.
+struct NoiseBump {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+/// Where the power of all replicates stands out most over that beside it, by a fifth at least;
+/// whether or not the model has noise for it.
+std::optional<NoiseBump> highest_bump(const Current& current);
+
+/// Spectrum of a replicate without what stands out between two frequencies: as measured, in wide
+/// bands, and straight between the two. At its coefficients, as Current::spectrum.
+Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump,
+                               std::size_t replicate);
+
+/// Kurtosis less 3 of what stands out. Noise is a sum of many waves, which is normal: 0. A tone
+/// keeps to its amplitude.
+struct BumpTails {
+  double excess = 0.0;
+  double error = INFINITY;  ///< standard error, if it is noise
+  double of_tone = 0.0;     ///< what it would be if all that stands out were a tone
+};
+BumpTails tails_of(const Current& current, const NoiseBump& bump);
+
+/// Whether a tone of unsteady frequency may be what looks like a resonance.
+bool may_be_tone(const Current& current);
+
+}  // namespace imunoise
