@@ -67,12 +67,17 @@ Suggestions search_variance_wander(const SearchView& view) {
   }
   constexpr double kSurely = 3.0;  // nats
   if (gain > kSurely) gain += std::max(0.0, power->normal_gain() - power->wander_gain());
-  const double shortest = 2.0 / view.subject().rate.value;
+  const Subject& subject = view.subject();
+  const double shortest = 2.0 / subject.rate.value;
+  // A power that moves within none of the replicates has a time as long as they are, or longer.
+  double longest = shortest;
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    longest = std::max(longest, subject.seconds(k));
   const double seconds = power->correlation_time();
   if (!(seconds >= shortest)) gain = 0.0;
   constexpr double kPlaces = 8.0;  // separate correlation times
   return {{.cause = "variance_wander",
-           .added = EffectTerm(variance_wander(), "", {{"tau", std::max(seconds, shortest)}}),
+           .added = EffectTerm(variance_wander(), "", {{"tau", std::clamp(seconds, shortest, longest)}}),
            .score_nats = std::max(0.0, gain),
            .power = true,
            .search = {.log_places = std::log(kPlaces)}}};

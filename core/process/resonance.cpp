@@ -66,12 +66,11 @@ double Resonance::spectrum(const Frequency& f) const {
 
 // |1 - 2r cos ω z + r²z²|², z = e^-iθ, is 4r²(cos θ - (1 + r²)/2r · cos ω)² + (1 - r²)² sin² ω;
 // cosines as 1 - 2 sin² of half the angle, whose digits do not cancel.
-Eigen::ArrayXd Resonance::at(const Eigen::ArrayXd& versines) const {
+Resonance::Line Resonance::line() const {
   const double shift = (1.0 - r) * (1.0 - r) / (2.0 * r);  // (1 + r²)/2r - 1
   const double half = std::sin(0.5 * omega);
-  const double centre = 2.0 * half * half - shift * std::cos(omega);
   const double floor = (1.0 - r) * (1.0 + r) * std::sin(omega);
-  return sigma2 / (4.0 * r * r * (versines - centre).square() + floor * floor);
+  return {sigma2, 4.0 * r * r, 2.0 * half * half - shift * std::cos(omega), floor * floor};
 }
 
 SumCovariance Resonance::sum_covariance() const {

@@ -31,9 +31,19 @@ struct Resonance {
   Eigen::ArrayXXd shape_jacobian(HalfWidths m) const;
   double spectrum(const Frequency& f) const;
   /// The same at many frequencies.
-  Eigen::ArrayXd spectra(const Frequencies& f) const { return at(2.0 * f.half_sines().square()); }
-  /// The same from 1 - cos 2πf.
-  Eigen::ArrayXd at(const Eigen::ArrayXd& versines) const;
+  Eigen::ArrayXd spectra(const Frequencies& f) const {
+    const Line all = line();
+    return all.power /
+           (all.steepness * (2.0 * f.half_sines().square() - all.centre).square() + all.floor);
+  }
+  /// The spectrum is power/(steepness (v - centre)² + floor) at v = 1 - cos 2πf.
+  struct Line {
+    double power;
+    double steepness;
+    double centre;
+    double floor;
+  };
+  Line line() const;
   /// Whether its spectrum has a peak beside frequency 0. If not, it falls off like noise behind two
   /// lags.
   bool has_peak() const { return (1.0 + r * r) * std::cos(omega) < 2.0 * r; }

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "core/diagnosis/diagnose.h"
+#include "core/effects/known_effects.h"
 #include "core/process/process.h"
+#include "core/search/search_view.h"
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {
@@ -153,6 +155,23 @@ TEST(Diagnose, PowerThatWandersByItself) {
 
 // What each distribution gains over the normal one is what a fit with it gains, wherever the level
 // of the noise settles.
+// Levels that differ between replicates and stay within them: no recording shows a time longer than
+// itself.
+TEST(VarianceWander, ItsTimeIsNoLongerThanTheReplicates) {
+  const auto slow = parse_full_model("WN + variance_wander(tau=1e5, deviation=1)", Hertz{50.0});
+  int sought = 0;
+  for (std::uint64_t seed = 8500; seed < 8510; ++seed) {
+    const FittedModel plain =
+        fitted(with_effects(*subject_of({.seed = seed}), slow->effects, seed));
+    const Current current = current_of(plain.regression, plain.fit);
+    for (const Suggestion& one : effect_named("variance_wander").search(SearchView(current))) {
+      EXPECT_LE(std::get<EffectTerm>(one.added)["tau"], current.subject().seconds(0)) << seed;
+      ++sought;
+    }
+  }
+  EXPECT_EQ(sought, 10);
+}
+
 TEST(Diagnose, HeavyTailsAndBurstsAreNoOutliers) {
   constexpr std::uint64_t kSeed = 8600;
   const std::pair<const char*, const char*> kinds[] = {
