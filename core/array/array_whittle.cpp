@@ -116,7 +116,7 @@ class ArrayLikelihood {
     out.objective = [this](const Eigen::VectorXd& x) {
       return whittle_objective(model_at(x), replicates_);
     };
-    out.curvature = [this](const Eigen::VectorXd& x) {
+    out.curvature = [this](const Eigen::VectorXd& x, Asked) {
       return curvature_at(model_at(x), parameters_, replicates_);
     };
     return out;

@@ -97,8 +97,8 @@ class Damping {
 // One step uphill, shorter and shorter until the likelihood grows. Returns by how much.
 double step_up(const Likelihood& likelihood, const Places& places, bool near, Damping& damping,
                Scored& from) {
-  Curvature here = likelihood.curvature(from.at);
-  const BelievedInformation believed(here.information, near ? here.correction : Eigen::MatrixXd{});
+  Curvature here = likelihood.curvature(from.at, near ? Asked::kObserved : Asked::kFisher);
+  const BelievedInformation believed(here.information, here.correction);
   for (;; damping.more()) {
     here.information = believed.damped(damping.value());
     const Eigen::VectorXd way = way_to(greatest(places, here, from.at), places, here, from.at);
@@ -123,10 +123,11 @@ Eigen::VectorXd found(const Likelihood& likelihood, const Places& places,
     for (const double side : {-distance, distance}) {
       Eigen::VectorXd out = start;
       out(coordinate) += side;
-      const Curvature there = likelihood.curvature(out);
+      const Curvature there = likelihood.curvature(out, Asked::kFisher);
       if (there.information(coordinate, coordinate) >= kFelt) return out;
       out(places.inside) = greatest(places, there, out)(places.inside);
-      if (likelihood.curvature(out).information(coordinate, coordinate) >= kFelt) return out;
+      if (likelihood.curvature(out, Asked::kFisher).information(coordinate, coordinate) >= kFelt)
+        return out;
     }
   }
   return start;
@@ -155,7 +156,7 @@ Scored maximise(const Likelihood& likelihood, const Eigen::VectorXd& start,
                 const Progress& progress) {
   Scored out = fisher_scoring(likelihood, start, progress);
   if (!std::isfinite(out.objective) || out.termination == Termination::kStopped) return out;
-  const Eigen::VectorXd felt = likelihood.curvature(start).information.diagonal();
+  const Eigen::VectorXd felt = likelihood.curvature(start, Asked::kFisher).information.diagonal();
   Eigen::VectorXd moved = start;
   const Places places(likelihood.cones);
   for (const Eigen::Index i : places.free) {

@@ -9,11 +9,14 @@
 
 namespace imunoise {
 
+/// Which information is asked for: Fisher's, or also what was observed, which costs more.
+enum class Asked { kFisher, kObserved };
+
 /// What a likelihood looks like next to a point.
 struct Curvature {
   Eigen::MatrixXd information;  ///< Fisher's, n × n
   Eigen::VectorXd score;        ///< slope of the log likelihood, n
-  /// What the observed information has more, n × n; empty where it is not known.
+  /// What the observed information has more, n × n; empty where it is not known or not asked for.
   Eigen::MatrixXd correction{};
 };
 
@@ -23,7 +26,7 @@ struct Likelihood {
   /// ≥ 0; s > 1, the packed upper triangle of a positive semidefinite s × s matrix.
   std::vector<Eigen::Index> cones;
   std::function<double(const Eigen::VectorXd&)> objective;  ///< -log likelihood; may be infinite
-  std::function<Curvature(const Eigen::VectorXd&)> curvature;
+  std::function<Curvature(const Eigen::VectorXd&, Asked)> curvature;
 
   static constexpr Eigen::Index kFree = 0;
 };

@@ -6,7 +6,7 @@ namespace imunoise {
 
 SpectralExpansion::SpectralExpansion(const Process& process,
                                      const std::vector<std::size_t>& parameters,
-                                     const Frequencies& frequency) {
+                                     const Frequencies& frequency, Order order) {
   // Spectra are proportional to the power: those of power 1 say it all.
   Process unit = process;
   set_searched(unit, 0, 1.0);
@@ -33,6 +33,7 @@ SpectralExpansion::SpectralExpansion(const Process& process,
       both_ways.emplace_back(up + down - 2.0 * here);
       slopes.emplace_back(power * unit_slopes.back());
     }
+    if (order == Order::kFirst) continue;
     const std::size_t i = slopes.size() - 1;
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t q = parameters[j];

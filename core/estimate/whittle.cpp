@@ -70,14 +70,15 @@ void fit_ramp(Model& model, std::span<const BandedPower> replicates) {
 // The expansions of all processes with coordinates, in the order of these.
 std::vector<SpectralExpansion> expansions_of(const Model& model,
                                              const std::vector<ParameterPlace>& coordinates,
-                                             const Frequencies& frequency) {
+                                             const Frequencies& frequency,
+                                             SpectralExpansion::Order order) {
   std::vector<SpectralExpansion> out;
   std::vector<std::size_t> parameters;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     parameters.push_back(coordinates[i].parameter);
     const bool last = i + 1 == coordinates.size() || coordinates[i + 1].term != coordinates[i].term;
     if (!last) continue;
-    out.emplace_back(process_of(model, coordinates[i]), parameters, frequency);
+    out.emplace_back(process_of(model, coordinates[i]), parameters, frequency, order);
     parameters.clear();
   }
   return out;
@@ -87,14 +88,19 @@ std::vector<SpectralExpansion> expansions_of(const Model& model,
 // second derivatives are Σ n/2 ((1 + 2e) S_i S_j / S² - e S_ij / S); Fisher's information is their
 // mean under a true model, e = 0. S_ij is zero for parameters of different processes.
 Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& coordinates,
-                       std::span<const BandedPower> replicates) {
+                       std::span<const BandedPower> replicates, Asked asked) {
+  const bool observed = asked == Asked::kObserved;
+  const auto order =
+      observed ? SpectralExpansion::Order::kSecond : SpectralExpansion::Order::kFirst;
   const auto n = static_cast<Eigen::Index>(coordinates.size());
-  Curvature out{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);  // and below, the lower halves
+  Eigen::MatrixXd correction = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
   for (const BandedPower& bands : replicates) {
     const Eigen::ArrayXd s = spectrum(model, bands.frequency);
     const BandLikelihood likelihood(bands.count, s);
     const std::vector<SpectralExpansion> expansions =
-        expansions_of(model, coordinates, bands.frequency);
+        expansions_of(model, coordinates, bands.frequency, order);
     std::vector<SpectralDirection> directions;
     for (const SpectralExpansion& one : expansions) {
       for (const Eigen::ArrayXd& slope : one.slopes)
@@ -102,22 +108,26 @@ Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& co
     }
     const Eigen::MatrixXd slopes = likelihood.slopes(directions);
     const Eigen::ArrayXd power = residual_power(bands, s, ramp_power(model));
-    out.information += slopes.transpose() * slopes;
-    out.score += slopes.transpose() * likelihood.excess(power);
+    information.triangularView<Eigen::Lower>() += slopes.transpose() * slopes;
+    score += slopes.transpose() * likelihood.excess(power);
+    if (!observed) continue;
     const Eigen::ArrayXd excess = (s > 0.0).select(power / s - 1.0, 0.0);
-    out.correction += slopes.transpose() * (2.0 * excess).matrix().asDiagonal() * slopes;
+    const Eigen::MatrixXd weighted = (2.0 * excess).matrix().asDiagonal() * slopes;
+    correction.triangularView<Eigen::Lower>() += slopes.transpose() * weighted;
     const Eigen::ArrayXd weight = (s > 0.0).select(0.5 * bands.count * excess / s, 0.0);
     Eigen::Index first = 0;
     for (const SpectralExpansion& one : expansions) {
       const auto size = static_cast<Eigen::Index>(one.slopes.size());
       for (Eigen::Index i = 0; i < size; ++i) {
-        for (Eigen::Index j = 0; j < size; ++j)
-          out.correction(first + i, first + j) -=
+        for (Eigen::Index j = 0; j <= i; ++j)
+          correction(first + i, first + j) -=
               (weight * one.bend(static_cast<std::size_t>(i), static_cast<std::size_t>(j))).sum();
       }
       first += size;
     }
   }
+  Curvature out{information.selfadjointView<Eigen::Lower>(), std::move(score), {}};
+  if (observed) out.correction = correction.selfadjointView<Eigen::Lower>();
   return out;
 }
 
@@ -144,8 +154,8 @@ WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replica
   likelihood.objective = [&](const Eigen::VectorXd& x) {
     return whittle_objective(model_at(x), replicates);
   };
-  likelihood.curvature = [&](const Eigen::VectorXd& x) {
-    return curvature_at(model_at(x), coordinates, replicates);
+  likelihood.curvature = [&](const Eigen::VectorXd& x, Asked asked) {
+    return curvature_at(model_at(x), coordinates, replicates, asked);
   };
   const Scored scored = begin == Begin::kNear ? fisher_scoring(likelihood, at, progress)
                                               : maximise(likelihood, at, progress);

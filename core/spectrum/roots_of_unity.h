@@ -13,13 +13,13 @@ class RootsOfUnity {
  public:
   explicit RootsOfUnity(std::size_t n);
   std::complex<double> operator()(std::size_t k) const {
-    const std::complex<double> a = coarse_[k / kStretch];
-    const std::complex<double> b = fine_[k % kStretch];
+    const std::complex<double> a = coarse_[k >> bits_];
+    const std::complex<double> b = fine_[k & (fine_.size() - 1)];
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
   }
 
  private:
-  static constexpr std::size_t kStretch = 1024;
+  unsigned bits_;  // of k that the fine table has: about half, so that both tables are short
   std::vector<std::complex<double>> coarse_;
   std::vector<std::complex<double>> fine_;
 };

@@ -1,4 +1,4 @@
-// The blind trial outside the catalogue's exact shapes: 24 families (generator/foreign), and nulls
+// The blind trial outside the catalogue's exact shapes: 25 families (generator/foreign), and nulls
 // beside witnesses that wander slowly. Asked is the right family, or "one of" with it, at twice the
 // strength that the program detects; and that no wrong cause is given as certain at any strength.
 

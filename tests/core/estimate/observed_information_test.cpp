@@ -22,7 +22,8 @@ TEST_P(SpectrumOf, BendsAsItsSlopesChange) {
   const Frequencies frequency(Eigen::ArrayXd::LinSpaced(50, 0.001, 0.499));
   std::vector<std::size_t> parameters;
   for (std::size_t p = 0; p < values(process).size(); ++p) parameters.push_back(p);
-  const SpectralExpansion expansion(process, parameters, frequency);
+  const SpectralExpansion expansion(process, parameters, frequency,
+                                    SpectralExpansion::Order::kSecond);
   const double level = spectrum(process, frequency).abs().maxCoeff();
   constexpr double kStep = 3e-4;
   for (const std::size_t p : parameters) {
@@ -95,14 +96,14 @@ TEST(FisherScoring, FollowsABentValley) {
     ++asked;
     return 0.5 * residuals(at).squaredNorm();
   };
-  valley.curvature = [&](const Eigen::VectorXd& at) {
+  valley.curvature = [&](const Eigen::VectorXd& at, Asked asked) {
     const Eigen::Vector2d r = residuals(at);
     const Eigen::MatrixXd slopes =
         (Eigen::MatrixXd(2, 2) << -20.0 * at(0), 10.0, -1.0, 0.0).finished();
     Curvature out;
     out.information = slopes.transpose() * slopes;
     out.score = -slopes.transpose() * r;
-    out.correction = two(-20.0 * r(0), 0.0, 0.0);
+    if (asked == Asked::kObserved) out.correction = two(-20.0 * r(0), 0.0, 0.0);
     return out;
   };
   const Scored found = fisher_scoring(valley, Eigen::Vector2d(-1.2, 1.0));
@@ -124,11 +125,12 @@ TEST(FisherScoring, BelievesTheObservedCurvature) {
     ++asked;
     return kTimes * (std::cosh(at(0)) - 1.0);
   };
-  sharp.curvature = [&](const Eigen::VectorXd& at) {
+  sharp.curvature = [&](const Eigen::VectorXd& at, Asked asked) {
     Curvature out;
     out.information = Eigen::MatrixXd::Ones(1, 1);
     out.score = Eigen::VectorXd::Constant(1, -kTimes * std::sinh(at(0)));
-    out.correction = Eigen::MatrixXd::Constant(1, 1, kTimes * std::cosh(at(0)) - 1.0);
+    if (asked == Asked::kObserved)
+      out.correction = Eigen::MatrixXd::Constant(1, 1, kTimes * std::cosh(at(0)) - 1.0);
     return out;
   };
   const Scored found = fisher_scoring(sharp, Eigen::VectorXd::Constant(1, 0.9));

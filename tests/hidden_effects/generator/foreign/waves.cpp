@@ -81,6 +81,27 @@ Injection hide_drifting_wave(Scene& scene, double delta) {
   return of_mean(delta, {});
 }
 
+// The drive of a sensor, above half the sampling rate, read by a clock that is never quite even:
+// what it folds to differs between replicates by 3 % and moves by 5 to 15 % within some 50 samples.
+Injection hide_folded_drive(Scene& scene, double delta) {
+  const double middle = draw_frequency_below_mains(scene);
+  const double uneven = uniform(scene.random, 0.05, 0.15);
+  const double tau = uniform(scene.random, 20.0, 100.0);
+  std::vector<Series> shapes;
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    const double own = middle * (1.0 + 0.03 * scene.random.normal());
+    Series shape = simulate(Markov{uneven, tau}, scene.random, scene.samples());
+    double phase = uniform(scene.random, 0.0, kTurn);
+    for (double& x : shape) {
+      phase += kTurn * (own + middle * x);
+      x = std::sin(phase);
+    }
+    shapes.push_back(std::move(shape));
+  }
+  const double size = add_shapes(scene, shapes, delta);
+  return of_mean(delta, {{"amplitude", size, "rad/s"}});
+}
+
 }  // namespace
 
 std::vector<HiddenEffect> foreign_waves() {
@@ -88,6 +109,7 @@ std::vector<HiddenEffect> foreign_waves() {
       foreign("switched_line", "", hide_switched_wave),
       foreign("line", "beating", hide_beating_wave),
       foreign("wandering_line", "drifting", hide_drifting_wave),
+      foreign("oscillation", "folded", hide_folded_drive),
   };
 }
 
