@@ -84,7 +84,8 @@ FittedModel fit_with(const Current& current, const Suggestion& suggestion) {
   const auto& change = std::get<NoiseChange>(suggestion.added);
   Regression regression = current.regression;
   if (change.shared) regression = regression.with(*change.shared);
-  JointFit fit = joint_fit(regression, change.start);
+  JointFit fit = joint_fit(regression, change.start, {}, Begin::kAnywhere,
+                           own_starts(current.fit, change.start));
   return {std::move(regression), std::move(fit)};
 }
 

@@ -142,7 +142,8 @@ Sought sought_by_beginnings(const Current& current, double level, const Progress
   constexpr double kFarLess = 0.5;
   const auto count = static_cast<Eigen::Index>(current.subject().replicates());
   const Regression part = current.regression.beginnings(kSamples / count);
-  const JointFit fit = joint_fit(part, current.fit.model.noise);
+  const JointFit fit =
+      joint_fit(part, current.fit.model.noise, {}, Begin::kAnywhere, current.fit.own_noise);
   const Current begun = current_of(part, fit);
   const Suggestions all = search_all(begun, progress.part(0.0, 0.4));
   Sought out{.searches = static_cast<double>(all.size()), .wanted = {}};

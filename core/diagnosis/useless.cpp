@@ -15,7 +15,7 @@ bool adds_up(const EffectTerm& term) {
 
 UselessTerm weighed(const FittedModel& with, std::string term, Regression regression,
                     const Model& start) {
-  JointFit fit = joint_fit(regression, start);
+  JointFit fit = joint_fit(regression, start, {}, Begin::kAnywhere, own_starts(with.fit, start));
   const double loss = with.fit.log_likelihood - fit.log_likelihood;
   return {std::move(term), loss, {std::move(regression), std::move(fit)}};
 }

@@ -127,7 +127,8 @@ struct Effect {
   // What it does to the variance.
   /// A course in each replicate that the logarithm of the noise's variance is proportional to.
   VarianceCourse (*variance_course)(const EffectTerm& term, const Subject& subject) = nullptr;
-  /// Gives each replicate noise of its own, and the likelihood of that.
+  /// Gives each replicate noise of its own, and the likelihood of that. `fit`: its own noise, if
+  /// any, is where the search may begin.
   void (*own_noise)(const EffectTerm& term, const Regression& regression, JointFit& fit) = nullptr;
 
   // Simulation.

@@ -32,7 +32,12 @@ void fit_own_powers(const EffectTerm& term, const Regression& regression, JointF
   const std::vector<BandedPower> residual = regression.residual(fit.effects.value);
   std::vector<WhittleEstimate> found(residual.size());
   for_each_index(residual.size(), [&](std::size_t i) {
-    found[i] = own_noise_of(term, fit.model.noise, fit.model.noise, std::span(&residual[i], 1));
+    const std::span<const BandedPower> measured(&residual[i], 1);
+    found[i] = own_noise_of(term, fit.model.noise, fit.model.noise, measured);
+    if (fit.own_noise.empty() || !with_shapes(term)) return;
+    const Model& start = fit.own_noise[regression.replicates()[i]];
+    WhittleEstimate other = own_noise_of(term, fit.model.noise, start, measured);
+    if (other.objective < found[i].objective) found[i] = std::move(other);
   });
   fit.log_likelihood = 0.0;
   fit.own_noise.assign(regression.subject().replicates(), fit.model.noise);

@@ -48,7 +48,7 @@ FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regress
     const double price = log_places(found.courses);
     subject->keep(term, std::make_shared<FoundCourses>(std::move(found.courses)));
     Regression grown = regression.on(subject).with(term);
-    JointFit with = joint_fit(grown, under.model.noise);
+    JointFit with = joint_fit(grown, under.model.noise, {}, Begin::kAnywhere, fit.own_noise);
     under = {.model = {with.model.noise, regression.effects()},
              .effects = regression.under(with.model.noise)};
     const double worth = with.log_likelihood - price;

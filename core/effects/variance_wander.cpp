@@ -77,7 +77,8 @@ Suggestions search_variance_wander(const SearchView& view) {
   if (!(seconds >= shortest)) gain = 0.0;
   constexpr double kPlaces = 8.0;  // separate correlation times
   return {{.cause = "variance_wander",
-           .added = EffectTerm(variance_wander(), "", {{"tau", std::clamp(seconds, shortest, longest)}}),
+           .added =
+               EffectTerm(variance_wander(), "", {{"tau", std::clamp(seconds, shortest, longest)}}),
            .score_nats = std::max(0.0, gain),
            .power = true,
            .search = {.log_places = std::log(kPlaces)}}};

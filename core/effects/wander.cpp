@@ -135,7 +135,7 @@ FittedModel fit_with_wander(const EffectTerm& term, const Regression& regression
   }
   subject->keep(term, found);
   Regression grown = regression.on(subject).with(term);
-  JointFit with = joint_fit(grown, fit.model.noise);
+  JointFit with = joint_fit(grown, fit.model.noise, {}, Begin::kAnywhere, fit.own_noise);
   return {std::move(grown), std::move(with)};
 }
 

@@ -44,7 +44,8 @@ FittedModel fit_with(const Current& current, const EffectTerm& term) {
     return term.effect->fit_with(term, current.regression, current.fit);
   Regression grown = current.regression.with(term);
   if (term.effect->cleaned != nullptr) grown = grown.on(term.effect->cleaned(term, current));
-  JointFit fit = joint_fit(grown, current.fit.model.noise);
+  JointFit fit =
+      joint_fit(grown, current.fit.model.noise, {}, Begin::kAnywhere, current.fit.own_noise);
   return {std::move(grown), std::move(fit)};
 }
 

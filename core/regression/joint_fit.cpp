@@ -18,7 +18,7 @@ constexpr double kSettled = 1e-4;  // nats
 }  // namespace
 
 JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress,
-                   Begin begin) {
+                   Begin begin, const std::vector<Model>& own_start) {
   JointFit out{.model = {start, regression.effects()}, .effects = regression.under(start)};
   for (int round = 0; round < kRounds && !progress.stopped(); ++round) {
     const std::vector<BandedPower> left = pooled(regression.residual(out.effects, out.model.noise));
@@ -34,7 +34,9 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
     if (round > 0 && std::abs(out.log_likelihood - before) < kSettled) break;
   }
   for (const EffectTerm& term : regression.effects()) {
-    if (term.effect->own_noise != nullptr) term.effect->own_noise(term, regression, out);
+    if (term.effect->own_noise == nullptr) continue;
+    out.own_noise = own_start;
+    term.effect->own_noise(term, regression, out);
   }
   if (const auto& nats = regression.subject().reshaped_nats; !nats.empty()) {
     for (const std::size_t k : regression.replicates()) out.log_likelihood += nats[k];
@@ -47,6 +49,21 @@ JointFit joint_fit(const Regression& regression, const Model& start, const Progr
     out.modulation.push_back(modulation_by(course, white));
     out.log_likelihood += out.modulation.back().log_likelihood;
     take_out(out.modulation.back(), course, white);
+  }
+  return out;
+}
+
+std::vector<Model> own_starts(const JointFit& fit, const Model& start) {
+  const std::vector<Term>& known = fit.model.noise.terms;
+  std::vector<Model> out(fit.own_noise.size(), start);
+  std::vector<bool> used(known.size(), false);
+  for (std::size_t t = 0; t < start.terms.size(); ++t) {
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (used[i] || known[i].process.index() != start.terms[t].process.index()) continue;
+      used[i] = true;
+      for (std::size_t k = 0; k < out.size(); ++k) out[k].terms[t] = fit.own_noise[k].terms[i];
+      break;
+    }
   }
   return out;
 }

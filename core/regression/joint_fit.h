@@ -23,9 +23,15 @@ struct JointFit {
 
 /// Maximum of Whittle's likelihood next to `start`, whose values are all set: coefficients by
 /// generalised least squares under the noise, noise from what they leave (with the degrees of
-/// freedom that they took), in turns until neither moves.
+/// freedom that they took), in turns until neither moves. `own_start`: where the noise of each
+/// replicate of the subject may begin, too, if an effect gives it one of its own; see own_starts().
 JointFit joint_fit(const Regression& regression, const Model& start, const Progress& progress = {},
-                   Begin begin = Begin::kAnywhere);
+                   Begin begin = Begin::kAnywhere, const std::vector<Model>& own_start = {});
+
+/// Models with the terms of `start`, in which each that a fit has already begins where each
+/// replicate's own noise ends. A model with one term more then explains no less than without it:
+/// fits that all begin at the common noise may end in lower maxima.
+std::vector<Model> own_starts(const JointFit& fit, const Model& start);
 
 /// What the replicates that count would be, were the fit true: transformed, divided by the root of
 /// the spectrum, and transformed back; less what

@@ -75,5 +75,44 @@ TEST(OwnPowers, EqualReplicatesGetNoSpectraOfTheirOwn) {
   for (const RankedTerm& one : diagnosis.effects) EXPECT_NE(one.tried.cause, "replicate_bandwidth");
 }
 
+// Three replicates ring at 0.4 rad, the last, faintly, at 2.2: from the noise that all share a fit
+// never gets there.
+std::shared_ptr<const Subject> apart(std::uint64_t seed) {
+  const std::vector<Model> rings{*parse_model("RES(sigma2=0.02, r=0.99, omega=0.4)", Hertz{50.0}),
+                                 *parse_model("RES(sigma2=0.004, r=0.99, omega=2.2)", Hertz{50.0})};
+  std::vector<std::vector<double>> noise;
+  for (std::uint32_t k = 0; k < 4; ++k)
+    noise.push_back(simulate(rings[k / 3], kAveragedSamples, seed, k));
+  return subject_of({.model = "WN(sigma2=1)",
+                     .samples = kAveragedSamples,
+                     .seed = seed + 1000,
+                     .added = [&](std::size_t k, double seconds) {
+                       return noise[k][static_cast<std::size_t>(std::lround(seconds * 50.0))];
+                     }});
+}
+
+TEST(OwnPowers, OneTermMoreExplainsNoLess) {
+  const auto subject = apart(56);
+  FullModel model = *parse_full_model("WN + RES + own_powers(shapes)", subject->rate);
+  set_values(model.noise.terms[0].process, std::vector<double>{1.0});
+  set_values(model.noise.terms[1].process, std::vector<double>{0.02, 0.99, 0.4});
+  const FittedModel plain = fit_full_model(subject, model);
+  // The fit that knows where the last one rings.
+  std::vector<Model> own(4, model.noise);
+  set_values(own[3].terms[1].process, std::vector<double>{0.004, 0.99, 2.2});
+  const JointFit known =
+      joint_fit(plain.regression, plain.fit.model.noise, {}, Begin::kAnywhere, own);
+  EXPECT_GT(known.log_likelihood, plain.fit.log_likelihood + 20.0);
+  const Current current = current_of(plain.regression, known);
+  const FittedModel ramp =
+      fit_with(current, parse_full_model("WN + ramp", subject->rate)->effects[0]);
+  EXPECT_GT(ramp.fit.log_likelihood, known.log_likelihood - 1e-3);
+  Model start = known.model.noise;
+  start.terms.emplace_back(Process(RandomWalk{1e-9}));
+  const FittedModel walk = fit_with(
+      current, Suggestion{.cause = "random_walk", .added = NoiseChange{start, RandomWalk{1e-9}}});
+  EXPECT_GT(walk.fit.log_likelihood, known.log_likelihood - 1e-3);
+}
+
 }  // namespace
 }  // namespace imunoise
