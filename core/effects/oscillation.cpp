@@ -5,17 +5,21 @@
 // filter follows it, and each sample becomes the normal number that says where it lies among what
 // those before it make likely.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/effect/columns.h"
+#include "core/effects/couplings.h"
 #include "core/effects/distributions/wandering_tone.h"
 #include "core/effects/draws.h"
 #include "core/search/noise_bump.h"
 #include "core/search/search_view.h"
 #include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
+#include "core/support/distributions.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::effects {
@@ -46,7 +50,9 @@ std::shared_ptr<const Subject> without_oscillation(const EffectTerm& term, const
   std::vector<ToneSeries> white(count);
   for_each_index(count, [&](std::size_t k) {
     deviation[k] = spectrum_beside(current, band, k).sqrt();
-    const Index middle = coefficients_below(0.5 * (band.from + band.to), deviation[k].size() + 1);
+    const Index middle =
+        std::min(coefficients_below(0.5 * (band.from + band.to), deviation[k].size() + 1),
+                 deviation[k].size() - 1);
     white[k] = {inverse_cosine_transform((current.cosines[k].array() / deviation[k]).matrix()),
                 deviation[k](middle)};
   });
@@ -76,7 +82,15 @@ std::string_view oscillation_fault(const EffectTerm& term) {
 }
 
 Result<void> check_oscillation(const EffectTerm& term, const Subject& subject) {
+  constexpr double kFewestWaves = 8.0;  // in the shortest replicate, by which the edges differ
   if (term[kOscillationTo] > 0.5 * subject.rate.value) return too_fast(term, subject);
+  double shortest = subject.seconds(0);
+  for (std::size_t k = 1; k < subject.replicates(); ++k)
+    shortest = std::min(shortest, subject.seconds(k));
+  if ((term[kOscillationTo] - term[kOscillationFrom]) * shortest < kFewestWaves)
+    return unfit(term, fmt::format("from and to must lie at least {:.3g} Hz apart in replicates "
+                                   "of {:.4g} s",
+                                   kFewestWaves / shortest, shortest));
   return {};
 }
 
@@ -119,10 +133,67 @@ Suggestions search_oscillation(const SearchView& view) {
            .dof = 3.0 + places * static_cast<double>(subject.replicates())}};
 }
 
+// How much alike two channels are between two frequencies, at no lag and at a quarter of a wave: as
+// χ² of two degrees of freedom were they independent.
+double alike(const Current& current, const NoiseBump& band, const Witness& witness) {
+  constexpr Index kParts = 64;  // of the band
+  double chi = 0.0;
+  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
+    const Eigen::VectorXd& left = current.cosines[k];
+    const Eigen::VectorXd& other = witness.cosines[k];
+    const Index n = left.size();
+    const Index first = std::min(coefficients_below(band.from, n + 1), n);
+    const Index length = std::min(coefficients_below(band.to, n + 1), n) - first;
+    double powers = 0.0;  // Σ of products of powers: what products scatter by
+    for (Index p = 0; p < kParts; ++p) {
+      const Index begin = first + p * length / kParts;
+      const Index many = first + (p + 1) * length / kParts - begin;
+      if (many == 0) continue;
+      powers += left.segment(begin, many).squaredNorm() * other.segment(begin, many).squaredNorm() /
+                static_cast<double>(many);
+    }
+    if (!(powers > 0.0)) continue;
+    const auto within = [&](const Eigen::VectorXd& cosines) -> Eigen::VectorXd {
+      Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+      out.segment(first, length) = cosines.segment(first, length);
+      return rough_inverse_cosine_transform(out);
+    };
+    const Eigen::VectorXd a = within(left);
+    const Eigen::VectorXd b = within(other);
+    const auto quarter =
+        static_cast<Index>(std::lround(0.5 / (band.from + band.to)));  // of a wave in the middle
+    const double at_once = a.dot(b);
+    const Index both = a.size() - quarter;
+    const double late = both > 0 ? a.tail(both).dot(b.head(both)) : 0.0;
+    chi += (at_once * at_once + late * late) / powers;
+  }
+  return chi;
+}
+
+// Motion that no other sensor recorded, or that another sensor shows at the same frequencies.
+void review_oscillation(const Current& current, TriedTerm& tried) {
+  constexpr double kOnceIn = 1e-4;
+  const Subject& subject = current.subject();
+  for (const std::string_view id : unrecorded_couplings(subject)) {
+    if (is_motion(id)) tried.could_be.push_back(id);
+  }
+  const NoiseBump band = band_of(*tried.term(), subject.rate);
+  const double limit =
+      chi_square_quantile(1.0 - kOnceIn, 2.0 * static_cast<double>(subject.replicates()));
+  for (const Witness& one : subject.witnesses) {
+    if (!of_inertia(one.quantity) || !(alike(current, band, one) > limit)) continue;
+    tried.could_be.push_back(may_share_motion(subject.quantity, one)
+                                 ? "common_vibration"
+                                 : coupling_effect(subject.quantity, one));
+  }
+}
+
 std::vector<ReportedNumber> oscillation_numbers(const FittedEffect& effect) {
   const auto* const found = effect.subject().found_by<FoundTone>(effect.term());
   if (found == nullptr) return {};
   const WanderingTone& tone = found->fitted.tone;
+  const std::string unit = unit_of(effect.term(), effect.subject());
+  if (!found->fitted.seen) return {{"amplitude", 0.0, unit, 0.0, found->fitted.highest}};
   const double rate = effect.subject().rate.value;
   Occupancy occupancy = Occupancy::Zero();
   for (const Occupancy& one : found->fitted.occupancy) occupancy += one;
@@ -133,8 +204,7 @@ std::vector<ReportedNumber> oscillation_numbers(const FittedEffect& effect) {
     mean += occupancy(j) * tone.frequency(j);
     square += occupancy(j) * tone.frequency(j) * tone.frequency(j);
   }
-  return {with_error({"amplitude", tone.amplitude, unit_of(effect.term(), effect.subject())},
-                     found->fitted.amplitude_error),
+  return {with_error({"amplitude", tone.amplitude, unit}, found->fitted.amplitude_error),
           {"mean_frequency_hz", mean * rate, "Hz"},
           {"frequency_deviation_hz", std::sqrt(std::max(0.0, square - mean * mean)) * rate, "Hz"}};
 }
@@ -178,6 +248,7 @@ const Effect& oscillation() {
       .cleaned = without_oscillation,
       .simulate = simulate_oscillation,
       .search = search_oscillation,
+      .review = review_oscillation,
       .numbers = oscillation_numbers,
   };
   return kOscillation;

@@ -22,6 +22,7 @@ double log_sum(double a, double b) {
 
 double log_p_value(double gain_nats, double dof, double noise_dof, bool power) {
   if (!(gain_nats > 0.0) || !(dof > 0.0)) return 0.0;
+  if (!std::isfinite(gain_nats)) return -INFINITY;
   const double one_sided = power ? -std::numbers::ln2 : 0.0;
   if (!(noise_dof < kLevelKnown)) return one_sided + log_chi_square_tail(2.0 * gain_nats, dof);
   // The likelihood ratio of a regression on Gaussian noise of unknown level: Λ = (n/2) log(1 +
@@ -34,7 +35,7 @@ double log_p_value(double gain_nats, double dof, double noise_dof, bool power) {
 double log_p_value(double gain_nats, double dof, double noise_dof, bool power,
                    const Search& search) {
   const double here = log_p_value(gain_nats, dof, noise_dof, power);
-  if (!(gain_nats > 0.0) || !(dof > 0.0)) return 0.0;
+  if (!(gain_nats > 0.0) || !(dof > 0.0) || !std::isfinite(here)) return here;
   // Upcrossings of the level u by a χ²_d process: the density of χ_d at √u times the mean upward
   // speed (Davies 1987, after Rice). As much more frequent as the tail is heavier where the noise
   // level is uncertain.

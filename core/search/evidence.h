@@ -18,8 +18,9 @@ struct Search {
 };
 
 /// Logarithm of the p-value of an effect of `dof` coefficients that gains this many nats of
-/// likelihood at a given place. `noise_dof`: degrees of freedom behind the noise level where the
-/// effect is (infinite: known). One-sided for a power, which cannot be negative.
+/// likelihood at a given place; -∞ of an infinite gain, over a model under which the data are
+/// impossible. `noise_dof`: degrees of freedom behind the noise level where the effect is
+/// (infinite: known). One-sided for a power, which cannot be negative.
 double log_p_value(double gain_nats, double dof, double noise_dof, bool power);
 
 /// The same for the best place of a search, at most 0.

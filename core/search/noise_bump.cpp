@@ -107,7 +107,11 @@ std::optional<NoiseBump> highest_bump(const Current& current) {
   const auto edge = [](Index band) {
     return 0.5 * static_cast<double>(band + kSlowest) / static_cast<double>(kWide);
   };
-  return NoiseBump{edge(first - 1), edge(last + 2)};
+  // What lies lower than that at its sides belongs to it, too.
+  constexpr double kSkirt = 0.3;
+  const double skirt = kSkirt * (edge(last + 1) - edge(first));
+  return NoiseBump{std::max(edge(0), edge(first - 1) - skirt),
+                   std::min(edge(over.size() - 1), edge(last + 2) + skirt)};
 }
 
 Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump, std::size_t k) {
@@ -127,11 +131,14 @@ Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump, st
   // The last band before and the first after may be cut: they take the level beside the edges.
   const Index before = std::max<Index>(0, first - wide);
   const Index after = std::min(n, last + wide);
-  const double low = before < first ? level_of(cosines, before, first) : 0.0;
-  const double high = last < after ? level_of(cosines, last, after) : low;
+  double low = before < first ? level_of(cosines, before, first) : 0.0;
+  double high = last < after ? level_of(cosines, last, after) : 0.0;
+  if (!(high > 0.0)) high = low;
+  if (!(low > 0.0)) low = high;
+  if (!(high > 0.0) || first == last) return out;
   const Index begin = std::max<Index>(0, first / wide * wide);
   const Index end = std::min(n, (last / wide + 1) * wide);
-  const double slope = std::log(high / (low > 0.0 ? low : high));
+  const double slope = std::log(high / low);
   for (Index i = begin; i < end; ++i) {
     const double along =
         std::clamp(static_cast<double>(i - first) / static_cast<double>(last - first), 0.0, 1.0);

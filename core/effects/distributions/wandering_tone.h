@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 namespace imunoise {
@@ -72,7 +73,10 @@ struct ToneSeries {
 struct FittedTone {
   WanderingTone tone;                               ///< its amplitude in the unit
   std::vector<WanderingTone::Occupancy> occupancy;  ///< of each series
-  double amplitude_error = 0.0;                     ///< standard error, by all samples
+  /// Whether there is a tone at all. If not, noise alone would seem as much of one once in 20.
+  bool seen = false;
+  double amplitude_error = 0.0;  ///< standard error, by all samples; of one that is seen
+  double highest = INFINITY;     ///< the most that the amplitude may be (95 %); of one that is not
 
   ToneFilter filter(const ToneSeries& series, std::size_t number) const;
 };

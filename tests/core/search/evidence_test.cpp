@@ -95,6 +95,15 @@ TEST(Evidence, ASearchIsAsLikelyToBeFooledAsItsPathSays) {
   EXPECT_GT(share, 0.025);
 }
 
+// Without white noise a random walk that fits best has no power: the data are impossible.
+TEST(Evidence, AnInfiniteGainLeavesNoChance) {
+  for (const double noise_dof : {100.0, double{INFINITY}}) {
+    EXPECT_EQ(log_p_value(INFINITY, 2.0, noise_dof, false), -INFINITY);
+    EXPECT_EQ(log_p_value(INFINITY, 2.0, noise_dof, true, {.path = 3.0, .log_places = 2.0}),
+              -INFINITY);
+  }
+}
+
 TEST(Evidence, ThePathOfATurningVectorIsItsAngle) {
   Eigen::MatrixXd vectors(2, 91);
   for (Eigen::Index i = 0; i <= 90; ++i) {
