@@ -42,32 +42,68 @@ NoiseBump band_of(const EffectTerm& term, Hertz rate) {
   return {term[kOscillationFrom] / rate.value, term[kOscillationTo] / rate.value};
 }
 
+// What a fit leaves of each replicate, whitened by the spectrum beside a band.
+struct Whitened {
+  std::vector<Eigen::ArrayXd> deviation;  // of the noise at each coefficient
+  std::vector<ToneSeries> series;
+};
+
+Whitened whitened(const Current& current, const NoiseBump& band) {
+  const std::size_t count = current.cosines.size();
+  Whitened out{std::vector<Eigen::ArrayXd>(count), std::vector<ToneSeries>(count)};
+  for_each_index(count, [&](std::size_t k) {
+    Eigen::ArrayXd& deviation = out.deviation[k];
+    deviation = spectrum_beside(current, band, k).sqrt();
+    const Index middle = coefficients_below(0.5 * (band.from + band.to), deviation.size() + 1);
+    out.series[k] = {inverse_cosine_transform((current.cosines[k].array() / deviation).matrix()),
+                     deviation(std::min(middle, deviation.size() - 1))};
+  });
+  return out;
+}
+
+// How much of its time a tone is at each place, mean of the replicates.
+Occupancy mean_occupancy(const FittedTone& fitted) {
+  Occupancy out = Occupancy::Zero();
+  for (const Occupancy& one : fitted.occupancy) out += one;
+  return out / out.sum();
+}
+
+// The band, wider where the tone is often at its edge: what it does beyond is faint in the
+// spectrum, but not to the filter.
+NoiseBump with_skirts(const Current& current, NoiseBump band) {
+  constexpr int kMostTimes = 3;
+  constexpr double kOften = 0.03;
+  constexpr double kWider = 0.3;  // of the width
+  constexpr double kHighest = 0.49;
+  for (int i = 0; i < kMostTimes; ++i) {
+    const Occupancy occupancy =
+        mean_occupancy(fit_tone(band.from, band.to, whitened(current, band).series));
+    const double skirt = kWider * (band.to - band.from);
+    const NoiseBump before = band;
+    if (occupancy(0) > kOften) band.from = std::max(0.1 * band.from, band.from - skirt);
+    if (occupancy(occupancy.size() - 1) > kOften) band.to = std::min(kHighest, band.to + skirt);
+    if (band.from == before.from && band.to == before.to) break;
+  }
+  return band;
+}
+
 std::shared_ptr<const Subject> without_oscillation(const EffectTerm& term, const Current& current) {
   auto out = std::make_shared<Subject>(current.subject());
   const NoiseBump band = band_of(term, out->rate);
   const std::size_t count = out->replicates();
-  std::vector<Eigen::ArrayXd> deviation(count);
-  std::vector<ToneSeries> white(count);
-  for_each_index(count, [&](std::size_t k) {
-    deviation[k] = spectrum_beside(current, band, k).sqrt();
-    const Index middle =
-        std::min(coefficients_below(0.5 * (band.from + band.to), deviation[k].size() + 1),
-                 deviation[k].size() - 1);
-    white[k] = {inverse_cosine_transform((current.cosines[k].array() / deviation[k]).matrix()),
-                deviation[k](middle)};
-  });
-  auto found = std::make_shared<FoundTone>(fit_tone(band.from, band.to, white));
+  Whitened white = whitened(current, band);
+  auto found = std::make_shared<FoundTone>(fit_tone(band.from, band.to, white.series));
   out->reshaped_nats.resize(count, 0.0);
   out->own_nats.resize(count, 0.0);
   for_each_index(count, [&](std::size_t k) {
     Eigen::VectorXd normal;
-    const ToneFilter filter = found->fitted.filter(white[k], k);
-    const ToneFilter::Passed passed = filter.pass(white[k].samples, normal);
+    const Eigen::VectorXd& samples = white.series[k].samples;
+    const ToneFilter filter = found->fitted.filter(white.series[k], k);
+    const ToneFilter::Passed passed = filter.pass(samples, normal);
     // The density of the samples over that of the normal numbers in their place.
-    out->reshaped_nats[k] +=
-        passed.nats + 0.5 * (normal.squaredNorm() - white[k].samples.squaredNorm());
+    out->reshaped_nats[k] += passed.nats + 0.5 * (normal.squaredNorm() - samples.squaredNorm());
     out->own_nats[k] += static_cast<double>(WanderingTone::kPlaces - 1);
-    const Eigen::ArrayXd left = cosine_transform(std::move(normal)).array() * deviation[k];
+    const Eigen::ArrayXd left = cosine_transform(std::move(normal)).array() * white.deviation[k];
     Eigen::VectorXd cosines =
         (out->cosines[k].array() + left - current.cosines[k].array()).matrix();
     out->samples[k] = inverse_cosine_transform(cosines);
@@ -119,17 +155,18 @@ Suggestions search_oscillation(const SearchView& view) {
   const Subject& subject = view.subject();
   const std::optional<NoiseBump> bump = highest_bump(current);
   if (!bump) return {};
-  const EffectTerm band(
-      oscillation(), "",
-      {{"from", bump->from * subject.rate.value}, {"to", bump->to * subject.rate.value}});
   const BumpTails tails = tails_of(current, *bump);
   const double light = tails.excess / tails.error;
-  // Nats by which a distribution of that kurtosis differs from a normal one.
-  const double nats = light < kSurely ? 0.5 * light * light : 0.0;
+  const bool likely = light < kSurely;
+  const NoiseBump band = likely ? with_skirts(current, *bump) : *bump;
+  const EffectTerm term(
+      oscillation(), "",
+      {{"from", band.from * subject.rate.value}, {"to", band.to * subject.rate.value}});
   const auto places = static_cast<double>(WanderingTone::kPlaces - 1);
+  // Nats by which a distribution of that kurtosis differs from a normal one.
   return {{.cause = "oscillation",
-           .added = rounded(band, 0.0, subject.rate),
-           .score_nats = nats,
+           .added = rounded(term, 0.0, subject.rate),
+           .score_nats = likely ? 0.5 * light * light : 0.0,
            .dof = 3.0 + places * static_cast<double>(subject.replicates())}};
 }
 
@@ -195,9 +232,7 @@ std::vector<ReportedNumber> oscillation_numbers(const FittedEffect& effect) {
   const std::string unit = unit_of(effect.term(), effect.subject());
   if (!found->fitted.seen) return {{"amplitude", 0.0, unit, 0.0, found->fitted.highest}};
   const double rate = effect.subject().rate.value;
-  Occupancy occupancy = Occupancy::Zero();
-  for (const Occupancy& one : found->fitted.occupancy) occupancy += one;
-  occupancy /= occupancy.sum();
+  const Occupancy occupancy = mean_occupancy(found->fitted);
   double mean = 0.0;
   double square = 0.0;
   for (Index j = 0; j < occupancy.size(); ++j) {

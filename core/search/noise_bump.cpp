@@ -107,11 +107,7 @@ std::optional<NoiseBump> highest_bump(const Current& current) {
   const auto edge = [](Index band) {
     return 0.5 * static_cast<double>(band + kSlowest) / static_cast<double>(kWide);
   };
-  // What lies lower than that at its sides belongs to it, too.
-  constexpr double kSkirt = 0.3;
-  const double skirt = kSkirt * (edge(last + 1) - edge(first));
-  return NoiseBump{std::max(edge(0), edge(first - 1) - skirt),
-                   std::min(edge(over.size() - 1), edge(last + 2) + skirt)};
+  return NoiseBump{edge(first - 1), edge(last + 2)};
 }
 
 Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump, std::size_t k) {
