@@ -102,8 +102,12 @@ std::shared_ptr<const Subject> without_oscillation(const EffectTerm& term, const
     const ToneFilter::Passed passed = filter.pass(samples, normal);
     // The density of the samples over that of the normal numbers in their place.
     out->reshaped_nats[k] += passed.nats + 0.5 * (normal.squaredNorm() - samples.squaredNorm());
-    out->own_nats[k] += static_cast<double>(WanderingTone::kPlaces - 1);
-    const Eigen::ArrayXd left = cosine_transform(std::move(normal)).array() * white.deviation[k];
+    // Within the band the noise is what is measured there, not what lies beside.
+    const Eigen::VectorXd even = cosine_transform(std::move(normal));
+    const Eigen::ArrayXd level = level_within(even, band);
+    out->reshaped_nats[k] -= 0.5 * level.log().sum();
+    out->own_nats[k] += static_cast<double>(WanderingTone::kPlaces - 1) + wide_bands(band);
+    const Eigen::ArrayXd left = even.array() / level.sqrt() * white.deviation[k];
     Eigen::VectorXd cosines =
         (out->cosines[k].array() + left - current.cosines[k].array()).matrix();
     out->samples[k] = inverse_cosine_transform(cosines);
@@ -162,12 +166,12 @@ Suggestions search_oscillation(const SearchView& view) {
   const EffectTerm term(
       oscillation(), "",
       {{"from", band.from * subject.rate.value}, {"to", band.to * subject.rate.value}});
-  const auto places = static_cast<double>(WanderingTone::kPlaces - 1);
+  const double own = static_cast<double>(WanderingTone::kPlaces - 1) + wide_bands(band);
   // Nats by which a distribution of that kurtosis differs from a normal one.
   return {{.cause = "oscillation",
            .added = rounded(term, 0.0, subject.rate),
            .score_nats = likely ? 0.5 * light * light : 0.0,
-           .dof = 3.0 + places * static_cast<double>(subject.replicates())}};
+           .dof = 3.0 + own * static_cast<double>(subject.replicates())}};
 }
 
 // How much alike two channels are between two frequencies, at no lag and at a quarter of a wave: as

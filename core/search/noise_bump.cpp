@@ -143,6 +143,31 @@ Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump, st
   return out;
 }
 
+double wide_bands(const NoiseBump& bump) {
+  return std::max(1.0, std::round(2.0 * static_cast<double>(kWide) * (bump.to - bump.from)));
+}
+
+Eigen::ArrayXd level_within(const Eigen::VectorXd& cosines, const NoiseBump& bump) {
+  const Index n = cosines.size();
+  const Index first = place_of(bump.from, n);
+  const Index length = place_of(bump.to, n) - first;
+  Eigen::ArrayXd out = Eigen::ArrayXd::Ones(n);
+  const auto bands = std::min(static_cast<Index>(wide_bands(bump)), length);
+  if (bands == 0) return out;
+  Eigen::ArrayXd level(bands);
+  for (Index b = 0; b < bands; ++b)
+    level(b) = level_of(cosines, first + b * length / bands, first + (b + 1) * length / bands);
+  const double width = static_cast<double>(length) / static_cast<double>(bands);
+  for (Index i = 0; i < length; ++i) {
+    const double at = std::clamp((static_cast<double>(i) + 0.5) / width - 0.5, 0.0,
+                                 static_cast<double>(bands - 1));
+    const auto left = std::min(static_cast<Index>(at), std::max<Index>(0, bands - 2));
+    const double along = at - static_cast<double>(left);
+    out(first + i) = (1.0 - along) * level(left) + along * level(std::min(left + 1, bands - 1));
+  }
+  return out;
+}
+
 BumpTails tails_of(const Current& current, const NoiseBump& bump) {
   constexpr Index kParts = 64;  // of the band
   const std::size_t count = current.cosines.size();

@@ -25,6 +25,12 @@ std::optional<NoiseBump> highest_bump(const Current& current);
 Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump,
                                std::size_t replicate);
 
+/// Mean square of the cosine_transform() of a series within a bump, in as wide bands, straight
+/// between their middles; 1 elsewhere. At each of the coefficients.
+Eigen::ArrayXd level_within(const Eigen::VectorXd& cosines, const NoiseBump& bump);
+/// How many wide bands a bump has.
+double wide_bands(const NoiseBump& bump);
+
 /// Kurtosis less 3 of what stands out. Noise is a sum of many waves, which is normal: 0. A tone
 /// keeps to its amplitude.
 struct BumpTails {
