@@ -68,23 +68,45 @@ Occupancy mean_occupancy(const FittedTone& fitted) {
   return out / out.sum();
 }
 
-// The band, wider where the tone is often at its edge: what it does beyond is faint in the
-// spectrum, but not to the filter.
-NoiseBump with_skirts(const Current& current, NoiseBump band) {
+// What the noise of a fit gains over that beside a band, nats.
+double gained_by_noise(const Current& current, const Whitened& beside) {
+  double out = 0.0;
+  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
+    const Eigen::ArrayXd ratio = beside.deviation[k].square() / current.spectrum[k];
+    const Eigen::ArrayXd square = current.cosines[k].array().square();
+    out += 0.5 * (ratio.log() + square * (1.0 - ratio) / beside.deviation[k].square()).sum();
+  }
+  return out;
+}
+
+// The band of a tone, and what it gains over the noise of the fit.
+struct ToneBand {
+  NoiseBump band;
+  double gain = 0.0;
+};
+
+// Wider where the tone is often at its edge: what it does beyond is faint in the spectrum, but not
+// to the filter.
+ToneBand with_skirts(const Current& current, const NoiseBump& bump) {
   constexpr int kMostTimes = 3;
   constexpr double kOften = 0.03;
   constexpr double kWider = 0.3;  // of the width
   constexpr double kHighest = 0.49;
+  ToneBand out{bump};
   for (int i = 0; i < kMostTimes; ++i) {
-    const Occupancy occupancy =
-        mean_occupancy(fit_tone(band.from, band.to, whitened(current, band).series));
+    NoiseBump& band = out.band;
+    const Whitened white = whitened(current, band);
+    const FittedTone fitted = fit_tone(band.from, band.to, white.series);
+    out.gain = fitted.nats - gained_by_noise(current, white);
+    if (!(out.gain > 0.0)) break;
+    const Occupancy occupancy = mean_occupancy(fitted);
     const double skirt = kWider * (band.to - band.from);
     const NoiseBump before = band;
     if (occupancy(0) > kOften) band.from = std::max(0.1 * band.from, band.from - skirt);
     if (occupancy(occupancy.size() - 1) > kOften) band.to = std::min(kHighest, band.to + skirt);
     if (band.from == before.from && band.to == before.to) break;
   }
-  return band;
+  return out;
 }
 
 std::shared_ptr<const Subject> without_oscillation(const EffectTerm& term, const Current& current) {
@@ -160,17 +182,18 @@ Suggestions search_oscillation(const SearchView& view) {
   const std::optional<NoiseBump> bump = highest_bump(current);
   if (!bump) return {};
   const BumpTails tails = tails_of(current, *bump);
-  const double light = tails.excess / tails.error;
-  const bool likely = light < kSurely;
-  const NoiseBump band = likely ? with_skirts(current, *bump) : *bump;
+  const bool likely = tails.excess < kSurely * tails.error;
+  const ToneBand found = likely ? with_skirts(current, *bump) : ToneBand{*bump};
+  if (getenv("OSCDBG"))
+    fprintf(stderr, "OSC %g %g excess %g error %g of_tone %g gain %g\n", found.band.from,
+            found.band.to, tails.excess, tails.error, tails.of_tone, found.gain);
   const EffectTerm term(
       oscillation(), "",
-      {{"from", band.from * subject.rate.value}, {"to", band.to * subject.rate.value}});
-  const double own = static_cast<double>(WanderingTone::kPlaces - 1) + wide_bands(band);
-  // Nats by which a distribution of that kurtosis differs from a normal one.
+      {{"from", found.band.from * subject.rate.value}, {"to", found.band.to * subject.rate.value}});
+  const double own = static_cast<double>(WanderingTone::kPlaces - 1) + wide_bands(found.band);
   return {{.cause = "oscillation",
            .added = rounded(term, 0.0, subject.rate),
-           .score_nats = likely ? 0.5 * light * light : 0.0,
+           .score_nats = std::max(0.0, found.gain),
            .dof = 3.0 + own * static_cast<double>(subject.replicates())}};
 }
 

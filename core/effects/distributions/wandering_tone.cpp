@@ -61,9 +61,17 @@ ToneFilter::ToneFilter(const WanderingTone& tone, const Occupancy& occupancy)
 
 // To the next sample.
 void ToneFilter::move(const Chances& before, Chances& after) const {
+  constexpr float kNone = 1e-7F;  // chances that make no difference
+  const Eigen::Array<float, 1, kPlaces> mass = before.colwise().sum();
   // Three turns side by side: no index leaves them.
   std::array<float, 3 * kPhases> unrolled;
   for (Index j = 0; j < kPlaces; ++j) {
+    const float near = mass(j) + (j > 0 ? up_(j - 1) * mass(j - 1) : 0.0F) +
+                       (j + 1 < kPlaces ? down_(j + 1) * mass(j + 1) : 0.0F);
+    if (near < kNone) {
+      after.col(j).setZero();
+      continue;
+    }
     Phases here = (1.0F - up_(j) - down_(j)) * before.col(j);
     if (j > 0) here += up_(j - 1) * before.col(j - 1);
     if (j + 1 < kPlaces) here += down_(j + 1) * before.col(j + 1);
@@ -259,7 +267,7 @@ ToneFilter FittedTone::filter(const ToneSeries& series, std::size_t number) cons
 FittedTone fit_tone(double from, double to, const std::vector<ToneSeries>& series) {
   constexpr int kRounds = 4;
   const Stretches some(series, 1 << 16);
-  const Stretches more(series, 1 << 18);
+  const Stretches more(series, 1 << 17);
   FittedTone out{.tone = {.from = from, .to = to, .amplitude = amplitude_of(series)},
                  .occupancy = anywhere(series.size())};
   for (int i = 0; i < 3; ++i) out.occupancy = more.pass(out).occupancy;
@@ -296,6 +304,7 @@ FittedTone fit_tone(double from, double to, const std::vector<ToneSeries>& serie
   const auto replicates = static_cast<double>(series.size());
   const double numbers_found = 3.0 + static_cast<double>(kPlaces - 1) * replicates;
   const double nats = more.pass(out).nats;
+  out.nats = nats / more.share();
   out.seen = nats > 0.5 * chi_square_quantile(kOnceIn20, numbers_found);
   if (out.seen) {
     settle_amplitude(out, more);

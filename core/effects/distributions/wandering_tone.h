@@ -73,6 +73,7 @@ struct ToneSeries {
 struct FittedTone {
   WanderingTone tone;                               ///< its amplitude in the unit
   std::vector<WanderingTone::Occupancy> occupancy;  ///< of each series
+  double nats = 0.0;                                ///< gained over white noise, all samples
   /// Whether there is a tone at all. If not, noise alone would seem as much of one once in 20.
   bool seen = false;
   double amplitude_error = 0.0;  ///< standard error, by all samples; of one that is seen
