@@ -177,16 +177,15 @@ void simulate_oscillation(const EffectTerm& term, const SimulatedReplicate& at,
 
 Suggestions search_oscillation(const SearchView& view) {
   constexpr double kSurely = -4.0;  // standard errors; a tone keeps to its amplitude
+  constexpr double kShare = 0.6;    // of what stands out, at least, a tone
   const Current& current = view.current();
   const Subject& subject = view.subject();
   const std::optional<NoiseBump> bump = highest_bump(current);
   if (!bump) return {};
   const BumpTails tails = tails_of(current, *bump);
-  const bool likely = tails.excess < kSurely * tails.error;
+  const bool likely =
+      tails.excess < kSurely * tails.error && tails.excess < kShare * kShare * tails.of_tone;
   const ToneBand found = likely ? with_skirts(current, *bump) : ToneBand{*bump};
-  if (getenv("OSCDBG"))
-    fprintf(stderr, "OSC %g %g excess %g error %g of_tone %g gain %g\n", found.band.from,
-            found.band.to, tails.excess, tails.error, tails.of_tone, found.gain);
   const EffectTerm term(
       oscillation(), "",
       {{"from", found.band.from * subject.rate.value}, {"to", found.band.to * subject.rate.value}});
