@@ -202,8 +202,8 @@ double alike(const Current& current, const NoiseBump& band, const Witness& witne
   constexpr Index kParts = 64;  // of the band
   double chi = 0.0;
   for (std::size_t k = 0; k < current.cosines.size(); ++k) {
-    const Eigen::VectorXd& left = current.cosines[k];
-    const Eigen::VectorXd& other = witness.cosines[k];
+    const SharedVector& left = current.cosines[k];
+    const SharedVector& other = witness.cosines[k];
     const Index n = left.size();
     const Index first = std::min(coefficients_below(band.from, n + 1), n);
     const Index length = std::min(coefficients_below(band.to, n + 1), n) - first;
@@ -216,7 +216,7 @@ double alike(const Current& current, const NoiseBump& band, const Witness& witne
                 static_cast<double>(many);
     }
     if (!(powers > 0.0)) continue;
-    const auto within = [&](const Eigen::VectorXd& cosines) -> Eigen::VectorXd {
+    const auto within = [&](const SharedVector& cosines) -> Eigen::VectorXd {
       Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
       out.segment(first, length) = cosines.segment(first, length);
       return rough_inverse_cosine_transform(out);

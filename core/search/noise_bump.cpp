@@ -39,7 +39,7 @@ Eigen::ArrayXd log_ratio(const Current& current) {
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(kWide);
   Eigen::ArrayXd count = Eigen::ArrayXd::Zero(kWide);
   for (std::size_t k = 0; k < current.cosines.size(); ++k) {
-    const Eigen::VectorXd& cosines = current.cosines[k];
+    const SharedVector& cosines = current.cosines[k];
     const Index n = cosines.size();
     const Model plain = without_peaks(current.fit.own_noise.empty() ? current.fit.model.noise
                                                                     : current.fit.own_noise[k]);
@@ -78,7 +78,7 @@ Eigen::ArrayXd lower_edge(const Eigen::ArrayXd& course) {
 }
 
 // Mean square of some coefficients.
-double level_of(const Eigen::VectorXd& cosines, Index first, Index last) {
+double level_of(const VectorRef& cosines, Index first, Index last) {
   return cosines.segment(first, last - first).squaredNorm() / static_cast<double>(last - first);
 }
 
@@ -111,7 +111,7 @@ std::optional<NoiseBump> highest_bump(const Current& current) {
 }
 
 Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump, std::size_t k) {
-  const Eigen::VectorXd& cosines = current.cosines[k];
+  const SharedVector& cosines = current.cosines[k];
   const Index n = cosines.size();
   const Index first = place_of(bump.from, n);
   const Index last = place_of(bump.to, n);
@@ -147,7 +147,7 @@ double wide_bands(const NoiseBump& bump) {
   return std::max(1.0, std::round(2.0 * static_cast<double>(kWide) * (bump.to - bump.from)));
 }
 
-Eigen::ArrayXd level_within(const Eigen::VectorXd& cosines, const NoiseBump& bump) {
+Eigen::ArrayXd level_within(const VectorRef& cosines, const NoiseBump& bump) {
   const Index n = cosines.size();
   const Index first = place_of(bump.from, n);
   const Index length = place_of(bump.to, n) - first;
@@ -179,7 +179,7 @@ BumpTails tails_of(const Current& current, const NoiseBump& bump) {
   };
   std::vector<Sums> sums(count);
   for_each_index(count, [&](std::size_t k) {
-    const Eigen::VectorXd& cosines = current.cosines[k];
+    const SharedVector& cosines = current.cosines[k];
     const Eigen::ArrayXd beside = spectrum_beside(current, bump, k);
     const Index first = place_of(bump.from, cosines.size());
     const Index length = place_of(bump.to, cosines.size()) - first;

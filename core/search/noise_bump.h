@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/regression/current.h"
+#include "core/support/linear_algebra.h"
 
 namespace imunoise {
 
@@ -27,7 +28,7 @@ Eigen::ArrayXd spectrum_beside(const Current& current, const NoiseBump& bump,
 
 /// Mean square of the cosine_transform() of a series within a bump, in as wide bands, straight
 /// between their middles; 1 elsewhere. At each of the coefficients.
-Eigen::ArrayXd level_within(const Eigen::VectorXd& cosines, const NoiseBump& bump);
+Eigen::ArrayXd level_within(const VectorRef& cosines, const NoiseBump& bump);
 /// How many wide bands a bump has.
 double wide_bands(const NoiseBump& bump);
 
