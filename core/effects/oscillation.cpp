@@ -1,4 +1,4 @@
-// oscillation: a tone of constant amplitude whose phase and frequency are never at rest.
+// oscillation: a tone of constant amplitude whose phase and frequency keep changing.
 //
 // Its spectrum is that of noise that rings. Its amplitude tells them apart: noise that rings grows
 // and fades, an oscillator does not. What it adds is no sum of waves, so it is no regressor: a
@@ -196,43 +196,6 @@ Suggestions search_oscillation(const SearchView& view) {
            .dof = 3.0 + own * static_cast<double>(subject.replicates())}};
 }
 
-// How much alike two channels are between two frequencies, at no lag and at a quarter of a wave: as
-// χ² of two degrees of freedom were they independent.
-double alike(const Current& current, const NoiseBump& band, const Witness& witness) {
-  constexpr Index kParts = 64;  // of the band
-  double chi = 0.0;
-  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
-    const SharedVector& left = current.cosines[k];
-    const SharedVector& other = witness.cosines[k];
-    const Index n = left.size();
-    const Index first = std::min(coefficients_below(band.from, n + 1), n);
-    const Index length = std::min(coefficients_below(band.to, n + 1), n) - first;
-    double powers = 0.0;  // Σ of products of powers: what products scatter by
-    for (Index p = 0; p < kParts; ++p) {
-      const Index begin = first + p * length / kParts;
-      const Index many = first + (p + 1) * length / kParts - begin;
-      if (many == 0) continue;
-      powers += left.segment(begin, many).squaredNorm() * other.segment(begin, many).squaredNorm() /
-                static_cast<double>(many);
-    }
-    if (!(powers > 0.0)) continue;
-    const auto within = [&](const SharedVector& cosines) -> Eigen::VectorXd {
-      Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
-      out.segment(first, length) = cosines.segment(first, length);
-      return rough_inverse_cosine_transform(out);
-    };
-    const Eigen::VectorXd a = within(left);
-    const Eigen::VectorXd b = within(other);
-    const auto quarter =
-        static_cast<Index>(std::lround(0.5 / (band.from + band.to)));  // of a wave in the middle
-    const double at_once = a.dot(b);
-    const Index both = a.size() - quarter;
-    const double late = both > 0 ? a.tail(both).dot(b.head(both)) : 0.0;
-    chi += (at_once * at_once + late * late) / powers;
-  }
-  return chi;
-}
-
 // Motion that no other sensor recorded, or that another sensor shows at the same frequencies.
 void review_oscillation(const Current& current, TriedTerm& tried) {
   constexpr double kOnceIn = 1e-4;
@@ -244,7 +207,7 @@ void review_oscillation(const Current& current, TriedTerm& tried) {
   const double limit =
       chi_square_quantile(1.0 - kOnceIn, 2.0 * static_cast<double>(subject.replicates()));
   for (const Witness& one : subject.witnesses) {
-    if (!of_inertia(one.quantity) || !(alike(current, band, one) > limit)) continue;
+    if (!of_inertia(one.quantity) || !(alike_within(current, band, one) > limit)) continue;
     tried.could_be.push_back(may_share_motion(subject.quantity, one)
                                  ? "common_vibration"
                                  : coupling_effect(subject.quantity, one));
@@ -276,7 +239,7 @@ const Effect& oscillation() {
   static const Effect kOscillation{
       .name = "oscillation",
       .title = "oscillation",
-      .meaning = "Adds a tone of constant amplitude whose frequency is never at rest.",
+      .meaning = "Adds a tone of constant amplitude whose frequency keeps changing.",
       .parameters = {{.name = "from",
                       .meaning = "lowest frequency that the tone may take",
                       .unit = "Hz",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
@@ -77,6 +78,25 @@ Eigen::ArrayXd lower_edge(const Eigen::ArrayXd& course) {
   return out;
 }
 
+// Stretches of coefficients in a bump, at most 64.
+struct BumpPart {
+  Index first;
+  Index length;
+};
+
+std::vector<BumpPart> parts_of(const NoiseBump& bump, Index coefficients) {
+  constexpr Index kParts = 64;
+  const Index first = place_of(bump.from, coefficients);
+  const Index length = place_of(bump.to, coefficients) - first;
+  std::vector<BumpPart> out;
+  for (Index p = 0; p < kParts; ++p) {
+    const Index begin = p * length / kParts;
+    const Index end = (p + 1) * length / kParts;
+    if (end > begin) out.push_back({first + begin, end - begin});
+  }
+  return out;
+}
+
 // Mean square of some coefficients.
 double level_of(const VectorRef& cosines, Index first, Index last) {
   return cosines.segment(first, last - first).squaredNorm() / static_cast<double>(last - first);
@@ -86,7 +106,8 @@ double level_of(const VectorRef& cosines, Index first, Index last) {
 
 std::optional<NoiseBump> highest_bump(const Current& current) {
   constexpr Index kSlowest = 1;  // bands in which walks and slow waves lie
-  // Over the lower edge; and in standard errors, of which noise alone lies 1.7 over it.
+  // Least height over the lower edge, as a logarithm and in standard errors. Noise alone lies 1.7
+  // standard errors above the edge.
   constexpr double kTop = 0.2;
   constexpr double kTopErrors = 7.0;
   constexpr double kSide = 0.04;
@@ -169,7 +190,6 @@ Eigen::ArrayXd level_within(const VectorRef& cosines, const NoiseBump& bump) {
 }
 
 BumpTails tails_of(const Current& current, const NoiseBump& bump) {
-  constexpr Index kParts = 64;  // of the band
   const std::size_t count = current.cosines.size();
   // Sums over a replicate, weighted by how many independent numbers its waves are.
   struct Sums {
@@ -181,16 +201,11 @@ BumpTails tails_of(const Current& current, const NoiseBump& bump) {
   for_each_index(count, [&](std::size_t k) {
     const SharedVector& cosines = current.cosines[k];
     const Eigen::ArrayXd beside = spectrum_beside(current, bump, k);
-    const Index first = place_of(bump.from, cosines.size());
-    const Index length = place_of(bump.to, cosines.size()) - first;
     Eigen::VectorXd within = Eigen::VectorXd::Zero(cosines.size());
     double power = 0.0;
     double outstanding = 0.0;
     double squares = 0.0;
-    for (Index p = 0; p < kParts; ++p) {
-      const Index begin = first + p * length / kParts;
-      const Index many = first + (p + 1) * length / kParts - begin;
-      if (many == 0) continue;
+    for (const auto& [begin, many] : parts_of(bump, cosines.size())) {
       const double mean = level_of(cosines, begin, begin + many);
       // What stands out, by Wiener's filter.
       const double share = std::max(0.0, 1.0 - beside.segment(begin, many).mean() / mean);
@@ -217,6 +232,33 @@ BumpTails tails_of(const Current& current, const NoiseBump& bump) {
   if (!(all.independent > 0.0)) return {};
   return {all.excess / all.independent, std::sqrt(24.0 / all.independent),
           all.of_tone / all.independent};
+}
+
+double alike_within(const Current& current, const NoiseBump& bump, const Witness& witness) {
+  const auto quarter =
+      static_cast<Index>(std::lround(0.5 / (bump.from + bump.to)));  // of a wave in the middle
+  double chi = 0.0;
+  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
+    const SharedVector& left = current.cosines[k];
+    const SharedVector& other = witness.cosines[k];
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(left.size());
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(left.size());
+    double variance = 0.0;  // of their product, if they are independent
+    for (const auto& [first, length] : parts_of(bump, left.size())) {
+      a.segment(first, length) = left.segment(first, length);
+      b.segment(first, length) = other.segment(first, length);
+      variance += a.segment(first, length).squaredNorm() * b.segment(first, length).squaredNorm() /
+                  static_cast<double>(length);
+    }
+    if (!(variance > 0.0)) continue;
+    a = rough_inverse_cosine_transform(a);
+    b = rough_inverse_cosine_transform(b);
+    const double at_once = a.dot(b);
+    const Index both = std::max<Index>(0, a.size() - quarter);
+    const double late = a.tail(both).dot(b.head(both));
+    chi += (at_once * at_once + late * late) / variance;
+  }
+  return chi;
 }
 
 bool may_be_tone(const Current& current) {

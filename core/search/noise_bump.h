@@ -41,6 +41,10 @@ struct BumpTails {
 };
 BumpTails tails_of(const Current& current, const NoiseBump& bump);
 
+/// How much alike what is left and another channel are within a bump, at no lag and at a quarter of
+/// a wave: χ² with two degrees of freedom a replicate if they are independent.
+double alike_within(const Current& current, const NoiseBump& bump, const Witness& witness);
+
 /// Whether a tone of unsteady frequency may be what looks like a resonance.
 bool may_be_tone(const Current& current);
 

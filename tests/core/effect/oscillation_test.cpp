@@ -127,8 +127,7 @@ TEST(Oscillation, AnotherSensorMayShowIt) {
   }
 }
 
-// Of ten seeds: a resonance of the same power, width and frequency is never called an oscillation,
-// and never "found" where it may be one.
+// A resonance at the same place is never called an oscillation: ten seeds.
 TEST(Oscillation, NoiseThatRingsIsNone) {
   for (std::uint64_t seed = 200; seed < 210; ++seed) {
     const Diagnosis diagnosis = diagnose(fitted(
