@@ -2,26 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <span>
 
+#include "core/diagnosis/candidates.h"
 #include "core/diagnosis/causes.h"
-#include "core/diagnosis/missing_noise.h"
 #include "core/diagnosis/placebo.h"
+#include "core/diagnosis/searches.h"
 #include "core/diagnosis/shared_noise.h"
 #include "core/effects/couplings.h"
-#include "core/effects/known_effects.h"
-#include "core/search/search_view.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
 namespace {
 
 constexpr double kClearGap = 3.0;      // nats: less cannot tell two effects apart
-constexpr std::size_t kProven = 3;     // effects are proven on held-out replicates (climbing: 1),
+constexpr std::size_t kProven = 3;     // effects are proven on held-out replicates,
 constexpr std::size_t kMostTried = 8;  // of at most so many that are tried
-constexpr double kSpent = 0.8;         // of the level: chances are approximations
-constexpr double kMisfitShare = 0.2;   // of that is spent on misfits of unknown cause
 
 void add_unique(std::vector<std::string>& to, std::string_view id, const std::string& self) {
   if (id != self && std::find(to.begin(), to.end(), id) == to.end()) to.emplace_back(id);
@@ -68,21 +63,15 @@ void fill_confusions(std::vector<RankedTerm>& effects, const Subject& subject, d
   }
 }
 
-// Replicates that were not used must become more likely.
-bool proven(const RankedTerm& effect, const std::optional<HeldOut>& before) {
-  if (!effect.heldout || !before) return true;
-  return effect.heldout->total_likelihood() > before->total_likelihood();
-}
-
 // Holds replicates out for the best effects, until enough of them are proven. The best of those
 // comes first: evidence that other replicates do not bear out is no evidence.
-void prove(Diagnosis& out, double level, std::size_t wanted, const Progress& progress) {
+void prove(Diagnosis& out, double level, const Progress& progress) {
   std::size_t tried = 0;
   std::size_t passed = 0;
-  for (; tried < out.effects.size() && passed < wanted && tried < kMostTried; ++tried) {
+  for (; tried < out.effects.size() && passed < kProven && tried < kMostTried; ++tried) {
     RankedTerm& one = out.effects[tried];
-    if (progress.stopped() || (tried >= wanted && !(one.familywise_p < level))) break;
-    if (can_hold_out(one.tried.fitted)) one.heldout = held_out(one.tried.fitted);
+    if (progress.stopped() || (tried >= kProven && !(one.familywise_p < level))) break;
+    one.heldout = held_out(one.tried.fitted);
     if (proven(one, out.heldout)) ++passed;
   }
   const auto end = out.effects.begin() + static_cast<std::ptrdiff_t>(tried);
@@ -106,110 +95,38 @@ std::optional<DetectionLimit> limit_of(const Suggestion& one, double level, Hert
   return out;
 }
 
-// What these effects explain.
-Suggestions search_effects(const Current& current, std::span<const Effect* const> effects,
-                           const Progress& progress) {
-  Suggestions out;
-  const SearchView view(current);
-  for (std::size_t i = 0; i < effects.size() && !progress.stopped(); ++i) {
-    progress.report(static_cast<double>(i) / static_cast<double>(effects.size()));
-    if (effects[i]->search == nullptr) continue;
-    Suggestions found = effects[i]->search(view);
-    std::move(found.begin(), found.end(), std::back_inserter(out));
-  }
-  return out;
-}
-
-// Noise, then each effect.
-Suggestions search_all(const Current& current, const Progress& progress) {
-  Suggestions out = search_noise(current);
-  Suggestions effects = search_effects(current, known_effects(), progress.part(0.1, 1.0));
-  std::move(effects.begin(), effects.end(), std::back_inserter(out));
-  return out;
-}
-
-// What was searched, and what of it is worth a trial.
-struct Sought {
-  double searches = 0.0;
-  Suggestions wanted;
-};
-
-// The beginnings of the replicates, an eighth of a long recording, say what may well be added next;
-// only that is sought in the whole.
-Sought sought_by_beginnings(const Current& current, double level, const Progress& progress) {
-  constexpr Eigen::Index kSamples = 1 << 20;  // of all replicates together
-  constexpr std::size_t kMostWanted = 3;
-  constexpr double kFarLess = 0.5;
-  const auto count = static_cast<Eigen::Index>(current.subject().replicates());
-  const Regression part = current.regression.beginnings(kSamples / count);
-  const JointFit fit =
-      joint_fit(part, current.fit.model.noise, {}, Begin::kAnywhere, current.fit.own_noise);
-  const Current begun = current_of(part, fit);
-  const Suggestions all = search_all(begun, progress.part(0.0, 0.4));
-  Sought out{.searches = static_cast<double>(all.size()), .wanted = {}};
-  const std::vector<TriedTerm> tried = try_all(begun, all, progress.part(0.4, 0.8));
-  std::vector<const Effect*> effects;
-  for (std::size_t i = 0; i < std::min(kMostWanted, tried.size()); ++i) {
-    const TriedTerm& one = tried[i];
-    const bool chance = one.log_p + std::log(out.searches) > std::log(level);
-    if (chance || one.gain < kFarLess * tried.front().gain) break;
-    const EffectTerm* const term = one.term();
-    if (term == nullptr) {
-      out.wanted.push_back(one.suggestion);
-    } else if (std::find(effects.begin(), effects.end(), term->effect) == effects.end()) {
-      effects.push_back(term->effect);
-    }
-  }
-  Suggestions found = search_effects(current, effects, progress.part(0.8, 1.0));
-  std::move(found.begin(), found.end(), std::back_inserter(out.wanted));
-  return out;
-}
-
 }  // namespace
 
-Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
-                   const Progress& progress) {
+Diagnosis diagnose(const FittedModel& model, double false_alarm, const Progress& progress) {
   const Current current = current_of(model.regression, model.fit);
   const Subject& subject = current.subject();
-  const double misfit_level = kSpent * kMisfitShare * options.level;
-  const double level = kSpent * options.level - misfit_level;
-  Sought sought;
-  if (options.climbing) {
-    sought = sought_by_beginnings(current, level, progress.part(0.0, 0.4));
-    if (sought.wanted.empty()) return diagnose(model, {options.level}, progress);
-  } else {
-    sought.wanted = search_all(current, progress.part(0.0, 0.4));
-    sought.searches = static_cast<double>(sought.wanted.size());
-  }
+  const Levels levels = levels_of(false_alarm);
+  const double level = levels.term;
+  const Suggestions sought = search_all(current, progress.part(0.0, 0.4));
   if (progress.stopped()) return {};
   // Everything that was searched is a chance of a false alarm.
-  const double searched = sought.searches;
-  std::vector<TriedTerm> tried = try_all(current, sought.wanted, progress.part(0.4, 0.75));
-  test_placebos(tried, current, std::log(level / searched), progress);
+  const auto searched = static_cast<double>(sought.size());
+  std::vector<TriedTerm> tried = try_all(current, sought, progress.part(0.4, 0.75));
+  test_placebos(tried, current, std::log(level / searched), Placebos::kAll, progress);
   name_shared_noise(tried, searched, level, progress);
   if (progress.stopped()) return {};
   Diagnosis out;
-  for (TriedTerm& one : tried) {
-    const double chance = std::min(1.0, searched * std::exp(one.log_p));
-    out.effects.push_back({std::move(one), chance, {}, {}});
-  }
+  out.searches = searched;
+  for (TriedTerm& one : tried) out.effects.push_back(ranked(std::move(one), searched));
   out.misfit = misfit_of(model);
   out.misfit_p = misfit_p_value(out.misfit);
   progress.report(0.85);
-  if (can_hold_out(model)) {
-    out.heldout = held_out(model);
-    prove(out, level, options.climbing ? 1 : kProven, progress);
-    if (progress.stopped()) return {};
-  }
+  out.heldout = held_out(model);
+  if (out.heldout) prove(out, level, progress);
+  if (progress.stopped()) return {};
   fill_confusions(out.effects, subject, level);
   progress.report(1.0);
-  for (const Suggestion& one : sought.wanted) {
+  for (const Suggestion& one : sought) {
     if (auto limit = limit_of(one, level / searched, subject.rate))
       out.limits.push_back(std::move(*limit));
   }
   out.worth_adding = !out.effects.empty() && out.effects[0].familywise_p < level &&
                      proven(out.effects[0], out.heldout);
-  if (!out.worth_adding && options.climbing) return diagnose(model, {options.level}, progress);
   if (out.worth_adding) {
     const FittedModel& best = out.effects[0].tried.fitted;
     // What remains after the best effect must be small against what it took away, or it is not it.
@@ -222,7 +139,7 @@ Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options,
       out.verdict = out.effects[0].confused_with.empty() ? DiagnosisVerdict::kFound
                                                          : DiagnosisVerdict::kOneOf;
     }
-  } else if (out.misfit_p < misfit_level) {
+  } else if (out.misfit_p < levels.misfit) {
     out.verdict = DiagnosisVerdict::kUnknown;
   }
   return out;

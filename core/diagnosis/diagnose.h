@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/diagnosis/candidates.h"
-#include "core/diagnosis/heldout.h"
+#include "core/diagnosis/proof.h"
 #include "core/diagnosis/views/misfit.h"
 
 namespace imunoise {
@@ -11,14 +10,6 @@ enum class DiagnosisVerdict {
   kOneOf,    ///< an effect is there; these data cannot tell which
   kUnknown,  ///< the model misses something that no effect of the catalogue explains
   kNone,     ///< nothing is missing that these data could show
-};
-
-/// A tried term with what it does on data that it was not fitted to.
-struct RankedTerm {
-  TriedTerm tried;
-  double familywise_p = 1.0;
-  std::optional<HeldOut> heldout;          ///< absent where nothing can be held out
-  std::vector<std::string> confused_with;  ///< ids of effects that these data cannot exclude
 };
 
 /// What the smallest effect is that would have been seen nine times in ten.
@@ -32,6 +23,7 @@ struct DetectionLimit {
 /// What one look at a model shows.
 struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
+  double searches = 0.0;      ///< that were made
   bool worth_adding = false;  ///< the best effect is no chance, and helps on replicates not used
   std::vector<RankedTerm> effects;  ///< best first
   MisfitReport misfit;              ///< of the model as it is
@@ -40,16 +32,8 @@ struct Diagnosis {
   std::vector<DetectionLimit> limits;
 };
 
-struct DiagnosisOptions {
-  double level = 0.05;  ///< false-alarm probability over everything that is tried
-  /// Only the next term of a ladder is wanted: it is sought in the beginnings of the replicates,
-  /// and the first that proves itself on the whole will do. Where nothing does, everything is tried
-  /// on the whole.
-  bool climbing = false;
-};
-
-/// Tries every effect of the catalogue on a model and says which is missing. Deterministic.
-Diagnosis diagnose(const FittedModel& model, const DiagnosisOptions& options = {},
-                   const Progress& progress = {});
+/// Tries every effect of the catalogue on a model and says which is missing. `level`: false-alarm
+/// probability over everything that is tried. Deterministic.
+Diagnosis diagnose(const FittedModel& model, double level = 0.05, const Progress& progress = {});
 
 }  // namespace imunoise

@@ -69,8 +69,8 @@ double own_noise_gain(const EffectTerm& term, const Model& noise, const Model& o
   return out;
 }
 
-}  // namespace
-
+// Replicates, or blocks of a single one that is long enough; with powers of its own, blocks of
+// each.
 bool can_hold_out(const FittedModel& fitted) {
   const Subject& subject = fitted.regression.subject();
   if (subject.replicates() > 1 && fitted.fit.own_noise.empty()) return true;
@@ -80,9 +80,12 @@ bool can_hold_out(const FittedModel& fitted) {
   return true;
 }
 
+}  // namespace
+
 double HeldOut::total_likelihood() const { return std::accumulate(nats.begin(), nats.end(), 0.0); }
 
-HeldOut held_out(const FittedModel& fitted) {
+std::optional<HeldOut> held_out(const FittedModel& fitted) {
+  if (!can_hold_out(fitted)) return std::nullopt;
   const Subject& subject = fitted.regression.subject();
   const bool single = subject.replicates() == 1;
   const auto& effects = fitted.regression.effects();

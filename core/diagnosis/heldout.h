@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/regression/fitted_model.h"
@@ -16,15 +17,11 @@ struct HeldOut {
   double total_likelihood() const;
 };
 
-/// True where something can be held out: replicates, or blocks of a single one that is long enough;
-/// with powers of its own, blocks of each.
-bool can_hold_out(const FittedModel& fitted);
-
 /// Each replicate by a fit to the others; of a single replicate each of four blocks, which is
 /// weaker: what holds throughout that hour is not seen to hold in another. Coefficients that belong
 /// to the held-out replicate alone (phases, steps) are estimated there, and each costs a nat.
 /// Powers that a replicate has of its own must prove themselves on each of its quarters, by a fit
-/// to the other three. Precondition: can_hold_out().
-HeldOut held_out(const FittedModel& fitted);
+/// to the other three. Nothing where nothing can be held out: of blocks that are too short.
+std::optional<HeldOut> held_out(const FittedModel& fitted);
 
 }  // namespace imunoise

@@ -175,14 +175,14 @@ bool copies_explain_as_much(const Current& current, const std::vector<SharedVect
   return false;
 }
 
-void test_placebo(TriedTerm& tried, const Current& current) {
+void test_placebo(TriedTerm& tried, const Current& current, Placebos which) {
   const Subject& subject = current.subject();
   const std::vector<SharedVector> columns = shared_column(*tried.term(), subject);
   if (columns.empty()) return;
   const PlaceboSums own = sums_of(current, columns);
   if (!(own.aa > 0.0)) return;
   const bool several = subject.parts.back().recorded > 0;
-  if (several && copies_explain_as_much(current, columns))
+  if (which == Placebos::kAll && several && copies_explain_as_much(current, columns))
     tried.could_be.push_back("common_course");
   constexpr double kBeyondChance = 3.0;  // standard deviations
   const double dof = own.dof();
@@ -199,12 +199,12 @@ void test_placebo(TriedTerm& tried, const Current& current) {
 }  // namespace
 
 void test_placebos(std::vector<TriedTerm>& tried, const Current& current, double least,
-                   const Progress& progress) {
+                   Placebos which, const Progress& progress) {
   std::size_t tested = 0;
   for (TriedTerm& one : tried) {
     if (tested == kMostPlacebos || !(one.log_p < least) || progress.stopped()) break;
     if (one.term() == nullptr || one.term()->effect->regressors == nullptr) continue;
-    test_placebo(one, current);
+    test_placebo(one, current, which);
     ++tested;
   }
   best_first(tried);

@@ -7,6 +7,11 @@
 
 namespace imunoise {
 
+enum class Placebos {
+  kAll,
+  kSigns,  ///< what a coupling gains; not what else it could be
+};
+
 /// Tests the best regressors among tried terms against placebos, and sorts again.
 ///
 /// Copies: the regressor of another replicate in place of each one's own. If copies explain as
@@ -21,6 +26,6 @@ namespace imunoise {
 /// `tried`: best first, and so they are again. `least`: the logarithm of the p-value that makes a
 /// term worth testing.
 void test_placebos(std::vector<TriedTerm>& tried, const Current& current, double least,
-                   const Progress& progress = {});
+                   Placebos which, const Progress& progress = {});
 
 }  // namespace imunoise

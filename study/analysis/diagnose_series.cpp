@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/climb.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/useless.h"
@@ -25,7 +26,6 @@ namespace imunoise::study {
 namespace {
 
 constexpr int kMostRungs = 16;
-constexpr Eigen::Index kMany = 2'000'000;  // samples of all replicates: a ladder takes short cuts
 
 Step step_of(const TriedTerm& tried) {
   return {.added = printed(tried.suggestion.added),
@@ -139,47 +139,53 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   Step step{.added = "", .why = "The model as it was given."};
   ModelsSeen models;
   models.is_new(model.fit.model);
-  std::optional<DiagnosisVerdict> remaining;
   const int most = options.automatic ? kMostRungs : 1;
-  Eigen::Index samples = 0;
-  for (std::size_t k = 0; k < subject->replicates(); ++k) samples += subject->length(k);
-  const bool many = samples > kMany;
-  for (int rung = 0; rung < most; ++rung) {
-    const double begin = 0.25 + 0.7 * rung / most;
-    Diagnosis diagnosis = diagnose(model, {options.level, many && rung > 0},
-                                   progress.part(begin, begin + 0.7 / most));
-    if (progress.stopped()) return fail("stopped");
-    *out.add_ladder() = rung_of({model, left, diagnosis.misfit, diagnosis.heldout}, step, first,
-                                prepared.replicates);
-    // The verdict is about the model that was asked for; later rounds only climb.
-    if (rung == 0) {
-      add_diagnosis(diagnosis, *subject, out);
-      add_misfits(diagnosis.misfit, out);
-      put_defects_first(prepared.changed, out);
-      add_timing(look.recorded, out);
-      forecast_rungs(prepared, options.forecasts, progress, out);
-      if (progress.stopped()) return fail("stopped");
-    }
-    if (!diagnosis.worth_adding) {
-      remaining = diagnosis.verdict;
+  const auto within = [&](int rung) {
+    return progress.part(0.25 + 0.7 * rung / most, 0.25 + 0.7 * (rung + 1) / most);
+  };
+  const auto add_rung = [&](const MisfitReport& misfit, const std::optional<HeldOut>& heldout) {
+    *out.add_ladder() = rung_of({model, left, misfit, heldout}, step, first, prepared.replicates);
+  };
+  Diagnosis diagnosis = diagnose(model, options.level, within(0));
+  if (progress.stopped()) return fail("stopped");
+  add_rung(diagnosis.misfit, diagnosis.heldout);
+  // The verdict is about the model that was asked for; what follows only climbs.
+  add_diagnosis(diagnosis, *subject, out);
+  add_misfits(diagnosis.misfit, out);
+  put_defects_first(prepared.changed, out);
+  add_timing(look.recorded, out);
+  forecast_rungs(prepared, options.forecasts, progress, out);
+  if (progress.stopped()) return fail("stopped");
+  Climb climb(diagnosis, model, options.level);
+  NextTerm next;
+  next.verdict = diagnosis.verdict;
+  if (diagnosis.worth_adding) next.best = std::move(diagnosis.effects.front());
+  std::optional<DiagnosisVerdict> remaining;
+  for (int rung = 1; rung <= most; ++rung) {
+    if (!next.best) {
+      remaining = next.verdict;
       break;
     }
-    RankedTerm& best = diagnosis.effects.front();
-    Step next = step_of(best.tried);
-    FittedModel grown = std::move(best.tried.fitted);
-    if (options.automatic) drop_useless(grown, next, options.level);
+    Step taken = step_of(next.best->tried);
+    FittedModel grown = std::move(next.best->tried.fitted);
+    if (options.automatic) drop_useless(grown, taken, options.level);
     if (!models.is_new(grown.fit.model)) {
-      out.add_notes(came_back(next));
+      out.add_notes(came_back(taken));
       remaining = DiagnosisVerdict::kUnknown;
       break;
     }
-    step = std::move(next);
+    step = std::move(taken);
     model = std::move(grown);
     left = left_over(model);
-    if (rung + 1 < most) continue;
-    if (!step.dropped.empty()) best.heldout = held_out_of(model);
-    *out.add_ladder() =
-        rung_of({model, left, misfit_of(model), best.heldout}, step, first, prepared.replicates);
+    const std::optional<HeldOut> heldout =
+        step.dropped.empty() ? std::move(next.best->heldout) : held_out(model);
+    if (rung == most) {
+      add_rung(misfit_of(model), heldout);
+      break;
+    }
+    next = climb.next(model, heldout, within(rung));
+    if (progress.stopped()) return fail("stopped");
+    add_rung(next.misfit, next.heldout);
   }
   if (options.automatic && out.ladder_size() > 1) {
     add_findings(model, out);

@@ -17,17 +17,12 @@ Result<FullModel> started(const std::string& model, const PreparedChannel& prepa
   return start_of(as_fitted(*written), *prepared.subject, prepared.moments, progress);
 }
 
-std::optional<HeldOut> held_out_of(const FittedModel& model) {
-  if (!can_hold_out(model)) return std::nullopt;
-  return held_out(model);
-}
-
 Result<v1::Rung> evaluate(const std::string& model, const PreparedChannel& prepared,
                           const Step& step, const Progress& progress) {
   const Result<FullModel> start = started(model, prepared, progress.part(0.0, 0.1));
   if (!start) return tl::unexpected(start.error());
   const FittedModel trial = fit_with_resonances(prepared.subject, *start, progress.part(0.1, 0.3));
-  const std::optional<HeldOut> heldout = held_out_of(trial);
+  const std::optional<HeldOut> heldout = held_out(trial);
   progress.report(0.7);
   const MisfitReport misfit = misfit_of(trial);
   if (progress.stopped()) return fail("stopped");

@@ -21,7 +21,4 @@ Result<FullModel> started(const std::string& model, const PreparedChannel& prepa
 Result<v1::Rung> evaluate(const std::string& model, const PreparedChannel& prepared,
                           const Step& step, const Progress& progress = {});
 
-/// Likelihood of data that the model was not fitted to; none where nothing can be held out.
-std::optional<HeldOut> held_out_of(const FittedModel& model);
-
 }  // namespace imunoise::study

@@ -91,7 +91,8 @@ TEST_P(ErrorViewsOf, TheMissingEffectShowsAndGoes) {
   EXPECT_LT(after.at(missing.view).value, 1.5 * after.at(missing.view).chance_limit);
   for (const auto& [name, view] : after)
     EXPECT_LT(view.value, std::max(1.1 * before.at(name).value, 1.5 * view.chance_limit)) << name;
-  EXPECT_GT(held_out(with).total_likelihood(), held_out(without).total_likelihood() + 20.0);
+  EXPECT_GT(held_out(with).value().total_likelihood(),
+            held_out(without).value().total_likelihood() + 20.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -122,8 +123,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(HeldOut, ShowsASlowCourseThatTheNoiseTakesIn) {
   const auto subject = subject_of(
       {.seed = 43, .added = [](std::size_t, double s) { return 3.0 * std::exp(-s / 20.0); }});
-  EXPECT_GT(held_out(fitted(subject, "WN + RW + warm_up(tau=20)")).total_likelihood(),
-            held_out(fitted(subject)).total_likelihood() + 20.0);
+  EXPECT_GT(held_out(fitted(subject, "WN + RW + warm_up(tau=20)")).value().total_likelihood(),
+            held_out(fitted(subject)).value().total_likelihood() + 20.0);
 }
 
 // Noise whose power follows `power` of a replicate and a time.
@@ -149,7 +150,8 @@ TEST(ErrorViews, NoiseThatFollowsAWitnessShowsOverTime) {
   const FittedModel with = fitted(subject, "WN + modulated(temperature)");
   EXPECT_LT(views_of(without).at("noise_over_time").p_value, 1e-6);
   EXPECT_GT(views_of(with).at("noise_over_time").p_value, 1e-3);
-  EXPECT_GT(held_out(with).total_likelihood(), held_out(without).total_likelihood() + 50.0);
+  EXPECT_GT(held_out(with).value().total_likelihood(),
+            held_out(without).value().total_likelihood() + 50.0);
 }
 
 TEST(ErrorViews, PowersOfEachReplicateAreHeldOutByStretches) {
@@ -159,15 +161,14 @@ TEST(ErrorViews, PowersOfEachReplicateAreHeldOutByStretches) {
   const FittedModel with = fitted(loud, "WN + own_powers");
   EXPECT_LT(views_of(without).at("replicates").p_value, 1e-6);
   EXPECT_LT(views_of(with).at("replicates").value, views_of(with).at("replicates").floor);
-  ASSERT_TRUE(can_hold_out(with));
-  const HeldOut base = held_out(without);
-  const HeldOut own = held_out(with);
+  const HeldOut base = held_out(without).value();
+  const HeldOut own = held_out(with).value();
   EXPECT_GT(own.total_likelihood(), base.total_likelihood() + 50.0);
   // Most where the power differs: its own nats, by log(1.3) to second order.
   EXPECT_GT(own.nats[1] - base.nats[1], own.nats[0] - base.nats[0]);
   // Powers that do not differ cost what their numbers cost.
-  const double idle = held_out(fitted(plain, "WN + own_powers")).total_likelihood() -
-                      held_out(fitted(plain, "WN")).total_likelihood();
+  const double idle = held_out(fitted(plain, "WN + own_powers")).value().total_likelihood() -
+                      held_out(fitted(plain, "WN")).value().total_likelihood();
   EXPECT_LT(std::abs(idle), 8.0);
 }
 
@@ -177,8 +178,9 @@ TEST(HeldOut, PowersOfEachReplicateBesideNoiseThatFollowsAWitness) {
   const auto subject = scaled(*plain, [](std::size_t k, double s) {
     return (k == 3 ? 1.3 : 1.0) * std::exp(0.15 * heat(k, s));
   });
-  const HeldOut powers = held_out(fitted(subject, "WN + own_powers"));
-  const HeldOut both = held_out(fitted(subject, "WN + own_powers + modulated(temperature)"));
+  const HeldOut powers = held_out(fitted(subject, "WN + own_powers")).value();
+  const HeldOut both =
+      held_out(fitted(subject, "WN + own_powers + modulated(temperature)")).value();
   for (std::size_t k = 0; k < powers.nats.size(); ++k)
     EXPECT_GT(both.nats[k], powers.nats[k] + 10.0) << k;
 }
@@ -188,10 +190,10 @@ TEST(HeldOut, PowersOfEachReplicateBesideNoiseThatFollowsAWitness) {
 TEST(HeldOut, AWrongTermGainsNothing) {
   for (std::size_t set = 0; set < 12; ++set) {
     const auto subject = subject_of({.samples = 4096, .seed = 600 + set, .temperature = heat});
-    const HeldOut base = held_out(fitted(subject));
+    const HeldOut base = held_out(fitted(subject)).value();
     for (const char* const wrong : {"line(f=3.3)", "witness(temperature)", "ramp", "QN",
                                     "warm_up(tau=20)", "modulated(temperature)", "own_powers"}) {
-      const HeldOut with = held_out(fitted(subject, std::string("WN + RW + ") + wrong));
+      const HeldOut with = held_out(fitted(subject, std::string("WN + RW + ") + wrong)).value();
       EXPECT_LT(with.total_likelihood() - base.total_likelihood(), 5.0) << wrong << " " << set;
     }
   }

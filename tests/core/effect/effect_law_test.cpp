@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/diagnosis/candidates.h"
 #include "core/diagnosis/causes.h"
 #include "core/effect/columns.h"
 #include "core/effects/known_effects.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/diagnosis/candidates.h"
 #include "core/effect/columns.h"
 #include "core/effects/distributions/wandering_tone.h"
 #include "core/effects/known_effects.h"

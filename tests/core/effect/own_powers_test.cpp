@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/diagnosis/candidates.h"
 #include "core/search/search_view.h"
 #include "tests/core/diagnosis/subject_of.h"
 

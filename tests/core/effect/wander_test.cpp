@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/diagnosis/candidates.h"
 #include "core/effects/known_effects.h"
 #include "core/effects/simulate_effects.h"
 #include "core/search/search_view.h"
