@@ -159,12 +159,13 @@ std::optional<RankedTerm> Climb::by_leads(Look look, const Progress& progress) {
   Suggestions all = noise ? search_noise(look.current) : Suggestions{};
   append(all, search_effects(look.current, effects, progress.part(0.1, 0.6)));
   std::erase_if(all, [&](const Suggestion& one) {
-    return lead_to(one) == nullptr && !(noise && is_coupling(one));
+    return effect_of(one) == nullptr && lead_to(one) == nullptr;
   });
   std::vector<TriedTerm> found = tried(look, all, progress.part(0.6, 0.9));
+  // What explains far less than it did shows that the picture has changed.
   std::erase_if(found, [&](const TriedTerm& one) {
     const Lead* const lead = lead_to(one.suggestion);
-    return lead == nullptr || one.gain < kStillThere * lead->evidence;
+    return lead != nullptr && one.gain < kStillThere * lead->evidence;
   });
   return best_of(look, std::move(found));
 }
