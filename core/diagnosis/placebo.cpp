@@ -48,17 +48,31 @@ struct PlaceboSums {
   }
 };
 
-// The only column of a regressor that all replicates share, a replicate each; empty where it is
-// not of this kind.
-std::vector<SharedVector> shared_column(const EffectTerm& term, const Subject& subject) {
+// What a regressor that all replicates share adds to each, up to a factor: its columns with the
+// coefficients that were fitted. Empty where it is not of this kind.
+std::vector<SharedVector> shared_column(const TriedTerm& tried, const Subject& subject) {
+  const EffectTerm& term = *tried.term();
   if (term.effect->regressors == nullptr || term.effect->fit_with != nullptr) return {};
   const Regressors made = regressors_of(term, subject);
-  if (made.coefficients.size() != 1 || made.coefficients[0].replicate != CoefficientName::kAll)
-    return {};
+  const std::size_t count = made.coefficients.size();
+  const bool shared = std::all_of(
+      made.coefficients.begin(), made.coefficients.end(),
+      [](const CoefficientName& one) { return one.replicate == CoefficientName::kAll; });
+  if (count == 0 || !shared) return {};
+  const Regression& regression = tried.fitted.regression;
+  const Eigen::VectorXd& all = tried.fitted.fit.effects.value;
+  const Eigen::VectorXd fitted =
+      all.segment(regression.first(regression.effects().size() - 1), static_cast<Index>(count));
   std::vector<SharedVector> out;
   for (const Columns& one : made.replicates) {
-    if (one.cosines.size() != 1) return {};
-    out.push_back(one.cosines[0]);
+    if (one.cosines.size() != count) return {};
+    if (count == 1) {
+      out.push_back(one.cosines[0]);
+      continue;
+    }
+    Eigen::VectorXd sum = fitted(0) * one.cosines[0];
+    for (std::size_t i = 1; i < count; ++i) sum += fitted(static_cast<Index>(i)) * one.cosines[i];
+    out.emplace_back(std::move(sum));
   }
   return out;
 }
@@ -177,7 +191,7 @@ bool copies_explain_as_much(const Current& current, const std::vector<SharedVect
 
 void test_placebo(TriedTerm& tried, const Current& current, Placebos which) {
   const Subject& subject = current.subject();
-  const std::vector<SharedVector> columns = shared_column(*tried.term(), subject);
+  const std::vector<SharedVector> columns = shared_column(tried, subject);
   if (columns.empty()) return;
   const PlaceboSums own = sums_of(current, columns);
   if (!(own.aa > 0.0)) return;

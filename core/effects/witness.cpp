@@ -1,5 +1,7 @@
 // witness: proportional to another channel, as it is, filtered, or behind a lag.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,6 +28,7 @@ enum WitnessParameter : std::size_t {
   kWitnessLag,
   kWitnessFrom,
   kWitnessTo,
+  kWitnessOctaves,
   kWitnessQuadratic,
   kWitnessVertex,
   kWitnessDerivative,
@@ -35,10 +38,15 @@ enum WitnessParameter : std::size_t {
 
 bool is_on(const EffectTerm& term, WitnessParameter flag) { return term[flag] != 0.0; }
 
+// How many coefficients it has.
+double octaves_of(const EffectTerm& term) { return std::max(1.0, term[kWitnessOctaves]); }
+
 std::string_view witness_fault(const EffectTerm& term) {
   if (term.given(kWitnessVertex) && !is_on(term, kWitnessQuadratic))
     return "only a quadratic coupling has a vertex";
-  return term[kWitnessFrom] < term[kWitnessTo] ? "" : "from must lie below to";
+  if (!(term[kWitnessFrom] < term[kWitnessTo])) return "from must lie below to";
+  const double lowest = std::exp2(1.0 - octaves_of(term)) * term[kWitnessTo];
+  return term[kWitnessFrom] < lowest ? "" : "from must lie within the lowest octave";
 }
 
 Result<void> check_witness(const EffectTerm& term, const Subject& subject) {
@@ -88,26 +96,39 @@ SharedVector witness_samples(const EffectTerm& term, const Witness& channel, std
   return x;
 }
 
-// A single column; all frequencies are the samples' own.
+// A column an octave, the slowest first. All frequencies at once are the samples' own.
 Columns witness_columns(const EffectTerm& term, const Witness& channel, std::size_t k,
                         double rate) {
   const SharedVector samples = witness_samples(term, channel, k, rate);
   const bool transformed = as_it_is(term) && !channel.cosines.empty();
   const SharedVector cosines =
       transformed ? channel.cosines[k] : SharedVector(cosine_transform(samples));
-  if (!(term[kWitnessFrom] > 0.0) && !std::isfinite(term[kWitnessTo]))
+  const double octaves = octaves_of(term);
+  if (!(term[kWitnessFrom] > 0.0) && !std::isfinite(term[kWitnessTo]) && octaves == 1.0)
     return {{cosines}, {}, {samples}};
-  Eigen::VectorXd part = cosines;
-  keep_between(part, term[kWitnessFrom], term[kWitnessTo], rate);
-  return {{std::move(part)}, {}, {}};
+  const double top = std::isfinite(term[kWitnessTo]) ? term[kWitnessTo] : 0.5 * rate;
+  Columns out;
+  double from = term[kWitnessFrom];
+  for (double octave = octaves - 1.0; octave >= 0.0; --octave) {
+    const double to = top * std::exp2(-octave);
+    Eigen::VectorXd part = cosines;
+    keep_between(part, from, to, rate);
+    out.cosines.emplace_back(std::move(part));
+    from = to;
+  }
+  return out;
 }
 
 Regressors witness_regressors(const EffectTerm& term, const Subject& subject) {
   const Witness& channel = *subject.find(term.witness);
-  const bool quadratic = is_on(term, kWitnessQuadratic);
-  return in_all(
-      subject, is_on(term, kWitnessOwn), {quadratic ? "quadratic_coefficient" : "coefficient"},
-      [&](std::size_t k) { return witness_columns(term, channel, k, subject.rate.value); });
+  const std::string name = is_on(term, kWitnessQuadratic) ? "quadratic_coefficient" : "coefficient";
+  std::vector<std::string> names;
+  const auto octaves = static_cast<int>(octaves_of(term));
+  for (int i = 1; i <= octaves; ++i)
+    names.push_back(octaves == 1 ? name : fmt::format("{}_{}", name, i));
+  return in_all(subject, is_on(term, kWitnessOwn), names, [&](std::size_t k) {
+    return witness_columns(term, channel, k, subject.rate.value);
+  });
 }
 
 void simulate_witness(const EffectTerm& term, const SimulatedReplicate& at,
@@ -116,7 +137,9 @@ void simulate_witness(const EffectTerm& term, const SimulatedReplicate& at,
   const Columns columns =
       witness_columns(term, *at.beside.find(term.witness), at.replicate, at.beside.rate.value);
   add_effect(term, at.beside, at.replicate, columns,
-             Eigen::VectorXd::Constant(1, own * term[kWitnessCoefficient]), samples);
+             Eigen::VectorXd::Constant(static_cast<Index>(columns.cosines.size()),
+                                       own * term[kWitnessCoefficient]),
+             samples);
 }
 
 std::string witness_unit(const EffectTerm& term, const Subject& subject) {
@@ -180,6 +203,49 @@ double edge_of(const Current& current, Index octave) {
   return octave_edge(current, octave) * current.subject().rate.value;
 }
 
+// A coupling with a coefficient of its own in each octave: what another sensor says of a motion
+// counts the less the more of its own noise it has at a frequency (Wiener 1949). Of all ends and
+// numbers of octaves, the one with the best evidence.
+struct Octaves {
+  Index to = 0;     // the octave that the highest ends with
+  Index count = 0;  // 0: none
+  double gain = 0.0;
+  double evidence = 0.0;
+};
+
+Octaves best_octaves(const Cumulated& sums, double places) {
+  constexpr Index kMost = 8;
+  const Index last = sums.product.size() - 1;
+  Octaves best;
+  for (Index to = kFirstOctave + 1; to <= last; ++to) {
+    double above = 0.0;  // in all octaves but the first
+    for (Index count = 2; count <= std::min(kMost, to - kFirstOctave + 1); ++count) {
+      above += sums.gain(to - count + 1, to - count + 2);
+      const double gain = sums.gain(0, to - count + 1) + above;
+      const double evidence =
+          -log_p_value(gain, static_cast<double>(count), INFINITY, false, {0.0, std::log(places)});
+      if (evidence > best.evidence) best = {to, count, gain, evidence};
+    }
+  }
+  return best;
+}
+
+// Takes the place of a suggestion where it is clearly better.
+void take_octaves(const Current& current, const Cumulated& sums, Suggestion& one) {
+  constexpr double kClearly = 3.0;  // nats
+  const auto span = static_cast<double>(sums.product.size());
+  const Octaves best = best_octaves(sums, span * span);
+  const double now = -log_p_value(one.score_nats, one.dof, INFINITY, false, one.search);
+  if (!(best.evidence > now + kClearly)) return;
+  auto& term = std::get<EffectTerm>(one.added);
+  term.set("from", 0.0);
+  term.set("to", edge_of(current, best.to));
+  term.set("octaves", static_cast<double>(best.count));
+  one.score_nats = best.gain;
+  one.dof = static_cast<double>(best.count);
+  one.search.log_places = 2.0 * std::log(span);
+}
+
 void add_static(const Current& current, const Witness& channel, Suggestions& out) {
   const Cumulated sums = cumulated(current, channel.cosines);
   const Index last = sums.product.size() - 1;
@@ -206,9 +272,13 @@ void add_static(const Current& current, const Witness& channel, Suggestions& out
       std::get<EffectTerm>(fast.added).set("from", edge);
     }
   }
+  take_octaves(current, sums, slow.score_nats > fast.score_nats ? slow : fast);
   // A bench tilts over minutes; what is faster is vibration.
   constexpr double kFastestTilt = 0.1;  // Hz
-  if (std::get<EffectTerm>(slow.added)[kWitnessTo] > kFastestTilt) slow.cause = fast.cause;
+  for (Suggestion* const one : {&slow, &fast}) {
+    const double to = std::get<EffectTerm>(one->added)[kWitnessTo];
+    one->cause = to > kFastestTilt ? "common_vibration" : "tilt";
+  }
   out.push_back(std::move(slow));
   out.push_back(std::move(fast));
 }
@@ -240,6 +310,7 @@ void add_rocking(const Current& current, const Witness& channel, Suggestions& ou
     }
   }
   best.search.log_places = std::log(static_cast<double>(tried));
+  take_octaves(current, sums, best);
   out.push_back(std::move(best));
 }
 
@@ -353,6 +424,11 @@ const Effect& witness() {
             .absent = std::numeric_limits<double>::infinity(),
             .reported = "to_hz",
             .rounding = Rounding::kFourDigits},
+           {.name = "octaves",
+            .meaning = "number of coefficients: one an octave below to, the first for all that is "
+                       "slower",
+            .form = ParameterForm::kWholeNumber,
+            .upper = 24.0},
            {.name = "quadratic", .meaning = "the witness squared", .form = ParameterForm::kFlag},
            {.name = "vertex",
             .meaning = "value of the witness at the vertex of a quadratic coupling; without it, "
