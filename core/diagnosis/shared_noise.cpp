@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/diagnosis/causes.h"
+#include "core/diagnosis/missing_noise.h"
+#include "core/diagnosis/views/misfit.h"
 #include "core/effects/couplings.h"
 
 namespace imunoise {
@@ -47,6 +49,16 @@ bool is_leak(const Coupling& one, const std::vector<Coupling>& all) {
   });
 }
 
+// The best of those that are no leaks.
+std::vector<Coupling> motions(const std::vector<TriedTerm>& tried) {
+  const std::vector<Coupling> all = couplings(tried);
+  std::vector<Coupling> out;
+  for (const Coupling& one : all) {
+    if (!is_leak(one, all) && out.size() < kMostCouplings) out.push_back(one);
+  }
+  return out;
+}
+
 struct SharedMotion {
   const TriedTerm* with = nullptr;  // the coupling; null: none
   double gain = 0.0;
@@ -65,17 +77,48 @@ SharedMotion shared_motion(const TriedTerm& noise, const std::vector<Coupling>& 
   return out;
 }
 
+// Makes noise and a coupling one suggestion, with the evidence of both.
+void join(TriedTerm& noise, const TriedTerm& coupling, FittedModel both, double gain,
+          double log_p) {
+  auto& change = std::get<NoiseChange>(noise.suggestion.added);
+  change.start = both.fit.model.noise;
+  change.shared = *coupling.term();
+  noise.fitted = std::move(both);
+  const bool turning = coupling.suggestion.coupling == MotionCoupling::kTurning;
+  noise.cause = turning ? "tilt" : "common_vibration";
+  noise.shared_with = coupling.term()->witness;
+  noise.likelihood_gain += gain;
+  noise.log_p += log_p;
+  noise.gain = -noise.log_p;
+}
+
+// What of a motion another sensor does not show, because its own noise hides it there, is noise
+// beside the coupling.
+void add_hidden_part(std::vector<TriedTerm>& tried, const std::vector<Coupling>& vibrations,
+                     double level) {
+  constexpr double kMisfits = 1e-3;
+  if (tried.empty() || vibrations.empty() || vibrations.front().tried != &tried.front()) return;
+  const TriedTerm& coupling = tried.front();
+  if (!(misfit_of(coupling.fitted).spectrum.p_value < kMisfits)) return;
+  const Current with = current_of(coupling.fitted.regression, coupling.fitted.fit);
+  const Suggestions all = search_noise(with);
+  std::vector<TriedTerm> noises = try_all(with, all);
+  std::erase_if(noises, [](const TriedTerm& one) { return !cause_info(one.cause).by_spectrum; });
+  if (noises.empty() || !(noises.front().log_p < std::log(level / static_cast<double>(all.size()))))
+    return;
+  TriedTerm& noise = noises.front();
+  FittedModel both = std::move(noise.fitted);
+  join(noise, coupling, std::move(both), coupling.likelihood_gain, coupling.log_p);
+  tried.push_back(std::move(noise));
+}
+
 }  // namespace
 
 void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double level,
                        const Progress& progress) {
   const double surely_there = std::log(level / searches);
   const double surely_shared = std::log(level / (kMostNoises * kMostCouplings));
-  const std::vector<Coupling> all = couplings(tried);
-  std::vector<Coupling> vibrations;
-  for (const Coupling& one : all) {
-    if (!is_leak(one, all) && vibrations.size() < kMostCouplings) vibrations.push_back(one);
-  }
+  const std::vector<Coupling> vibrations = motions(tried);
   std::vector<std::pair<TriedTerm*, SharedMotion>> found;
   std::size_t looked = 0;
   for (TriedTerm& one : tried) {
@@ -86,20 +129,11 @@ void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double le
       found.emplace_back(&one, shared);
   }
   for (const auto& [one, shared] : found) {
-    const EffectTerm& coupling = *shared.with->term();
     const Current with = current_of(one->fitted.regression, one->fitted.fit);
-    auto& noise = std::get<NoiseChange>(one->suggestion.added);
-    FittedModel both = fit_with(with, shared.with->suggestion);
-    noise.start = both.fit.model.noise;
-    noise.shared = coupling;
-    one->fitted = std::move(both);
-    const bool turning = shared.with->suggestion.coupling == MotionCoupling::kTurning;
-    one->cause = turning ? "tilt" : "common_vibration";
-    one->shared_with = coupling.witness;
-    one->likelihood_gain += shared.gain;
-    one->log_p += shared.log_p;
-    one->gain = -one->log_p;
+    join(*one, *shared.with, fit_with(with, shared.with->suggestion), shared.gain, shared.log_p);
   }
+  best_first(tried);
+  if (!progress.stopped()) add_hidden_part(tried, motions(tried), level);
   best_first(tried);
 }
 
