@@ -38,14 +38,11 @@ enum WitnessParameter : std::size_t {
 
 bool is_on(const EffectTerm& term, WitnessParameter flag) { return term[flag] != 0.0; }
 
-// How many coefficients it has.
-double octaves_of(const EffectTerm& term) { return std::max(1.0, term[kWitnessOctaves]); }
-
 std::string_view witness_fault(const EffectTerm& term) {
   if (term.given(kWitnessVertex) && !is_on(term, kWitnessQuadratic))
     return "only a quadratic coupling has a vertex";
   if (!(term[kWitnessFrom] < term[kWitnessTo])) return "from must lie below to";
-  const double lowest = std::exp2(1.0 - octaves_of(term)) * term[kWitnessTo];
+  const double lowest = std::exp2(1.0 - term[kWitnessOctaves]) * term[kWitnessTo];
   return term[kWitnessFrom] < lowest ? "" : "from must lie within the lowest octave";
 }
 
@@ -103,7 +100,7 @@ Columns witness_columns(const EffectTerm& term, const Witness& channel, std::siz
   const bool transformed = as_it_is(term) && !channel.cosines.empty();
   const SharedVector cosines =
       transformed ? channel.cosines[k] : SharedVector(cosine_transform(samples));
-  const double octaves = octaves_of(term);
+  const double octaves = term[kWitnessOctaves];
   if (!(term[kWitnessFrom] > 0.0) && !std::isfinite(term[kWitnessTo]) && octaves == 1.0)
     return {{cosines}, {}, {samples}};
   const double top = std::isfinite(term[kWitnessTo]) ? term[kWitnessTo] : 0.5 * rate;
@@ -123,7 +120,7 @@ Regressors witness_regressors(const EffectTerm& term, const Subject& subject) {
   const Witness& channel = *subject.find(term.witness);
   const std::string name = is_on(term, kWitnessQuadratic) ? "quadratic_coefficient" : "coefficient";
   std::vector<std::string> names;
-  const auto octaves = static_cast<int>(octaves_of(term));
+  const auto octaves = static_cast<int>(term[kWitnessOctaves]);
   for (int i = 1; i <= octaves; ++i)
     names.push_back(octaves == 1 ? name : fmt::format("{}_{}", name, i));
   return in_all(subject, is_on(term, kWitnessOwn), names, [&](std::size_t k) {
@@ -428,6 +425,8 @@ const Effect& witness() {
             .meaning = "number of coefficients: one an octave below to, the first for all that is "
                        "slower",
             .form = ParameterForm::kWholeNumber,
+            .absent = 1.0,
+            .lower = 1.0,
             .upper = 24.0},
            {.name = "quadratic", .meaning = "the witness squared", .form = ParameterForm::kFlag},
            {.name = "vertex",

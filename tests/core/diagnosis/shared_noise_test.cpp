@@ -54,36 +54,66 @@ TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
   EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
 }
 
-// The accelerometer sees gravity turn, beneath noise of its own: alone it shows less than the
-// gyroscope's spectrum does.
-TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
-  constexpr Hertz kRate{10.0};
-  constexpr std::size_t kSamples = 16'384;
+// A gyroscope and an accelerometer on a bench that rocks at `frequency` Hz, damped; `angle`: what
+// drives it, rad.
+Diagnosis on_a_rocking_bench(Hertz rate, double frequency, double angle, const char* gyro_noise,
+                             const char* acceleration_noise, std::size_t samples,
+                             std::uint64_t seed) {
   constexpr std::uint32_t kReplicates = 4;
   constexpr double kGravity = 9.80665;
-  const double turn = 2.0 * std::numbers::pi * 0.04 / kRate.value;
+  const double turn = 2.0 * std::numbers::pi * frequency / rate.value;
   const double damping = std::exp(-0.2 * turn);
-  const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
-    return simulate(*parse_model(model, kRate), kSamples, seed, k);
+  const auto made = [&](const char* model, std::uint64_t more, std::uint32_t k) {
+    return simulate(*parse_model(model, rate), samples, seed + more, k);
   };
   std::vector<Series> gyro;
   std::vector<Series> acceleration;
   for (std::uint32_t k = 0; k < kReplicates; ++k) {
-    Series angle = made("WN(sigma2=2.5e-5)", 31, k);
-    gyro.push_back(made("WN(sigma2=1) + RW(gamma2=1e-6)", 32, k));
-    acceleration.push_back(made("WN(sigma2=150)", 33, k));
-    for (std::size_t t = 2; t < kSamples; ++t) {
-      angle[t] += 2.0 * damping * std::cos(turn) * angle[t - 1] - damping * damping * angle[t - 2];
-      gyro[k][t] += (angle[t] - angle[t - 1]) * kRate.value;
-      acceleration[k][t] += kGravity * angle[t];
+    Series at = made("WN(sigma2=1)", 0, k);
+    for (double& x : at) x *= angle;
+    gyro.push_back(made(gyro_noise, 1, k));
+    acceleration.push_back(made(acceleration_noise, 2, k));
+    for (std::size_t t = 2; t < samples; ++t) {
+      at[t] += 2.0 * damping * std::cos(turn) * at[t - 1] - damping * damping * at[t - 2];
+      gyro[k][t] += (at[t] - at[t - 1]) * rate.value;
+      acceleration[k][t] += kGravity * at[t];
     }
   }
-  const Diagnosis diagnosis =
-      diagnosed_beside(gyro, {"acc_x", {}}, acceleration, Quantity::kAcceleration, kRate);
+  return diagnosed_beside(gyro, {"acc_x", {}}, acceleration, Quantity::kAcceleration, rate);
+}
+
+// The accelerometer sees gravity turn, beneath noise of its own: alone it shows less than the
+// gyroscope's spectrum does.
+TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
+  const Diagnosis diagnosis = on_a_rocking_bench(
+      Hertz{10.0}, 0.04, 5e-3, "WN(sigma2=1) + RW(gamma2=1e-6)", "WN(sigma2=150)", 16'384, 31);
   ASSERT_FALSE(diagnosis.effects.empty());
   const TriedTerm& best = diagnosis.effects[0].tried;
   EXPECT_EQ(best.cause, "tilt");
   EXPECT_EQ(best.shared_with, "acc_x");
+}
+
+// Its noise hides the more of the rocking the faster that is.
+TEST(Diagnose, TiltIsTakenOutOctaveByOctave) {
+  const Diagnosis diagnosis = on_a_rocking_bench(
+      Hertz{10.0}, 0.03, 1e-2, "WN(sigma2=1) + RW(gamma2=1e-3)", "WN(sigma2=30)", 8192, 61);
+  ASSERT_TRUE(diagnosis.worth_adding);
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  EXPECT_EQ(best.cause, "tilt");
+  ASSERT_FALSE(best.fitted.regression.effects().empty());
+  EXPECT_GT(best.fitted.regression.effects()[0]["octaves"], 1.0);
+}
+
+// The rocking looks like the gyroscope's walk. Where the slow part of it is taken out, what the
+// accelerometer's noise hides is left: noise that no walk describes.
+TEST(Diagnose, WhatIsHiddenOfATiltIsNoiseBesideIt) {
+  const Diagnosis diagnosis = on_a_rocking_bench(
+      Hertz{100.0}, 0.03, 5e-4, "WN(sigma2=1) + RW(gamma2=8e-4)", "WN(sigma2=50)", 8192, 71);
+  ASSERT_TRUE(diagnosis.worth_adding);
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  EXPECT_EQ(best.cause, "tilt");
+  EXPECT_EQ(best.shared_with, "acc_x");
+  EXPECT_GT(misfit_of(best.fitted).spectrum.p_value, 1e-3);
 }
 
 // A wave that beats has the spectrum of a narrow resonance; its power lies in three lines.

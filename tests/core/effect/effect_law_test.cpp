@@ -29,7 +29,7 @@ constexpr double kRate = 50.0;
 double some_value(const EffectParameter& about, std::size_t place) {
   if (about.form == ParameterForm::kFlag) return 1.0;
   if (about.form == ParameterForm::kWholeNumber) return about.lower + 1.0;
-  const double value = 3.5 + static_cast<double>(place);
+  const double value = 3.5 * std::pow(3.0, static_cast<double>(place));
   return about.upper < value ? 0.5 * about.upper : value;
 }
 

@@ -33,7 +33,8 @@ TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
   const FullModel model = *parse_full_model(
       "WN + ramp + warm_up(tau=3) + line(f=3, harmonics=2) + step(replicate=2, t=7) + "
       "witness(temperature) + witness(temperature, lag=2) + witness(temperature, quadratic) + "
-      "witness(temperature, derivative) + witness(temperature, to=1) + witness(temperature, own)",
+      "witness(temperature, derivative) + witness(temperature, to=1) + witness(temperature, own) + "
+      "witness(temperature, octaves=3) + witness(temperature, to=9, octaves=2, own)",
       subject->rate);
   for (const EffectTerm& term : model.effects) {
     const Regression regression = Regression(subject).with(term);
