@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/diagnosis/causes.h"
 #include "core/diagnosis/missing_noise.h"
+#include "core/diagnosis/searches.h"
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/couplings.h"
 
@@ -60,33 +62,50 @@ std::vector<Coupling> motions(const std::vector<TriedTerm>& tried) {
 }
 
 struct SharedMotion {
-  const TriedTerm* with = nullptr;  // the coupling; null: none
+  std::optional<Suggestion> with;  // the coupling
   double gain = 0.0;
   double log_p = 0.0;
 };
 
+// Couplings that take a witness as one does, sought again beside the noise: which frequencies count
+// depends on it.
+Suggestions like(const Suggestion& one, const Suggestions& sought) {
+  const std::string& witness = std::get<EffectTerm>(one.added).witness;
+  Suggestions out{one};
+  for (const Suggestion& other : sought) {
+    if (other.coupling == one.coupling && other.score_nats > 0.0 &&
+        std::get<EffectTerm>(other.added).witness == witness)
+      out.push_back(other);
+  }
+  return out;
+}
+
 SharedMotion shared_motion(const TriedTerm& noise, const std::vector<Coupling>& vibrations) {
   const Current with = current_of(noise.fitted.regression, noise.fitted.fit);
   SharedMotion out;
+  if (vibrations.empty()) return out;
+  const Effect* const coupling = vibrations.front().tried->term()->effect;
+  const Suggestions sought = search_effects(with, {&coupling, 1});
   for (const Coupling& one : vibrations) {
-    const Suggestion& how = one.tried->suggestion;
-    const double gain = fit_with(with, how).fit.log_likelihood - with.fit.log_likelihood;
-    const double log_p = log_p_value(gain, how.dof, one.tried->noise_dof, how.power, how.search);
-    if (log_p < out.log_p) out = {one.tried, gain, log_p};
+    for (const Suggestion& how : like(one.tried->suggestion, sought)) {
+      const double gain = fit_with(with, how).fit.log_likelihood - with.fit.log_likelihood;
+      const double log_p = log_p_value(gain, how.dof, one.tried->noise_dof, how.power, how.search);
+      if (log_p < out.log_p) out = {how, gain, log_p};
+    }
   }
   return out;
 }
 
 // Makes noise and a coupling one suggestion, with the evidence of both.
-void join(TriedTerm& noise, const TriedTerm& coupling, FittedModel both, double gain,
+void join(TriedTerm& noise, const Suggestion& coupling, FittedModel both, double gain,
           double log_p) {
+  const auto& term = std::get<EffectTerm>(coupling.added);
   auto& change = std::get<NoiseChange>(noise.suggestion.added);
   change.start = both.fit.model.noise;
-  change.shared = *coupling.term();
+  change.shared = term;
   noise.fitted = std::move(both);
-  const bool turning = coupling.suggestion.coupling == MotionCoupling::kTurning;
-  noise.cause = turning ? "tilt" : "common_vibration";
-  noise.shared_with = coupling.term()->witness;
+  noise.cause = coupling.coupling == MotionCoupling::kTurning ? "tilt" : "common_vibration";
+  noise.shared_with = term.witness;
   noise.likelihood_gain += gain;
   noise.log_p += log_p;
   noise.gain = -noise.log_p;
@@ -97,8 +116,11 @@ void join(TriedTerm& noise, const TriedTerm& coupling, FittedModel both, double 
 void add_hidden_part(std::vector<TriedTerm>& tried, const std::vector<Coupling>& vibrations,
                      double level) {
   constexpr double kMisfits = 1e-3;
-  if (tried.empty() || vibrations.empty() || vibrations.front().tried != &tried.front()) return;
-  const TriedTerm& coupling = tried.front();
+  // Nothing but noise with a coupling may be better.
+  const auto best = std::find_if(tried.begin(), tried.end(),
+                                 [](const TriedTerm& one) { return one.shared_with.empty(); });
+  if (best == tried.end() || vibrations.empty() || vibrations.front().tried != &*best) return;
+  const TriedTerm& coupling = *best;
   if (!(misfit_of(coupling.fitted).spectrum.p_value < kMisfits)) return;
   const Current with = current_of(coupling.fitted.regression, coupling.fitted.fit);
   const Suggestions all = search_noise(with);
@@ -108,7 +130,7 @@ void add_hidden_part(std::vector<TriedTerm>& tried, const std::vector<Coupling>&
     return;
   TriedTerm& noise = noises.front();
   FittedModel both = std::move(noise.fitted);
-  join(noise, coupling, std::move(both), coupling.likelihood_gain, coupling.log_p);
+  join(noise, coupling.suggestion, std::move(both), coupling.likelihood_gain, coupling.log_p);
   tried.push_back(std::move(noise));
 }
 
@@ -130,7 +152,7 @@ void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double le
   }
   for (const auto& [one, shared] : found) {
     const Current with = current_of(one->fitted.regression, one->fitted.fit);
-    join(*one, *shared.with, fit_with(with, shared.with->suggestion), shared.gain, shared.log_p);
+    join(*one, *shared.with, fit_with(with, *shared.with), shared.gain, shared.log_p);
   }
   best_first(tried);
   if (!progress.stopped()) add_hidden_part(tried, motions(tried), level);

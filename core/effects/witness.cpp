@@ -208,11 +208,13 @@ struct Octaves {
   Index count = 0;  // 0: none
   double gain = 0.0;
   double evidence = 0.0;
+  Search search{};
 };
 
-Octaves best_octaves(const Cumulated& sums, double places) {
+Octaves best_octaves(const Cumulated& sums) {
   constexpr Index kMost = 8;
   const Index last = sums.product.size() - 1;
+  const Search search{0.0, std::log(static_cast<double>((last - kFirstOctave) * (kMost - 1)))};
   Octaves best;
   for (Index to = kFirstOctave + 1; to <= last; ++to) {
     double above = 0.0;  // in all octaves but the first
@@ -220,8 +222,8 @@ Octaves best_octaves(const Cumulated& sums, double places) {
       above += sums.gain(to - count + 1, to - count + 2);
       const double gain = sums.gain(0, to - count + 1) + above;
       const double evidence =
-          -log_p_value(gain, static_cast<double>(count), INFINITY, false, {0.0, std::log(places)});
-      if (evidence > best.evidence) best = {to, count, gain, evidence};
+          -log_p_value(gain, static_cast<double>(count), INFINITY, false, search);
+      if (evidence > best.evidence) best = {to, count, gain, evidence, search};
     }
   }
   return best;
@@ -230,8 +232,7 @@ Octaves best_octaves(const Cumulated& sums, double places) {
 // Takes the place of a suggestion where it is clearly better.
 void take_octaves(const Current& current, const Cumulated& sums, Suggestion& one) {
   constexpr double kClearly = 3.0;  // nats
-  const auto span = static_cast<double>(sums.product.size());
-  const Octaves best = best_octaves(sums, span * span);
+  const Octaves best = best_octaves(sums);
   const double now = -log_p_value(one.score_nats, one.dof, INFINITY, false, one.search);
   if (!(best.evidence > now + kClearly)) return;
   auto& term = std::get<EffectTerm>(one.added);
@@ -240,7 +241,7 @@ void take_octaves(const Current& current, const Cumulated& sums, Suggestion& one
   term.set("octaves", static_cast<double>(best.count));
   one.score_nats = best.gain;
   one.dof = static_cast<double>(best.count);
-  one.search.log_places = 2.0 * std::log(span);
+  one.search = best.search;
 }
 
 void add_static(const Current& current, const Witness& channel, Suggestions& out) {
