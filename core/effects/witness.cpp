@@ -10,9 +10,9 @@
 #include "core/effect/columns.h"
 #include "core/effect/filters.h"
 #include "core/effects/couplings.h"
+#include "core/search/band_gains.h"
 #include "core/search/lagged_witness.h"
 #include "core/search/search_view.h"
-#include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
@@ -148,96 +148,15 @@ std::string witness_unit(const EffectTerm& term, const Subject& subject) {
   return below == "1" ? above : above + "/" + below;
 }
 
-// Sums over all replicates, by frequency: products of the whitened witness with what is left, and
-// its squares. Cumulated from low frequencies up.
-struct Cumulated {
-  Eigen::ArrayXd product;
-  Eigen::ArrayXd square;
-  double gain(Index from, Index to) const {
-    const double p = product(to) - product(from);
-    const double s = square(to) - square(from);
-    return s > 0.0 ? 0.5 * p * p / s : 0.0;
-  }
-};
-
-// Octave i begins at 2^i/2T, where T is the longest replicate; in cycles per sample.
-double octave_edge(const Current& current, Index octave) {
-  const auto n = static_cast<double>(current.subject().length(current.longest()));
-  return std::exp2(static_cast<double>(octave)) * 0.5 / n;
-}
-
-// At the octaves of frequency: entry i holds all below octave_edge(i). `regressor`: one transform a
-// replicate.
-Cumulated cumulated(const Current& current, const std::vector<SharedVector>& regressor) {
-  const Index length = current.subject().length(current.longest());
-  const auto octaves = static_cast<Index>(std::ceil(std::log2(static_cast<double>(length))));
-  Cumulated out{Eigen::ArrayXd::Zero(octaves + 1), Eigen::ArrayXd::Zero(octaves + 1)};
-  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
-    const Eigen::ArrayXd weighted = regressor[k].array() / current.spectrum[k];
-    Index begin = 0;
-    double product = 0.0;
-    double square = 0.0;
-    for (Index i = 0; i <= octaves; ++i) {
-      const Index end = coefficients_below(octave_edge(current, i), weighted.size() + 1);
-      product += weighted.segment(begin, end - begin)
-                     .matrix()
-                     .dot(current.cosines[k].segment(begin, end - begin));
-      square += weighted.segment(begin, end - begin)
-                    .matrix()
-                    .dot(regressor[k].segment(begin, end - begin));
-      out.product(i) += product;
-      out.square(i) += square;
-      begin = end;
-    }
-  }
-  return out;
-}
-
-// Parts of the frequencies are tried from here on; below there is too little to tell.
-constexpr Index kFirstOctave = 4;
-
-double edge_of(const Current& current, Index octave) {
-  return octave_edge(current, octave) * current.subject().rate.value;
-}
-
-// A coupling with a coefficient of its own in each octave: what another sensor says of a motion
-// counts the less the more of its own noise it has at a frequency (Wiener 1949). Of all ends and
-// numbers of octaves, the one with the best evidence.
-struct Octaves {
-  Index to = 0;     // the octave that the highest ends with
-  Index count = 0;  // 0: none
-  double gain = 0.0;
-  double evidence = 0.0;
-  Search search{};
-};
-
-Octaves best_octaves(const Cumulated& sums) {
-  constexpr Index kMost = 8;
-  const Index last = sums.product.size() - 1;
-  const Search search{0.0, std::log(static_cast<double>((last - kFirstOctave) * (kMost - 1)))};
-  Octaves best;
-  for (Index to = kFirstOctave + 1; to <= last; ++to) {
-    double above = 0.0;  // in all octaves but the first
-    for (Index count = 2; count <= std::min(kMost, to - kFirstOctave + 1); ++count) {
-      above += sums.gain(to - count + 1, to - count + 2);
-      const double gain = sums.gain(0, to - count + 1) + above;
-      const double evidence =
-          -log_p_value(gain, static_cast<double>(count), INFINITY, false, search);
-      if (evidence > best.evidence) best = {to, count, gain, evidence, search};
-    }
-  }
-  return best;
-}
-
-// Takes the place of a suggestion where it is clearly better.
-void take_octaves(const Current& current, const Cumulated& sums, Suggestion& one) {
+// A coefficient an octave takes the place of one for all, where it is clearly better.
+void take_octaves(const BandGains& gains, Suggestion& one) {
   constexpr double kClearly = 3.0;  // nats
-  const Octaves best = best_octaves(sums);
-  const double now = -log_p_value(one.score_nats, one.dof, INFINITY, false, one.search);
-  if (!(best.evidence > now + kClearly)) return;
+  const BandGains::Octaves best = gains.best_octaves();
+  const double now = log_p_value(one.score_nats, one.dof, INFINITY, false, one.search);
+  if (!(best.log_p < now - kClearly)) return;
   auto& term = std::get<EffectTerm>(one.added);
   term.set("from", 0.0);
-  term.set("to", edge_of(current, best.to));
+  term.set("to", gains.hertz(best.to));
   term.set("octaves", static_cast<double>(best.count));
   one.score_nats = best.gain;
   one.dof = static_cast<double>(best.count);
@@ -245,32 +164,32 @@ void take_octaves(const Current& current, const Cumulated& sums, Suggestion& one
 }
 
 void add_static(const Current& current, const Witness& channel, Suggestions& out) {
-  const Cumulated sums = cumulated(current, channel.cosines);
-  const Index last = sums.product.size() - 1;
+  const BandGains gains(current, channel.cosines);
+  const Index last = gains.end();
   const EffectTerm whole(witness(), channel.name);
   out.push_back({.cause = coupling_effect(current.subject().quantity, channel),
                  .added = whole,
-                 .score_nats = sums.gain(0, last),
-                 .information = sums.square(last),
+                 .score_nats = gains.gain(0, last),
+                 .information = gains.information(0, last),
                  .coupling = MotionCoupling::kWhole});
   if (!may_share_motion(current.subject().quantity, channel)) return;
   // The slow or the fast part alone: what both sensors see, not what one leaks into the other.
   Suggestion slow{.cause = "tilt", .added = whole, .coupling = MotionCoupling::kBand};
   Suggestion fast{.cause = "common_vibration", .added = whole, .coupling = MotionCoupling::kBand};
   slow.search.log_places = fast.search.log_places =
-      std::log(static_cast<double>(last - kFirstOctave));
-  for (Index i = kFirstOctave; i < last; ++i) {
-    const double edge = edge_of(current, i);
-    if (const double gain = sums.gain(0, i); gain > slow.score_nats) {
+      std::log(static_cast<double>(last - BandGains::kFirst));
+  for (Index i = BandGains::kFirst; i < last; ++i) {
+    const double edge = gains.hertz(i);
+    if (const double gain = gains.gain(0, i); gain > slow.score_nats) {
       slow.score_nats = gain;
       std::get<EffectTerm>(slow.added).set("to", edge);
     }
-    if (const double gain = sums.gain(i, last); gain > fast.score_nats) {
+    if (const double gain = gains.gain(i, last); gain > fast.score_nats) {
       fast.score_nats = gain;
       std::get<EffectTerm>(fast.added).set("from", edge);
     }
   }
-  take_octaves(current, sums, slow.score_nats > fast.score_nats ? slow : fast);
+  take_octaves(gains, slow.score_nats > fast.score_nats ? slow : fast);
   // A bench tilts over minutes; what is faster is vibration.
   constexpr double kFastestTilt = 0.1;  // Hz
   for (Suggestion* const one : {&slow, &fast}) {
@@ -290,25 +209,25 @@ void add_rocking(const Current& current, const Witness& channel, Suggestions& ou
   std::vector<SharedVector> turning;
   for (const SharedVector& x : channel.samples)
     turning.emplace_back(cosine_transform(rate_of_change(x, subject.rate.value)));
-  const Cumulated sums = cumulated(current, turning);
-  const Index last = sums.product.size() - 1;
+  const BandGains gains(current, turning);
+  const Index last = gains.end();
   const EffectTerm rate(witness(), channel.name, {{"derivative", 1.0}});
   Suggestion best{.cause = "tilt", .added = rate, .coupling = MotionCoupling::kTurning};
   Index tried = 0;
-  for (Index from = 0; from < last; from = from == 0 ? kFirstOctave : from + 1) {
-    for (Index to = std::max(from + 1, kFirstOctave); to <= last; ++to, ++tried) {
-      const double gain = sums.gain(from, to);
+  for (Index from = 0; from < last; from = from == 0 ? BandGains::kFirst : from + 1) {
+    for (Index to = std::max(from + 1, BandGains::kFirst); to <= last; ++to, ++tried) {
+      const double gain = gains.gain(from, to);
       if (tried > 0 && !(gain > best.score_nats)) continue;
       best.score_nats = gain;
-      best.information = sums.square(to) - sums.square(from);
+      best.information = gains.information(from, to);
       EffectTerm band = rate;
-      if (from > 0) band.set("from", edge_of(current, from));
-      if (to < last) band.set("to", edge_of(current, to));
+      if (from > 0) band.set("from", gains.hertz(from));
+      if (to < last) band.set("to", gains.hertz(to));
       best.added = std::move(band);
     }
   }
   best.search.log_places = std::log(static_cast<double>(tried));
-  take_octaves(current, sums, best);
+  take_octaves(gains, best);
   out.push_back(std::move(best));
 }
 
