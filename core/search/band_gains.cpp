@@ -43,7 +43,8 @@ double BandGains::gain(Index from, Index to) const {
 
 BandGains::Octaves BandGains::best_octaves() const {
   constexpr Index kMost = 8;
-  const Search search{0.0, std::log(static_cast<double>((end() - kFirst) * (kMost - 1)))};
+  // All ends and numbers, and one coefficient for all, which was tried as well.
+  const Search search{0.0, std::log(2.0 * static_cast<double>((end() - kFirst) * (kMost - 1)))};
   Octaves best;
   for (Index to = kFirst + 1; to <= end(); ++to) {
     double above = 0.0;  // in all octaves but the first

@@ -35,7 +35,7 @@ class BandGains {
     Index to = 0;     ///< where the last ends
     Index count = 0;  ///< 0: none
     double gain = 0.0;
-    Search search{};  ///< of all ends and numbers
+    Search search{};  ///< of all ends and numbers, beside one coefficient for all
     /// Logarithm of the p-value.
     double log_p = 0.0;
   };
