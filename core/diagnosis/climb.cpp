@@ -117,8 +117,8 @@ std::vector<TriedTerm> Climb::tried(const Look& look, const Suggestions& wanted,
   return out;
 }
 
-// The beginnings of the replicates, an eighth of a long recording, say what may well be added next;
-// only that is sought in the whole.
+// The beginnings of the replicates say what may well be added next; only that is sought in the
+// whole.
 std::optional<RankedTerm> Climb::by_beginnings(Look look, const Progress& progress) {
   constexpr std::size_t kMostWanted = 3;
   constexpr double kFarLess = 0.5;

@@ -17,10 +17,10 @@ struct NextTerm {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
 };
 
-/// Finds one term after the other, as diagnose() would, with less work: of a term that is taken, it
-/// need not be known what else it could be. What one look at everything finds is taken term by
-/// term, each sought again under the model of its rung, while it explains what it did then; only
-/// where none of it does is everything sought again. Deterministic.
+/// Finds one term after the other, as diagnose() would, with less work: a ladder does not ask what
+/// else a term could be. It takes what one look at everything found, term by term. Each is sought
+/// again under the model of its rung, and taken if it still explains at least half as much. Where
+/// none does, everything is sought again. Deterministic.
 class Climb {
  public:
   /// `first`: what the first look found; its best term is taken. Of recordings of more than twice

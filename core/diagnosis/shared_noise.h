@@ -9,11 +9,14 @@ namespace imunoise {
 /// Says of noise that only its spectrum tells that it is common vibration where another sensor of
 /// the same kind feels it too: a coupling to that sensor at some frequencies, which explains more
 /// than one at all of them (a leak), explains something beside the noise, and no trifle. The
-/// evidence of both then counts. And of the best term, where it is a coupling to a sensor that
-/// feels the same motion, with noise: where that sensor's own noise hides the motion, it stays in
-/// the channel, and is a part of the same effect. `tried`: best first, and so they are again.
-/// `searches`: how many found them. `level`: false-alarm probability. Stopped, it names nothing
-/// more.
+/// evidence of both then counts.
+///
+/// If the best term is a coupling to a sensor that feels the same motion, noise is sought beside
+/// it: what that sensor's own noise hides of the motion remains in the channel. Noise and coupling
+/// are then one more term, with the evidence of both.
+///
+/// `tried`: best first, and so they are again. `searches`: how many found them. `level`:
+/// false-alarm probability. Stopped, it names nothing more.
 void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double level,
                        const Progress& progress = {});
 

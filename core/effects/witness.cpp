@@ -342,8 +342,8 @@ const Effect& witness() {
             .reported = "to_hz",
             .rounding = Rounding::kFourDigits},
            {.name = "octaves",
-            .meaning = "number of coefficients: one an octave below to, the first for all that is "
-                       "slower",
+            .meaning = "number of coefficients: one per octave below to; the first one also covers "
+                       "everything slower",
             .form = ParameterForm::kWholeNumber,
             .absent = 1.0,
             .lower = 1.0,

@@ -30,7 +30,7 @@ class BandGains {
   /// 1/variance of that coefficient.
   double information(Index from, Index to) const { return square_(to) - square_(from); }
 
-  /// A coefficient for each of some octaves, of which the first has all that is slower.
+  /// One coefficient per octave; the first one also covers everything slower.
   struct Octaves {
     Index to = 0;     ///< where the last ends
     Index count = 0;  ///< 0: none

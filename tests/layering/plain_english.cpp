@@ -109,4 +109,12 @@ std::vector<std::string> riddles(const Tree& prose) {
   return out;
 }
 
+std::vector<std::string> without_heading(const Tree& prose) {
+  std::vector<std::string> out;
+  for (const auto& [path, text] : prose) {
+    if (path.ends_with(".md") && !text.starts_with("# ")) out.push_back(path);
+  }
+  return out;
+}
+
 }  // namespace imunoise::testing

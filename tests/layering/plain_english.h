@@ -19,4 +19,7 @@ std::string quoted_only(const std::string& source);
 /// sentence.
 std::vector<std::string> riddles(const Tree& prose);
 
+/// Guides and READMEs whose first line is no heading: a formatter of code took them for code.
+std::vector<std::string> without_heading(const Tree& prose);
+
 }  // namespace imunoise::testing

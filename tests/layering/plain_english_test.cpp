@@ -12,6 +12,19 @@ TEST(PlainEnglish, GuidesAndMessagesHaveNoRiddles) {
   for (const std::string& found : riddles(prose)) ADD_FAILURE() << found;
 }
 
+TEST(PlainEnglish, GuidesBeginWithAHeading) {
+  for (const std::string& found : without_heading(read_prose(IMUNOISE_SOURCE_DIR)))
+    ADD_FAILURE() << found << ": the first line is no heading";
+}
+
+TEST(PlainEnglish, FindsAGuideThatWasFormattedAsCode) {
+  Tree prose;
+  prose["docs/good.md"] = "# docs/good\n";
+  prose["docs/bad.md"] = "#docs / bad\n";
+  prose["core/a.cpp"] = "";
+  EXPECT_EQ(without_heading(prose), std::vector<std::string>{"docs/bad.md"});
+}
+
 TEST(PlainEnglish, ReadsNeitherCodeNorComments) {
   const std::string text = quoted_only("f(\"one\", nobody);  // \"two\"\ng('\"', \"three\");\n");
   EXPECT_EQ(text.find("nobody"), std::string::npos) << text;
