@@ -29,9 +29,6 @@ class Summation {
   }
 
   void add_interval(std::int64_t begin, std::int64_t end) {
-    between_.clear();
-    for (const ScaleCovariance& gamma : gammas_)
-      between_.emplace_back(gamma, static_cast<double>(begin), static_cast<double>(end));
     const std::int64_t middle = begin + (end - begin) / 2;
     add_half(begin, middle, begin, +1);
     add_half(middle, end, end, -1);
@@ -68,7 +65,7 @@ class Summation {
     const double pairs =
         std::min(samples_, samples_ - s) - std::max(2.0 * mk_, 2.0 * mj_ - s) + 1.0;
     for (std::size_t p = 0; p < gammas_.size(); ++p) {
-      values_(static_cast<Eigen::Index>(p)) = between_[p](s);
+      values_(static_cast<Eigen::Index>(p)) = gammas_[p](s);
     }
     for (Eigen::Index p = 0; p < values_.size(); ++p) {
       const double weighted = weight * pairs * values_(p);
@@ -89,7 +86,6 @@ class Summation {
   double mj_;
   double mk_;
   const std::vector<ScaleCovariance>& gammas_;
-  std::vector<ScaleCovariance::Between> between_;
   Eigen::VectorXd values_;
   std::int64_t reach_ = 0;
 };

@@ -18,15 +18,6 @@ namespace imunoise {
 /// γ_jk(s) = E[W_{j,t+s} W_{k,t}] of one noise process for one pair of scales, as a function of a
 /// real lag s, and how finely it must be sampled to be summed over every integer.
 class ScaleCovariance {
-  using Complex = std::complex<double>;
-  // Factors of what decays from the nearest kinks on either side.
-  struct Sides {
-    double from = 0.0;
-    double to = 0.0;
-    Complex left = 0.0;
-    Complex right = 0.0;
-  };
-
  public:
   /// Borrows the process, and its table where there is one.
   ScaleCovariance(const SumCovariance& process, std::int64_t mj, std::int64_t mk,
@@ -58,32 +49,28 @@ class ScaleCovariance {
   }
 
   double operator()(double s) const {
-    return at(
-        s, [&](std::size_t e, double beyond) { return exponential(exponentials_[e], s, beyond); });
-  }
-
-  /// The same at lags between two neighbouring kinks, the multiples a·m_j - b·m_k, a, b = 0, 1, 2.
-  /// There the nine terms of an exponential are two: what decays from the kinks to the left, as if
-  /// from the nearest, and from those to the right.
-  class Between {
-   public:
-    /// Borrows the covariance.
-    Between(const ScaleCovariance& gamma, double begin, double end) : gamma_(gamma) {
-      for (const Exponential& e : gamma.exponentials_)
-        sides_.push_back(gamma.sides_of(e, begin, end));
-    }
-    double operator()(double s) const {
-      return gamma_.at(s, [&](std::size_t e, double beyond) {
-        const Exponential& one = gamma_.exponentials_[e];
-        return beyond > 0.0 || one.split ? gamma_.exponential(one, s, beyond)
-                                         : from_sides(one, sides_[e], s);
+    const double beyond = std::max(s - 2.0 * mj_, -s - 2.0 * mk_);  // distance outside the support
+    double sum = 0.0;
+    if (beyond <= 0.0) {
+      for_each_lag(s, [&](double weight, double lag) {
+        sum += weight * lag * (linear_ + cubic_ * lag * lag);
       });
     }
-
-   private:
-    const ScaleCovariance& gamma_;
-    std::vector<Sides> sides_;
-  };
+    if (!process_.near.empty() && beyond < static_cast<double>(process_.near.size())) {
+      for_each_lag(s, [&](double weight, double lag) {
+        const auto at = static_cast<std::size_t>(lag);
+        if (at < process_.near.size()) sum += weight * process_.near[at];
+      });
+    }
+    const bool tabulated = table_ != nullptr && s == std::floor(s);
+    if (tabulated)
+      for_each_lag(s, [&](double weight, double lag) { sum += weight * (*table_)(lag); });
+    for (const Exponential& e : exponentials_) {
+      if (!tabulated || !e.held) sum += exponential(e, s, beyond);
+    }
+    if (process_.flicker > 0.0) sum += process_.flicker * flicker(s, beyond);
+    return sum / (4.0 * mj_ * mk_);
+  }
 
   // Lags next to a kink of γ that must be summed one by one.
   std::int64_t direct_reach() const {
@@ -112,6 +99,7 @@ class ScaleCovariance {
   }
 
  private:
+  using Complex = std::complex<double>;
   static constexpr std::array<double, 3> kDifference = {1.0, -2.0,
                                                         1.0};  // p of the Haar wavelet on sums
   static constexpr auto kLeastPanel = static_cast<double>(DiscreteRule::kLeastPoints);
@@ -129,68 +117,14 @@ class ScaleCovariance {
     bool held;   // in the table
   };
 
-  template <class OfExponential>
-  double at(double s, const OfExponential& of_exponential) const {
-    const double beyond = std::max(s - 2.0 * mj_, -s - 2.0 * mk_);  // distance outside the support
-    double sum = 0.0;
-    if (beyond <= 0.0) {
-      for_each_lag(s, [&](double weight, double lag) {
-        sum += weight * lag * (linear_ + cubic_ * lag * lag);
-      });
-    }
-    if (!process_.near.empty() && beyond < static_cast<double>(process_.near.size())) {
-      for_each_lag(s, [&](double weight, double lag) {
-        const auto at = static_cast<std::size_t>(lag);
-        if (at < process_.near.size()) sum += weight * process_.near[at];
-      });
-    }
-    const bool tabulated = table_ != nullptr && s == std::floor(s);
-    if (tabulated)
-      for_each_lag(s, [&](double weight, double lag) { sum += weight * (*table_)(lag); });
-    for (std::size_t e = 0; e < exponentials_.size(); ++e) {
-      if (!tabulated || !exponentials_[e].held) sum += of_exponential(e, beyond);
-    }
-    if (process_.flicker > 0.0) sum += process_.flicker * flicker(s, beyond);
-    return sum / (4.0 * mj_ * mk_);
-  }
-
-  Sides sides_of(const Exponential& e, double begin, double end) const {
-    Sides out{.from = -2.0 * mk_, .to = 2.0 * mj_};
-    for_each_kink([&](double, double kink) {
-      if (kink <= begin) out.from = std::max(out.from, kink);
-      if (kink >= end) out.to = std::min(out.to, kink);
-    });
-    for_each_kink([&](double weight, double kink) {
-      const bool left = kink <= begin;
-      const double distance = left ? out.from - kink : kink - out.to;
-      (left ? out.left : out.right) += weight * e.kernel * std::exp(-e.rate * distance);
-    });
-    return out;
-  }
-
-  static double from_sides(const Exponential& e, const Sides& sides, double s) {
-    const auto decayed = [&](Complex factor, double distance) {
-      const double length = e.rate.real() * distance;
-      if (!(length < kNothing)) return 0.0;
-      if (e.real) return factor.real() * std::exp(-length);
-      const double turn = e.rate.imag() * distance;
-      return std::exp(-length) * (factor.real() * std::cos(turn) + factor.imag() * std::sin(turn));
-    };
-    return decayed(sides.left, s - sides.from) + decayed(sides.right, sides.to - s);
-  }
-
-  template <class Visit>
-  void for_each_kink(const Visit& visit) const {
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < 3; ++b) {
-        visit(kDifference[a] * kDifference[b],
-              static_cast<double>(a) * mj_ - static_cast<double>(b) * mk_);
-      }
-    }
-  }
   template <class Visit>
   void for_each_lag(double s, const Visit& visit) const {
-    for_each_kink([&](double weight, double kink) { visit(weight, std::abs(s - kink)); });
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) {
+        const double lag = s - static_cast<double>(a) * mj_ + static_cast<double>(b) * mk_;
+        visit(kDifference[a] * kDifference[b], std::abs(lag));
+      }
+    }
   }
 
   static double longest_panel(const Exponential& e) {
