@@ -34,8 +34,7 @@ bool is_coupling(const Suggestion& one) { return one.coupling != MotionCoupling:
 
 // Evidence if the fit bears the search out.
 double promised(const Suggestion& one) {
-  return -log_p_value(one.score_nats / one.inflation, one.dof, one.noise_dof, one.power,
-                      one.search);
+  return -log_p_value(one.score_nats, one.dof, one.noise_dof, one.power, one.search);
 }
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {

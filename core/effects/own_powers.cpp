@@ -8,6 +8,7 @@
 
 #include "core/effect/columns.h"
 #include "core/search/search_view.h"
+#include "core/search/shape_spread.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::effects {
@@ -136,14 +137,36 @@ Suggestion suggested(const Current& current, bool shapes, double dof) {
           .dof = dof};
 }
 
-// Where the power wanders within replicates, their means differ, too.
+// Replicates that differ, as it counts.
+struct Counted {
+  double nats;
+  double dof;
+  double inflation;
+  double noise_dof;
+
+  double log_p() const { return log_p_value(nats, dof, noise_dof, false); }
+};
+
+// Where the power wanders within replicates, their means differ, too; their shapes do not. Either
+// may be the better evidence: all that differs, were it as uncertain as the means, or the shapes
+// alone.
 Suggestions beside_wander(Suggestions all, const SearchView& view) {
   const PowerView* const power = view.power();
-  const PowerView::Spread spread = power == nullptr ? PowerView::Spread{} : power->of_means();
+  const PowerView::Spread means = power == nullptr ? PowerView::Spread{} : power->of_means();
+  if (!(means.inflation > 1.0)) return all;
+  const double others = static_cast<double>(view.subject().replicates()) - 1.0;
+  const double levels = level_gain(view.innovations());
+  const ShapeSpread shapes = shape_spread(view.innovations());
   for (Suggestion& one : all) {
-    one.score_nats /= spread.inflation;
-    one.inflation = spread.inflation;
-    one.noise_dof = spread.dof;
+    const double gain = one.score_nats;
+    Counted best{gain / means.inflation, one.dof, means.inflation, means.dof};
+    Counted alone{(gain - levels) / shapes.inflation, one.dof - others, 1.0, shapes.dof};
+    alone.inflation = gain / alone.nats;
+    if (alone.nats > 0.0 && alone.dof > 0.0 && alone.log_p() < best.log_p()) best = alone;
+    one.score_nats = best.nats;
+    one.dof = best.dof;
+    one.noise_dof = best.noise_dof;
+    one.inflation = best.inflation;
   }
   return all;
 }
