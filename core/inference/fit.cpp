@@ -118,7 +118,8 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
   const double z = normal_quantile(0.5 + 0.5 * fit.confidence);
   double before = z * estimate.standard_error;  // what must fall to the value
   double factor_before = 1.0;
-  for (const double factor : {4.0, 16.0, 64.0, 256.0}) {
+  constexpr double kLongest = 256.0;
+  for (const double factor : {4.0, 16.0, 64.0, kLongest}) {
     std::vector<WaveletVariance> longer(replicates.begin(), replicates.end());
     for (WaveletVariance& wv : longer) {
       const auto times = static_cast<std::int64_t>(factor);
@@ -144,6 +145,12 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
       const double share = std::log(before / estimate.value) / std::log(before / now);
       return factor_before * std::pow(factor / factor_before, std::isfinite(share) ? share : 1.0);
     }
+    // The longer, the more it costs to look: no further than errors can fall that fall half as much
+    // again as they do, or as those of a mean.
+    constexpr double kMargin = 1.5;
+    const double fall = kMargin * std::max(2.0, before / now);
+    const double steps = std::log(kLongest / factor) / std::log(4.0);
+    if (now > estimate.value * std::pow(fall, steps)) return 0.0;
     before = now;
     factor_before = factor;
   }

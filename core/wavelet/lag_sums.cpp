@@ -16,7 +16,7 @@ namespace {
 class Summation {
  public:
   Summation(std::int64_t samples, std::int64_t mj, std::int64_t mk,
-            const std::vector<ScaleCovariance>& gammas)
+            std::vector<ScaleCovariance>& gammas)
       : samples_(static_cast<double>(samples)),
         mj_(static_cast<double>(mj)),
         mk_(static_cast<double>(mk)),
@@ -51,22 +51,47 @@ class Summation {
       if (total - done - length < DiscreteRule::kLeastPoints) length = total - done;
       const std::int64_t from = direction > 0 ? kink + done : kink - done - length;
       if (done < reach_ || length < DiscreteRule::kLeastPoints) {
-        for (std::int64_t s = from; s < from + length; ++s) add(static_cast<double>(s), 1.0);
+        add_lags(from, length);
       } else {
-        const DiscreteRule rule = discrete_rule(length);
-        for (std::size_t i = 0; i < DiscreteRule::kOrder; ++i)
-          add(static_cast<double>(from) + rule.nodes[i], rule.weights[i]);
+        add_panel(static_cast<double>(from), length);
       }
       done += length;
     }
   }
 
+  void add_lags(std::int64_t from, std::int64_t count) {
+    constexpr std::int64_t kAtOnce = 256;  // products of so many powers lose no digits
+    at_lags_.resize(gammas_.size());
+    for (std::int64_t done = 0; done < count; done += kAtOnce) {
+      const std::int64_t now = std::min(kAtOnce, count - done);
+      const auto begin = static_cast<double>(from + done);
+      for (std::size_t p = 0; p < gammas_.size(); ++p) {
+        at_lags_[p].resize(static_cast<std::size_t>(now));
+        gammas_[p].at_lags(begin, at_lags_[p]);
+      }
+      for (std::int64_t i = 0; i < now; ++i) {
+        for (std::size_t p = 0; p < gammas_.size(); ++p)
+          values_(static_cast<Eigen::Index>(p)) = at_lags_[p][static_cast<std::size_t>(i)];
+        add(begin + static_cast<double>(i), 1.0);
+      }
+    }
+  }
+
+  void add_panel(double from, std::int64_t points) {
+    const DiscreteRule rule = discrete_rule(points);
+    at_nodes_.clear();
+    for (ScaleCovariance& gamma : gammas_) at_nodes_.push_back(gamma.at_nodes(from, points, rule));
+    for (std::size_t i = 0; i < DiscreteRule::kOrder; ++i) {
+      for (std::size_t p = 0; p < gammas_.size(); ++p)
+        values_(static_cast<Eigen::Index>(p)) = at_nodes_[p][i];
+      add(from + rule.nodes[i], rule.weights[i]);
+    }
+  }
+
+  // The values at a lag.
   void add(double s, double weight) {
     const double pairs =
         std::min(samples_, samples_ - s) - std::max(2.0 * mk_, 2.0 * mj_ - s) + 1.0;
-    for (std::size_t p = 0; p < gammas_.size(); ++p) {
-      values_(static_cast<Eigen::Index>(p)) = gammas_[p](s);
-    }
     for (Eigen::Index p = 0; p < values_.size(); ++p) {
       const double weighted = weight * pairs * values_(p);
       plain(p) += weighted;
@@ -85,8 +110,10 @@ class Summation {
   double samples_;
   double mj_;
   double mk_;
-  const std::vector<ScaleCovariance>& gammas_;
+  std::vector<ScaleCovariance>& gammas_;
   Eigen::VectorXd values_;
+  std::vector<ScaleCovariance::AtNodes> at_nodes_;
+  std::vector<std::vector<double>> at_lags_;
   std::int64_t reach_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "core/wavelet/discrete_quadrature.h"
@@ -49,27 +50,66 @@ class ScaleCovariance {
   }
 
   double operator()(double s) const {
-    const double beyond = std::max(s - 2.0 * mj_, -s - 2.0 * mk_);  // distance outside the support
-    double sum = 0.0;
-    if (beyond <= 0.0) {
-      for_each_lag(s, [&](double weight, double lag) {
-        sum += weight * lag * (linear_ + cubic_ * lag * lag);
-      });
-    }
-    if (!process_.near.empty() && beyond < static_cast<double>(process_.near.size())) {
-      for_each_lag(s, [&](double weight, double lag) {
-        const auto at = static_cast<std::size_t>(lag);
-        if (at < process_.near.size()) sum += weight * process_.near[at];
-      });
-    }
+    const double beyond = beyond_support(s);
+    double sum = without_exponentials(s, beyond);
     const bool tabulated = table_ != nullptr && s == std::floor(s);
     if (tabulated)
       for_each_lag(s, [&](double weight, double lag) { sum += weight * (*table_)(lag); });
     for (const Exponential& e : exponentials_) {
       if (!tabulated || !e.held) sum += exponential(e, s, beyond);
     }
-    if (process_.flicker > 0.0) sum += process_.flicker * flicker(s, beyond);
     return sum / (4.0 * mj_ * mk_);
+  }
+
+  /// The same at whole lags from `from` on, between two kinks: powers by products.
+  void at_lags(double from, std::span<double> out) const {
+    const auto length = static_cast<double>(out.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double s = from + static_cast<double>(i);
+      const double beyond = beyond_support(s);
+      out[i] = without_exponentials(s, beyond);
+      if (table_ != nullptr)
+        for_each_lag(s, [&](double weight, double lag) { out[i] += weight * (*table_)(lag); });
+      for (const Exponential& e : exponentials_) {
+        if (e.split && !e.held) out[i] += exponential(e, s, beyond);
+      }
+    }
+    for (const Exponential& e : exponentials_) {
+      if (e.split || e.held) continue;
+      const Ends ends = ends_of(e, from, from + length, from + 0.5 * length);
+      const Complex step = after(e, 1.0);
+      if (ends.falling != 0.0) add_powers(ends.falling, step, out.begin(), out.end());
+      if (ends.rising != 0.0) add_powers(ends.rising * step, step, out.rbegin(), out.rend());
+    }
+    for (double& one : out) one /= 4.0 * mj_ * mk_;
+  }
+
+  using AtNodes = std::array<double, DiscreteRule::kOrder>;
+  /// The same at the nodes of a rule for `points` lags from `from` on, between two kinks: there an
+  /// exponential is two, one that falls and one that rises, and panels of equal length share their
+  /// values at the nodes.
+  AtNodes at_nodes(double from, std::int64_t points, const DiscreteRule& rule) {
+    const auto length = static_cast<double>(points);
+    const double middle = from + 0.5 * length;
+    AtNodes out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double s = from + rule.nodes[i];
+      const double beyond = beyond_support(s);
+      out[i] = without_exponentials(s, beyond);
+      for (const Exponential& e : exponentials_) {
+        if (e.split) out[i] += exponential(e, s, beyond);
+      }
+    }
+    for (Exponential& e : exponentials_) {
+      if (e.split) continue;
+      const auto [falling, rising] = ends_of(e, from, from + length, middle);
+      if (falling == 0.0 && rising == 0.0) continue;
+      if (e.points != points) remember_nodes(e, points, rule);
+      for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] += (falling * e.falling[i] + rising * e.rising[i]).real();
+    }
+    for (double& one : out) one /= 4.0 * mj_ * mk_;
+    return out;
   }
 
   // Lags next to a kink of γ that must be summed one by one.
@@ -115,7 +155,92 @@ class ScaleCovariance {
     bool real;
     bool split;  // polynomials split off, see sum_covariance_terms.h
     bool held;   // in the table
+    // e^-Lx at the nodes of a panel of so many points, x from its begin and to its end.
+    std::int64_t points = 0;
+    std::array<Complex, DiscreteRule::kOrder> falling{};
+    std::array<Complex, DiscreteRule::kOrder> rising{};
   };
+
+  // Distance outside the support, where positive.
+  double beyond_support(double s) const { return std::max(s - 2.0 * mj_, -s - 2.0 * mk_); }
+
+  double without_exponentials(double s, double beyond) const {
+    double sum = 0.0;
+    if (beyond <= 0.0) {
+      for_each_lag(s, [&](double weight, double lag) {
+        sum += weight * lag * (linear_ + cubic_ * lag * lag);
+      });
+    }
+    if (!process_.near.empty() && beyond < static_cast<double>(process_.near.size())) {
+      for_each_lag(s, [&](double weight, double lag) {
+        const auto at = static_cast<std::size_t>(lag);
+        if (at < process_.near.size()) sum += weight * process_.near[at];
+      });
+    }
+    if (process_.flicker > 0.0) sum += process_.flicker * flicker(s, beyond);
+    return sum;
+  }
+
+  static Complex after(const Exponential& e, double lag) {
+    if (e.real) return std::exp(-e.rate.real() * lag);
+    return std::exp(-e.rate * lag);
+  }
+
+  // What falls from the begin of a panel on, at that, and what rises to its end.
+  struct Ends {
+    Complex falling = 0.0;
+    Complex rising = 0.0;
+  };
+  Ends ends_of(const Exponential& e, double begin, double end, double middle) const {
+    Ends out;
+    const auto add = [&](Complex factor, double at_begin, double at_end) {
+      const bool falls = at_begin < at_end;
+      const double distance = falls ? at_begin : at_end;
+      if (e.rate.real() * distance < kNothing)
+        (falls ? out.falling : out.rising) += factor * after(e, distance);
+    };
+    if (beyond_support(middle) > 0.0) {
+      add(e.tail, beyond_support(begin), beyond_support(end));
+      return out;
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) {
+        const double kink = static_cast<double>(a) * mj_ - static_cast<double>(b) * mk_;
+        add(kDifference[a] * kDifference[b] * e.kernel, std::abs(begin - kink),
+            std::abs(end - kink));
+      }
+    }
+    return out;
+  }
+
+  // Adds Re(first·step^i) to number i. Four chains of products, which the processor works on at
+  // once.
+  template <class Iterator>
+  static void add_powers(Complex first, Complex step, Iterator at, Iterator end) {
+    constexpr std::size_t kChains = 4;
+    const Complex jump = step * step * step * step;
+    std::array<double, kChains> real{};
+    std::array<double, kChains> imag{};
+    for (std::size_t c = 0; c < kChains; ++c) {
+      real[c] = first.real();
+      imag[c] = first.imag();
+      first *= step;
+    }
+    for (std::size_t c = 0; at != end; ++at, c = (c + 1) % kChains) {
+      *at += real[c];
+      const double next = real[c] * jump.real() - imag[c] * jump.imag();
+      imag[c] = real[c] * jump.imag() + imag[c] * jump.real();
+      real[c] = next;
+    }
+  }
+
+  static void remember_nodes(Exponential& e, std::int64_t points, const DiscreteRule& rule) {
+    e.points = points;
+    for (std::size_t i = 0; i < e.falling.size(); ++i) {
+      e.falling[i] = after(e, rule.nodes[i]);
+      e.rising[i] = after(e, static_cast<double>(points) - rule.nodes[i]);
+    }
+  }
 
   template <class Visit>
   void for_each_lag(double s, const Visit& visit) const {
