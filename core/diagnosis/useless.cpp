@@ -13,6 +13,14 @@ bool adds_up(const EffectTerm& term) {
   return term.effect->regressors != nullptr && term.effect->fit_with == nullptr;
 }
 
+constexpr double kNothing = 0.05;  // nats
+
+// Terms of a kind of process.
+std::ptrdiff_t count(const Model& model, std::size_t kind) {
+  return std::count_if(model.terms.begin(), model.terms.end(),
+                       [&](const Term& term) { return term.process.index() == kind; });
+}
+
 UselessTerm weighed(const FittedModel& with, std::string term, Regression regression,
                     const Model& start) {
   JointFit fit = joint_fit(regression, start, {}, Begin::kAnywhere, own_starts(with.fit, start));
@@ -22,7 +30,8 @@ UselessTerm weighed(const FittedModel& with, std::string term, Regression regres
 
 }  // namespace
 
-std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level) {
+std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level,
+                                        const Model& kept) {
   const Model& noise = fitted.fit.model.noise;
   const std::vector<EffectTerm>& effects = fitted.regression.effects();
   std::optional<UselessTerm> out;
@@ -41,7 +50,10 @@ std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level)
     without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(t));
     Model alone;
     alone.terms.push_back(noise.terms[t]);
-    weigh(weighed(fitted, print(alone), fitted.regression, without), static_cast<double>(free));
+    UselessTerm one = weighed(fitted, print(alone), fitted.regression, without);
+    const std::size_t like = noise.terms[t].process.index();
+    if (count(noise, like) <= count(kept, like) && one.loss > kNothing) continue;
+    weigh(std::move(one), static_cast<double>(free));
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!adds_up(effects[e])) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/estimate/band_likelihood.h"
 #include "core/estimate/fisher_scoring.h"
@@ -131,6 +132,28 @@ Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& co
   return out;
 }
 
+// Half the width of the bands of fewest samples at a frequency, all in rad per sample.
+double half_band(std::span<const BandedPower> replicates, double omega) {
+  constexpr double kBandsPerFrequency = 256.0;  // see Bands
+  double widest = omega / kBandsPerFrequency;
+  for (const BandedPower& one : replicates)
+    widest = std::max(widest, std::numbers::pi / static_cast<double>(one.samples));
+  return 0.5 * widest;
+}
+
+// Peaks no narrower than half a band: between the middles of bands one could hide any power.
+void widen_peaks(Model& model, std::span<const BandedPower> replicates) {
+  const auto widen = [&](auto peak) -> Process {
+    peak.r = std::min(peak.r, std::exp(-half_band(replicates, peak.omega)));
+    return peak;
+  };
+  for (Term& term : model.terms) {
+    if (term.given.size() > 1 && term.given[1]) continue;
+    if (const auto* sharp = std::get_if<Resonance>(&term.process)) term.process = widen(*sharp);
+    if (const auto* spread = std::get_if<Voigt>(&term.process)) term.process = widen(*spread);
+  }
+}
+
 // The maximum in these bands.
 WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replicates,
                         const Progress& progress, Begin begin) {
@@ -148,6 +171,7 @@ WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replica
       const ParameterPlace& c = coordinates[i];
       set_searched(out.terms[c.term].process, c.parameter, x(static_cast<Eigen::Index>(i)));
     }
+    widen_peaks(out, replicates);
     fit_ramp(out, replicates);
     return out;
   };

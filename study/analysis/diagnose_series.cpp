@@ -34,9 +34,9 @@ Step step_of(const TriedTerm& tried) {
                              tried.cause, tried.likelihood_gain, tried.gain)};
 }
 
-// Takes what the last term made useless out of a model, one after the other.
-void drop_useless(FittedModel& model, Step& step, double level) {
-  while (auto useless = useless_term(model, level)) {
+// Takes what the last term made useless out of a model, one after the other; see useless_term().
+void drop_useless(FittedModel& model, Step& step, double level, const Model& kept) {
+  while (auto useless = useless_term(model, level, kept)) {
     step.dropped.push_back(useless->term);
     step.why += fmt::format(" Beside it {} explains no more than chance ({:.1f} nats).",
                             useless->term, useless->loss);
@@ -168,7 +168,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     }
     Step taken = step_of(next.best->tried);
     FittedModel grown = std::move(next.best->tried.fitted);
-    if (options.automatic) drop_useless(grown, taken, options.level);
+    if (options.automatic) drop_useless(grown, taken, options.level, start->noise);
     if (!models.is_new(grown.fit.model)) {
       out.add_notes(came_back(taken));
       remaining = DiagnosisVerdict::kUnknown;

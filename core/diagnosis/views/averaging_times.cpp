@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/views/efficient_residuals.h"
 #include "core/diagnosis/views/normal_power.h"
 #include "core/inference/parameter_covariance.h"
+#include "core/regression/fitted_model.h"
 
 namespace imunoise {
 namespace {
@@ -49,9 +51,18 @@ PooledRatio pooled_ratio(const LeftOver& left, const Eigen::ArrayXd& expected) {
   return out;
 }
 
+// Fisher's information of the fit on some parameters of its noise.
+Eigen::MatrixXd information_of(const FittedModel& fitted, const std::vector<Index>& interior) {
+  const Regression& regression = fitted.regression;
+  return whittle_information(fitted.fit.model.noise,
+                             pooled(regression.residual(fitted.fit.effects.value)), interior);
+}
+
 }  // namespace
 
-AveragingTimes averaging_times(const Model& noise, const LeftOver& left) {
+AveragingTimes averaging_times(const FittedModel& fitted, const LeftOver& left) {
+  const Model& noise = fitted.fit.model.noise;
+  const std::vector<Index> interior = parameter_sets(noise).interior;
   const Scales& scales = longest_scales(left.variances);
   const Eigen::ArrayXd m = scales.half_widths();
   const Eigen::ArrayXd expected = variance(noise, m);
@@ -61,7 +72,7 @@ AveragingTimes averaging_times(const Model& noise, const LeftOver& left) {
     if (2.0 / pooled.covariance(i, i) >= kFewestDegrees) used.push_back(i);
   }
   const auto n = static_cast<Index>(used.size());
-  const Eigen::MatrixXd slopes = pick_columns(jacobian(noise, m), parameter_sets(noise).interior);
+  const Eigen::MatrixXd slopes = pick_columns(jacobian(noise, m), interior);
   AveragingTimes out{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n), {}};
   Eigen::VectorXd z(n);
   Eigen::MatrixXd a(n, slopes.cols());
@@ -84,10 +95,9 @@ AveragingTimes averaging_times(const Model& noise, const LeftOver& left) {
   const Eigen::MatrixXd whitening = whiten(correlation).matrix;
   z = whitening * z;
   a = whitening * a;
-  const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
-  const Eigen::VectorXd unexplained = z - a * (inverse.matrix * (a.transpose() * z));
-  out.test =
-      chi_square_test(unexplained.squaredNorm(), std::max<Index>(0, z.size() - inverse.rank));
+  // Noise that each replicate has of its own is not what was fitted to all.
+  const bool shared = fitted.fit.own_noise.empty();
+  out.test = test_after_fit(z, a, shared ? information_of(fitted, interior) : a.transpose() * a);
   return out;
 }
 

@@ -14,11 +14,11 @@ struct AveragingTimes {
   Eigen::ArrayXd seconds;   ///< averaging times with at least 5 degrees of freedom
   Eigen::ArrayXd ratio;     ///< measured variance over the model's
   Eigen::ArrayXd relative;  ///< standard error of the Allan deviation over the model's
-  TestOutcome test;         ///< of all, orthogonal to what the model's parameters can explain
+  TestOutcome test;         ///< of all, given that the model was fitted: test_after_fit()
 };
 
-/// `left`: left_over() of a model with this noise. Replicates may differ in length: a scale counts
-/// those that have it.
-AveragingTimes averaging_times(const Model& noise, const LeftOver& left);
+/// `left`: left_over() of the model. Replicates may differ in length: a scale counts those that
+/// have it.
+AveragingTimes averaging_times(const FittedModel& fitted, const LeftOver& left);
 
 }  // namespace imunoise

@@ -38,8 +38,8 @@ auto worst_of(const Range& range, const Measure& measure) {
                           [&](const auto& a, const auto& b) { return measure(a) < measure(b); });
 }
 
-std::optional<ErrorView> over_averaging_times(const Model& noise, const LeftOver& left) {
-  const AveragingTimes at = averaging_times(noise, left);
+std::optional<ErrorView> over_averaging_times(const FittedModel& fitted, const LeftOver& left) {
+  const AveragingTimes at = averaging_times(fitted, left);
   auto out = mean_view("averaging_times", at.test, at.relative.square().inverse().sum());
   if (!out) return out;
   const Eigen::ArrayXd deviation = at.ratio.sqrt() - 1.0;
@@ -145,7 +145,7 @@ std::vector<ErrorView> error_views(const FittedModel& fitted, const LeftOver& le
   const auto add = [&](std::optional<ErrorView> one) {
     if (one) out.push_back(std::move(*one));
   };
-  add(over_averaging_times(fitted.fit.model.noise, left));
+  add(over_averaging_times(fitted, left));
   add(over_spectrum(misfit));
   add(of_single_waves(current));
   add(over_time(misfit, current.subject().rate.value));

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/views/efficient_residuals.h"
 #include "core/diagnosis/views/normal_power.h"
 #include "core/inference/parameter_covariance.h"
-#include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -103,9 +103,7 @@ MisfitReport misfit_of(const FittedModel& fitted) {
     z(i) = out.bands[static_cast<std::size_t>(i)].sigma;
     a.row(i) = directions[static_cast<std::size_t>(i)].transpose();
   }
-  const PseudoInverse inverse = pseudo_inverse(a.transpose() * a);
-  const Eigen::VectorXd left = z - a * (inverse.matrix * (a.transpose() * z));
-  out.spectrum = chi_square_test(left.squaredNorm(), std::max<Index>(0, n - inverse.rank));
+  out.spectrum = test_after_fit(z, a, whittle_information(noise, pooled(remaining), interior));
 
   // One replicate after the other: all their innovations at once would be as long as the recording.
   struct Seen {
