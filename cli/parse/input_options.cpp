@@ -55,7 +55,7 @@ void add_input(CLI::App& command, RawInput& raw) {
                   "the file's")
       ->type_name("UNITS");
   command.add_option("--time-unit", raw.time_unit, "Unit of the time column of files")
-      ->check(CLI::IsMember({"s", "ms", "us", "ns"}))
+      ->check(CLI::IsMember({"h", "min", "s", "ms", "us", "ns"}))
       ->default_str("recognised");
   command.add_option("--from", raw.from, "Start of the samples to use (s after a file's first)")
       ->type_name("SECONDS")

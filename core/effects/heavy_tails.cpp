@@ -41,10 +41,34 @@ void simulate_heavy_tails(const EffectTerm& term, const SimulatedReplicate& at,
   for (double& x : samples) x += term[kHeavyTailsSize] * student_number(dof, at.random);
 }
 
+// Of less than 0.6 steps of the converter, noise takes so few values that its distribution is that
+// of the rounding: neighbours then differ by less than √2·√(0.6² + 1/12) steps.
+bool is_coarse(const Eigen::VectorXd& samples) {
+  constexpr double kCoarse = 0.94;
+  double step = INFINITY;
+  double squares = 0.0;
+  for (Eigen::Index t = 1; t < samples.size(); ++t) {
+    const double difference = std::abs(samples(t) - samples(t - 1));
+    if (difference > 0.0) step = std::min(step, difference);
+    squares += difference * difference;
+  }
+  return squares < kCoarse * kCoarse * step * step * static_cast<double>(samples.size());
+}
+
+// One distribution is enough, and rounding has its own.
+bool may_have_tails(const Current& current) {
+  const std::vector<EffectTerm>& effects = current.regression.effects();
+  const std::vector<SharedVector>& samples = current.subject().samples;
+  return std::none_of(effects.begin(), effects.end(),
+                      [](const EffectTerm& one) { return one.effect == &heavy_tails(); }) &&
+         std::none_of(samples.begin(), samples.end(),
+                      [](const SharedVector& one) { return is_coarse(one); });
+}
+
 Suggestions search_heavy_tails(const SearchView& view) {
   const SizeCounts sizes = count_sizes(view.innovations().white);
   const Student best = best_student(sizes);
-  const double gain = std::max(0.0, gain_of(sizes, best));
+  const double gain = may_have_tails(view.current()) ? std::max(0.0, gain_of(sizes, best)) : 0.0;
   return {{.cause = "heavy_tails",
            .added = EffectTerm(heavy_tails(), "", {{"dof", best.dof}}),
            .score_nats = gain,

@@ -106,13 +106,12 @@ double line_gain(const Current& current, double f) {
   return out;
 }
 
-// True where a frequency is that of 50 or 60 Hz mains or of a low multiple, folded; mains wander by
-// 0.1 %.
-bool is_folded_mains(double hertz, double rate, double resolution) {
+// True where a frequency is that of 50 or 60 Hz mains or of a low multiple, folded where that is
+// above half the sampling rate; mains wander by 0.1 %.
+bool is_mains(double hertz, double rate, double resolution) {
   for (const double mains : {50.0, 60.0}) {
     for (int multiple = 1; multiple <= 4; ++multiple) {
       const double high = mains * multiple;
-      if (high < 0.5 * rate) continue;
       const double folded = std::abs(high - rate * std::round(high / rate));
       if (folded > 0.0 && std::abs(folded - hertz) <= 0.001 * high + resolution) return true;
     }
@@ -162,7 +161,7 @@ Suggestion best_wave(const Current& current) {
         0.5 * static_cast<double>(subject.length(k)) / noise_level(current, k, peak.at);
   // A wave's score turns by π T/√3 rad per Hz: the spread of time within a replicate.
   out.search.path = 0.5 * std::numbers::pi / std::sqrt(3.0) * static_cast<double>(longest);
-  if (is_folded_mains(hertz, rate, rate / static_cast<double>(longest))) out.cause = "mains_alias";
+  if (is_mains(hertz, rate, rate / static_cast<double>(longest))) out.cause = "mains_alias";
   return out;
 }
 
@@ -246,28 +245,29 @@ const Effect& line() {
                       .truth = true}},
       .coefficient = "amplitude",
       .anywhere = true,
-      .causes =
-          {{.id = "line",
-            .title = "sine wave",
-            .physics = "A fan, a pump or a building vibrates at one frequency.",
-            .record_next = "the same with fans and pumps off, one after the other",
-            .looks_like = {"resonance", "harmonics", "mains_alias"},
-            .family = "line"},
-           {.id = "harmonics",
-            .title = "sine wave and its multiples",
-            .physics = "A rotating machine shakes the bench at its speed and at multiples of "
-                       "it.",
-            .record_next = "the same with machines off, one after the other",
-            .looks_like = {"line", "mains_alias"},
-            .family = "line"},
-           {.id = "mains_alias",
-            .title = "aliased mains frequency",
-            .physics =
-                "The mains frequency, or a multiple, is aliased below half the sampling rate.",
-            .record_next = "the same at another sampling rate: the line moves; on a "
-                           "battery it disappears",
-            .looks_like = {"line"},
-            .family = "line"}},
+      .causes = {{.id = "line",
+                  .title = "sine wave",
+                  .physics = "A fan, a pump or a building vibrates at one frequency.",
+                  .record_next = "the same with fans and pumps off, one after the other",
+                  .looks_like = {"resonance", "harmonics", "mains_alias"},
+                  .family = "line"},
+                 {.id = "harmonics",
+                  .title = "sine wave and its multiples",
+                  .physics = "A rotating machine shakes the bench at its speed and at multiples of "
+                             "it.",
+                  .record_next = "the same with machines off, one after the other",
+                  .looks_like = {"line", "mains_alias"},
+                  .family = "line"},
+                 {.id = "mains_alias",
+                  .title = "mains frequency",
+                  .physics =
+                      "The mains frequency or a multiple of it, by cables or by what hums; where "
+                      "that is above half the sampling rate, its alias.",
+                  .record_next =
+                      "the same on a battery: it disappears; at another sampling rate an "
+                      "alias moves",
+                  .looks_like = {"line"},
+                  .family = "line"}},
       .check = check_line,
       .regressors = line_regressors,
       .add = add_line,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/effect/columns.h"
@@ -59,6 +60,10 @@ void simulate_step(const EffectTerm& term, const SimulatedReplicate& at, Eigen::
   add_step(term, at.beside, at.replicate, Eigen::VectorXd::Constant(1, term[kStepHeight]), samples);
 }
 
+// A level of fewer samples is no level. Where a filter leaves nearly no power at some frequency,
+// that is where its ends show.
+constexpr Index kFromEnds = 16;
+
 Suggestions search_step(const SearchView& view) {
   const Subject& subject = view.subject();
   const std::vector<StepProducts>& steps = view.steps();
@@ -67,7 +72,8 @@ Suggestions search_step(const SearchView& view) {
   Index time = 0;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     best.search.path += steps[k].path();
-    for (Index t = 1; t < steps[k].size(); ++t) {
+    const Index apart = std::min(kFromEnds, steps[k].size() / 4);
+    for (Index t = 1 + apart; t + apart < steps[k].size(); ++t) {
       const double product = steps[k].product(t);
       const double information = steps[k].information(t, t);
       if (!(0.5 * product * product > best.score_nats * information)) continue;

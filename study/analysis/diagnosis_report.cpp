@@ -88,7 +88,7 @@ v1::EffectCandidate candidate_of(const RankedTerm& from, const std::optional<Hel
   std::string sentence = fmt::format("{}{}{}{}: explains {:.1f} nats", about.title, with,
                                      told.empty() ? "" : ", ", told, tried.likelihood_gain);
   if (to.has_heldout_gain_nats())
-    sentence += fmt::format(", {:.1f} of them on held-out data", to.heldout_gain_nats());
+    sentence += fmt::format(", on held-out data {:.1f} nats", to.heldout_gain_nats());
   to.set_sentence(sentence + fmt::format(" ({}).", chance_words(from.familywise_p)));
   return to;
 }

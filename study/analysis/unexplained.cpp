@@ -69,8 +69,26 @@ std::string size_of(const v1::Rung& rung) {
   return "";
 }
 
+// What a model says of the integrated error, against what the best says of it: where they differ
+// most, empty where they agree. A filter believes what its model says.
+std::string prediction_of(const v1::Rung& rung, const v1::Rung& best) {
+  constexpr double kAlike = 1.1;
+  double worst = std::log(kAlike);
+  std::string out;
+  for (int i = 0; i < std::min(best.drift_size(), rung.drift_size()); ++i) {
+    const double ratio = rung.drift(i).predicted() / best.drift(i).predicted();
+    if (!(std::abs(std::log(ratio)) > worst)) continue;
+    worst = std::abs(std::log(ratio));
+    out = fmt::format(
+        "The model predicts {:.2g} times the integrated {} after {:g} s that the best model "
+        "predicts.",
+        ratio, integral_name(rung.drift(i).unit()), rung.drift(i).seconds());
+  }
+  return out;
+}
+
 // What a rung lacks against the best one: how large that is, how sure that is, and what it costs.
-std::string consequence_of(const v1::Rung& rung, double short_of_best) {
+std::string consequence_of(const v1::Rung& rung, const v1::Rung& best, double short_of_best) {
   constexpr double kNoConsequence = 0.05;
   const std::string sure =
       significance_words(std::exp(log_chi_square_tail(2.0 * std::max(0.0, short_of_best), 1.0)));
@@ -82,18 +100,24 @@ std::string consequence_of(const v1::Rung& rung, double short_of_best) {
     if (one.has_best() && one.best() > 0.0 && (worst == nullptr || cost(one) > cost(*worst)))
       worst = &one;
   }
-  std::string out =
+  const std::string out =
       fmt::format("{}{:.0f} nats short of the best model, {}", size_of(rung), short_of_best, sure);
-  if (worst == nullptr) return out + ".";
+  const std::string prediction = prediction_of(rung, best);
+  const std::string and_so = prediction.empty() ? "" : " " + prediction;
+  if (worst == nullptr) return out + "." + and_so;
   const std::string name = integral_name(worst->unit());
-  if (cost(*worst) < kNoConsequence)
+  if (cost(*worst) >= kNoConsequence)
+    return fmt::format(
+        "{}. After {:g} s the integrated {} is off by {:.2f} times that of the best model.{}", out,
+        worst->seconds(), name, worst->measured() / worst->best(), and_so);
+  const double percent = 100.0 * cost(*worst) + 0.05;
+  const double seconds = rung.drift().rbegin()->seconds();
+  if (prediction.empty())
     return fmt::format(
         "{}, of no consequence over {:g} s: the integrated {} changes by less than {:.1f} %.", out,
-        rung.drift().rbegin()->seconds(), name, 100.0 * cost(*worst) + 0.05);
-  return fmt::format(
-      "{}. After {:g} s the integrated {} is off by {:.2f} times that of the best "
-      "model.",
-      out, worst->seconds(), name, worst->measured() / worst->best());
+        seconds, name, percent);
+  return fmt::format("{}. Over {:g} s it changes the integrated {} by less than {:.1f} %.{}", out,
+                     seconds, name, percent, and_so);
 }
 
 std::string best_words(double promised, bool forecast) {
@@ -128,11 +152,12 @@ void tell(const Placed& at, const Placed& best, double promised, bool forecast) 
   }
   if (!as_good && below.size() > 1 && !in_one_replicate(below)) {
     const double reach = reach_of_sum(below);
-    to.set_unexplained_lower(error(short_of_best - reach));
+    to.set_unexplained_lower(std::max(1.0, error(short_of_best - reach)));
     to.set_unexplained_upper(error(short_of_best + reach));
   }
   add_best_drift(*best.rung, to);
-  to.set_consequence(as_good ? best_words(promised, forecast) : consequence_of(to, short_of_best));
+  to.set_consequence(as_good ? best_words(promised, forecast)
+                             : consequence_of(to, *best.rung, short_of_best));
 }
 
 // Fills all rungs. `settled`: a diagnosis of this rung found nothing more.

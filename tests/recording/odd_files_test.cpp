@@ -113,13 +113,30 @@ std::vector<OddFile> odd_files() {
                    return fmt::format("2026-11-24T12:00:{:02}.{:02}Z,{}", i / 100, i % 100, x(i));
                  }),
        "dates and times");
-  good("dates as 24.11.2026 or 11/24/2026", "100 Hz",
+  good("dates as 24.11.2026", "100 Hz",
+       odd_table("time,x\n",
+                 [](int i) {
+                   return fmt::format("24.11.2026 23:59:{:02}.{:02},{}", 56 + i / 100, i % 100,
+                                      x(i));
+                 }),
+       "dates and times");
+  good("dates as 11/24/2026", "100 Hz",
        odd_table("time,x\n",
                  [](int i) {
                    return fmt::format("11/24/2026 23:59:{:02}.{:02},{}", 56 + i / 100, i % 100,
                                       x(i));
                  }),
        "dates and times");
+  good("times in minutes", "100 Hz",
+       odd_table("Time [min],x\n",
+                 [](int i) { return fmt::format("{:.9f},{}", 0.01 / 60.0 * i, x(i)); }),
+       "minutes");
+  good("ticks of .NET, 100 ns since the year 1", "100 Hz",
+       odd_table("time,x\n",
+                 [](int i) {
+                   return fmt::format("{},{}", 638'000'000'000'000'000LL + 100'000LL * i, x(i));
+                 }),
+       "units of 100 ns");
   good("times of day that pass midnight", "100 Hz, one stretch",
        odd_table("time,x\n",
                  [](int i) {

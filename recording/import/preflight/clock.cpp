@@ -22,12 +22,16 @@ constexpr std::array<TimeUnit, 4> kTimeUnits = {
 constexpr double kEarliest = 9e8;     // s since 1970: 1998
 constexpr double kLatest = 4e9;       // 2096
 constexpr double kDay = 86400.0;      // s
+constexpr double kTick = 1e-7;        // s
 constexpr double kUsualRate = 200.0;  // Hz, of inertial sensors
 constexpr double kHighestRate = 1e6;  // Hz: no such sensor is as fast
 
 std::string_view name_of(double seconds) {
   if (seconds == 1e-4) return "tenths of milliseconds";
+  if (seconds == 60.0) return "minutes";
+  if (seconds == 3600.0) return "hours";
   if (seconds == kDay) return "days";
+  if (seconds == kTick) return "units of 100 ns";
   const auto* const found =
       std::find_if(kTimeUnits.begin(), kTimeUnits.end(),
                    [&](const TimeUnit& one) { return one.seconds == seconds; });
@@ -171,6 +175,9 @@ JudgedUnit judge_unit(double first, double step) {
   // Days since 1900 (spreadsheets) or since the year 0 (MATLAB), of this century.
   const bool days = (first > 3e4 && first < 8e4) || (first > 7.2e5 && first < 7.8e5);
   if (days && step * kHighestRate < 1.0) return {kDay, " (by their values)"};
+  // 100 ns since the year 1 (.NET) or since 1601 (Windows), of this century.
+  const bool ticks = (first > 6.3e17 && first < 6.7e17) || (first > 1.25e17 && first < 1.6e17);
+  if (ticks && step * kTick * kHighestRate > 1.0) return {kTick, " (by their values)"};
   if (step <= 1.0) return {1.0, " (by their steps)"};
   const TimeUnit* best = &kTimeUnits[1];
   const auto distance = [&](const TimeUnit& unit) {

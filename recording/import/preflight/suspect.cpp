@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -43,6 +44,30 @@ double agreeing(const Axes& axes, std::size_t lag) {
                  : 0U;
   }
   return fraction(count, rows - lag);
+}
+
+// How often neighbours of an axis are the same number by chance: steps of a smooth series are
+// normal, and rounding to a quantum makes those of less than one zero, the likelier the smaller.
+double equal_by_chance(const std::vector<double>& axis) {
+  double quantum = std::numeric_limits<double>::infinity();
+  double squares = 0.0;
+  for (std::size_t i = 1; i < axis.size(); ++i) {
+    const double step = std::abs(axis[i] - axis[i - 1]);
+    if (step > 0.0) quantum = std::min(quantum, step);
+    squares += step * step;
+  }
+  const double rounding = quantum * quantum / 6.0;  // variance that it adds to a step
+  const double variance = squares / static_cast<double>(axis.size() - 1) - rounding;
+  if (!(variance > 0.0)) return 1.0;
+  const double z = quantum / std::sqrt(variance);
+  return std::erf(z / std::numbers::sqrt2) -
+         std::sqrt(2.0 / std::numbers::pi) / z * (1.0 - std::exp(-0.5 * z * z));
+}
+
+double equal_by_chance(const Axes& axes) {
+  double out = 1.0;
+  for (const auto& axis : axes) out *= equal_by_chance(axis);
+  return out;
 }
 
 struct Lines {
@@ -128,7 +153,8 @@ Quantity quantity_of(const Column& column, const Unit& unit) {
 void suspect(const Axes& axes, std::string_view sensor, Hertz rate,
              std::vector<Finding>& findings) {
   const double repeats = agreeing(axes, 1);
-  if (repeats > kRepeats && repeats > kMoreOften * agreeing(axes, kApart)) {
+  const double chance = std::max(agreeing(axes, kApart), equal_by_chance(axes));
+  if (repeats > kRepeats && repeats > kMoreOften * chance) {
     findings.push_back(
         {Severity::kDoubt,
          fmt::format(

@@ -69,6 +69,10 @@ constexpr std::array kTimeSuffixes = {
     Suffix{"ms", 1e-3}, Suffix{"msec", 1e-3}, Suffix{"us", 1e-6},    Suffix{"usec", 1e-6},
     Suffix{"ns", 1e-9}, Suffix{"nsec", 1e-9}, Suffix{"nsecs", 1e-9}, Suffix{"nanosec", 1e-9}};
 
+// Only where they are said to be units: t_min may be a minimum.
+constexpr std::array kLongTimes = {Suffix{"min", 60.0}, Suffix{"minutes", 60.0},
+                                   Suffix{"h", 3600.0}, Suffix{"hours", 3600.0}};
+
 // Times whose name is their unit: those of Arduino, and of Xsens devices.
 constexpr std::array kTimesOfOneUnit = {Suffix{"millis", 1e-3}, Suffix{"micros", 1e-6},
                                         Suffix{"sampletimefine", 1e-4}};
@@ -344,10 +348,13 @@ Result<std::optional<double>> time_unit(std::string_view name, std::string_view 
   }
   if (unit == "µs" || unit == "μs") return std::optional(1e-6);
   if (const auto known = seconds(unit)) return known;
-  return fail(
-      fmt::format("'{}' is not a unit of time that is known here (s, ms, us, ns); correct it, give "
-                  "--time-unit, or give --rate HZ to ignore the times",
-                  unit));
+  for (const Suffix& one : kLongTimes) {
+    if (one.text == unit) return std::optional(one.seconds);
+  }
+  return fail(fmt::format(
+      "'{}' is not a unit of time that is known here (h, min, s, ms, us, ns); correct it, give "
+      "--time-unit, or give --rate HZ to ignore the times",
+      unit));
 }
 
 }  // namespace imunoise::recording

@@ -68,8 +68,10 @@ const char* RowParser::read_stamp(const char* begin, const char* end) {
     if (error == std::errc{} && (stop == end || (*stop != '.' && *stop != 'e' && *stop != 'E')))
       return stop;
     const char* const as_double = read_number(begin, end, stamp_);
-    if (as_double != nullptr && (as_double == end || (*as_double != ':' && *as_double != '-')))
-      stamps_ = std::vector<double>(whole->begin(), whole->end());
+    constexpr std::string_view kDateGoesOn = ".:-/";
+    if (as_double == nullptr) return nullptr;
+    if (as_double != end && kDateGoesOn.find(*as_double) != std::string_view::npos) return nullptr;
+    stamps_ = std::vector<double>(whole->begin(), whole->end());
     return as_double;
   }
   return read_number(begin, end, stamp_);
