@@ -41,7 +41,7 @@ Suggestions search_filters(const Current& current) {
   if (white == noise.terms.end()) return {};
   const auto place = static_cast<std::size_t>(white - noise.terms.begin());
   const double sigma2 = values(white->process)[0];
-  const std::vector<int> lengths{2, 3, 4, 6, 8, 12, 16};
+  const std::vector<int> lengths{2, 3, 4, 5, 6, 8, 10, 12, 16};
   Suggestions out;
   const double before = whittle_objective(noise, current.pooled);
   for (const bool twice : {false, true}) {

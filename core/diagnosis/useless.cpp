@@ -13,8 +13,6 @@ bool adds_up(const EffectTerm& term) {
   return term.effect->regressors != nullptr && term.effect->fit_with == nullptr;
 }
 
-constexpr double kNothing = 0.05;  // nats
-
 // Terms of a kind of process.
 std::ptrdiff_t count(const Model& model, std::size_t kind) {
   return std::count_if(model.terms.begin(), model.terms.end(),
@@ -50,10 +48,10 @@ std::optional<UselessTerm> useless_term(const FittedModel& fitted, double level,
     without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(t));
     Model alone;
     alone.terms.push_back(noise.terms[t]);
-    UselessTerm one = weighed(fitted, print(alone), fitted.regression, without);
-    const std::size_t like = noise.terms[t].process.index();
-    if (count(noise, like) <= count(kept, like) && one.loss > kNothing) continue;
-    weigh(std::move(one), static_cast<double>(free));
+    const std::size_t kind = noise.terms[t].process.index();
+    const bool has_power = values(noise.terms[t].process)[0] > 0.0;
+    if (has_power && count(noise, kind) <= count(kept, kind)) continue;
+    weigh(weighed(fitted, print(alone), fitted.regression, without), static_cast<double>(free));
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!adds_up(effects[e])) continue;

@@ -132,13 +132,18 @@ Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& co
   return out;
 }
 
-// Half the width of the bands of fewest samples at a frequency, all in rad per sample.
+// Half the distance of the middles of bands next to a frequency, the widest of all replicates, rad
+// per sample.
 double half_band(std::span<const BandedPower> replicates, double omega) {
-  constexpr double kBandsPerFrequency = 256.0;  // see Bands
-  double widest = omega / kBandsPerFrequency;
-  for (const BandedPower& one : replicates)
-    widest = std::max(widest, std::numbers::pi / static_cast<double>(one.samples));
-  return 0.5 * widest;
+  double out = 0.0;
+  for (const BandedPower& one : replicates) {
+    const Eigen::ArrayXd& middle = one.frequency.cycles();
+    const double* const above = std::lower_bound(middle.data() + 1, middle.data() + middle.size(),
+                                                 omega / (2.0 * std::numbers::pi));
+    const double* const at = std::min(above, middle.data() + middle.size() - 1);
+    out = std::max(out, std::numbers::pi * (*at - *(at - 1)));
+  }
+  return out;
 }
 
 // Peaks no narrower than half a band: between the middles of bands one could hide any power.
@@ -154,9 +159,28 @@ void widen_peaks(Model& model, std::span<const BandedPower> replicates) {
   }
 }
 
+// Holds the decay of peaks at that limit which would be sharper yet.
+void hold_at_limit(const Model& asked, const Model& widened,
+                   const std::vector<ParameterPlace>& coordinates, Curvature& to) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double sharper = values(process_of(asked, coordinates[i]))[coordinates[i].parameter];
+    const double limit = values(process_of(widened, coordinates[i]))[coordinates[i].parameter];
+    if (sharper == limit || !(to.score(at) > 0.0)) continue;
+    to.score(at) = 0.0;
+    for (Eigen::MatrixXd* const one : {&to.information, &to.correction}) {
+      if (one->size() == 0) continue;
+      one->row(at).setZero();
+      one->col(at).setZero();
+    }
+    to.information(at, at) = 1.0;
+  }
+}
+
 // The maximum in these bands.
-WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replicates,
+WhittleEstimate maximum(Model start, std::span<const BandedPower> replicates,
                         const Progress& progress, Begin begin) {
+  widen_peaks(start, replicates);
   const std::vector<ParameterPlace> coordinates = coordinates_of(start);
   Eigen::VectorXd at(static_cast<Eigen::Index>(coordinates.size()));
   Likelihood likelihood;
@@ -165,12 +189,16 @@ WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replica
         searched(process_of(start, coordinates[i]), coordinates[i].parameter);
     likelihood.cones.push_back(coordinates[i].parameter == 0 ? 1 : Likelihood::kFree);
   }
-  const auto model_at = [&](const Eigen::VectorXd& x) {
+  const auto asked_at = [&](const Eigen::VectorXd& x) {
     Model out = start;
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       const ParameterPlace& c = coordinates[i];
       set_searched(out.terms[c.term].process, c.parameter, x(static_cast<Eigen::Index>(i)));
     }
+    return out;
+  };
+  const auto model_at = [&](const Eigen::VectorXd& x) {
+    Model out = asked_at(x);
     widen_peaks(out, replicates);
     fit_ramp(out, replicates);
     return out;
@@ -179,7 +207,10 @@ WhittleEstimate maximum(const Model& start, std::span<const BandedPower> replica
     return whittle_objective(model_at(x), replicates);
   };
   likelihood.curvature = [&](const Eigen::VectorXd& x, Asked asked) {
-    return curvature_at(model_at(x), coordinates, replicates, asked);
+    const Model model = model_at(x);
+    Curvature out = curvature_at(model, coordinates, replicates, asked);
+    hold_at_limit(asked_at(x), model, coordinates, out);
+    return out;
   };
   const Scored scored = begin == Begin::kNear ? fisher_scoring(likelihood, at, progress)
                                               : maximise(likelihood, at, progress);

@@ -63,6 +63,22 @@ TEST(Unexplained, SizeAndSignificanceAreToldApart) {
   EXPECT_NE(words.find("of no consequence"), std::string::npos) << words;
 }
 
+TEST(Unexplained, AModelThatPredictsTooLittleIsOfConsequence) {
+  v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}), rung({500, 500, 500, 500})});
+  report.mutable_ladder(0)->mutable_drift(0)->set_predicted(0.05);
+  report.mutable_ladder(1)->mutable_drift(0)->set_predicted(1.0);
+  tell_unexplained(report, 1);
+  const std::string& words = report.ladder(0).consequence();
+  EXPECT_EQ(words.find("of no consequence"), std::string::npos) << words;
+  EXPECT_NE(words.find("predicts 0.05 times"), std::string::npos) << words;
+}
+
+TEST(Unexplained, NoIntervalBeginsBelowTheFloor) {
+  v1::DiagnosisReport report = ladder({rung({-30, -100, -3, -2}), rung({0, 0, 0, 0})});
+  tell_unexplained(report, 1);
+  EXPECT_DOUBLE_EQ(report.ladder(0).unexplained_lower(), 1.0);
+}
+
 TEST(Unexplained, WhatOneReplicateAloneShowsIsToldInNats) {
   v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}), rung({0.1, 60, -0.2, 0.1})});
   tell_unexplained(report, 1);

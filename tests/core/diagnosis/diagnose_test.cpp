@@ -321,5 +321,20 @@ TEST(UselessTerm, GoesAndWhatIsNeededStays) {
   EXPECT_EQ(model.regression.coefficients().size(), 8U);
 }
 
+// Slopes of each replicate leave a walk too little to be seen, and without it their errors are far
+// too small.
+TEST(UselessTerm, WhatTheModelHadFromTheStartStaysWhereItHasPower) {
+  const auto subject =
+      subject_of({.model = "WN(sigma2=1) + RW(gamma2=1e-6)", .samples = 16384, .seed = 24});
+  const FittedModel model = fitted(subject, "WN + RW + ramp(own)");
+  constexpr double kLevel = 0.05;
+  const auto useless = useless_term(model, kLevel);
+  ASSERT_TRUE(useless);
+  EXPECT_EQ(useless->term, "RW");
+  const auto kept = useless_term(model, kLevel, model.fit.model.noise);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->term, "ramp(own)");
+}
+
 }  // namespace
 }  // namespace imunoise

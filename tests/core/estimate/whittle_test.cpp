@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/support/linear_algebra.h"
@@ -158,6 +159,37 @@ TEST(Whittle, KeepsWhatIsGiven) {
   Model start = model_of("WN(sigma2=1.5) + RW");
   const Model found = whittle(start, std::span(&bands, 1)).model;
   EXPECT_EQ(std::get<WhiteNoise>(found.terms[0].process).sigma2, 1.5);
+}
+
+double power_of_resonance(const Model& model) {
+  constexpr int kGrid = 1 << 18;
+  const Frequencies f(Eigen::ArrayXd::LinSpaced(kGrid, 0.5, kGrid - 0.5) / (2.0 * kGrid));
+  double out = 0.0;
+  for (const Term& term : model.terms) {
+    if (std::holds_alternative<Resonance>(term.process)) out += spectrum(Model{{term}}, f).mean();
+  }
+  return out;
+}
+
+// A wave is sharper than any band. Were the peak, too, it could have any power, as long as it lies
+// between the middles of two bands. (A peak of half a band's width has a half of its power in the
+// band that it lies in the middle of.)
+TEST(Whittle, APeakThatIsSharperThanABandKeepsItsPower) {
+  constexpr double kAmplitude = 0.3;
+  constexpr double kPower = 0.5 * kAmplitude * kAmplitude;
+  for (const double cycles : {0.1571, 0.15735, 0.1576, 0.15785}) {
+    std::vector<double> x = simulate(model_of("WN(sigma2=1)"), kSamples, 8401, 0);
+    for (std::size_t t = 0; t < kSamples; ++t)
+      x[t] += kAmplitude * std::sin(2.0 * std::numbers::pi * cycles * static_cast<double>(t));
+    const BandedPower bands = banded_power(Signal(std::span<const double>(x), kRate));
+    Model start = freed(model_of("WN(sigma2=1) + RES(sigma2=1, r=0.998, omega=1)"));
+    std::vector<double> peak{1.0, 0.998, 2.0 * std::numbers::pi * cycles};
+    set_values(start.terms[1].process, peak);
+    peak[0] = kPower / power_of_resonance(start);
+    set_values(start.terms[1].process, peak);
+    const Model found = whittle(start, std::span(&bands, 1)).model;
+    EXPECT_NEAR(std::log2(power_of_resonance(found) / kPower), 0.0, 1.0) << cycles;
+  }
 }
 
 }  // namespace
