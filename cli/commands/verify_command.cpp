@@ -71,8 +71,9 @@ void describe_stream(const v1::StreamIntegrity& stream, std::string& out) {
 }
 
 std::string describe(const v1::VerifyReport& report) {
-  std::string out = fmt::format("{}: {}, {} intact chunks\n", report::clean_text(report.folder()),
-                                report.sound() ? "sound" : "NOT SOUND", count(report.chunks()));
+  std::string out = fmt::format("{}: {}, {} intact chunk{}\n", report::clean_text(report.folder()),
+                                report.sound() ? "sound" : "NOT SOUND", count(report.chunks()),
+                                report.chunks() == 1 ? "" : "s");
   for (const v1::Defect& defect : report.defects()) {
     out += fmt::format("  {} {}\n", defect.repaired() ? "repaired:" : "defect:  ",
                        report::clean_text(defect.message()));

@@ -137,6 +137,7 @@ std::vector<recording::UnitRule> unit_rules_from(const std::string& text) {
 std::vector<recording::TimeSpan> spans_from(const std::vector<std::string>& texts) {
   std::vector<recording::TimeSpan> out;
   for (const std::string& text : texts) {
+    if (text == "none") refuse("--exclude", "'none' stands alone: give it without times");
     const std::size_t dots = text.find("..");
     recording::TimeSpan span;
     if (dots == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, dots), span.begin) ||

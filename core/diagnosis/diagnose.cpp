@@ -40,6 +40,12 @@ bool rivals(const RankedTerm& one, const RankedTerm& other, double significant) 
 // What rings is mechanical: of all that may couple in, only motion does.
 bool rings(const TriedTerm& tried) { return tried.cause == "resonance"; }
 
+// What is not there all the time has no name, but for a vibration that may switch on and off.
+bool switches(const RankedTerm& one) {
+  const auto& could_be = one.tried.could_be;
+  return std::find(could_be.begin(), could_be.end(), "switched_line") != could_be.end();
+}
+
 // Candidates whose evidence is as good, and what was not recorded.
 void fill_confusions(std::vector<RankedTerm>& effects, const Subject& subject, double significant) {
   const std::vector<std::string_view> unrecorded = unrecorded_couplings(subject);
@@ -133,7 +139,7 @@ Diagnosis diagnose(const FittedModel& model, double false_alarm, const Progress&
     const MisfitReport after = misfit_of(best);
     const bool explains = !(after.spectrum.p_value < 1e-6) ||
                           after.spectrum.statistic < 0.5 * out.misfit.spectrum.statistic;
-    if (!explains || !out.effects[0].tried.steady) {
+    if (!explains || !(out.effects[0].tried.steady || switches(out.effects[0]))) {
       out.verdict = DiagnosisVerdict::kUnknown;
     } else {
       out.verdict = out.effects[0].confused_with.empty() ? DiagnosisVerdict::kFound

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/estimate/band_likelihood.h"
 #include "core/estimate/fisher_scoring.h"
@@ -146,16 +147,50 @@ double half_band(std::span<const BandedPower> replicates, double omega) {
   return out;
 }
 
+// The parameter that a peak's width follows, and the way in which it becomes sharper.
+struct Decay {
+  std::size_t parameter;
+  double sharper;
+};
+std::optional<Decay> decay_of(const Process& process) {
+  const bool rings =
+      std::holds_alternative<Resonance>(process) || std::holds_alternative<Voigt>(process);
+  if (rings) return Decay{1, +1.0};
+  if (std::holds_alternative<Ar2>(process)) return Decay{2, -1.0};
+  return std::nullopt;
+}
+
+// Two real roots are no peak; complex ones keep their angle.
+Process widened(const Ar2& from, std::span<const BandedPower> replicates) {
+  if (!(from.phi2 < 0.0) || !(from.phi1() * from.phi1() + 4.0 * from.phi2 < 0.0)) return from;
+  const double r = std::sqrt(-from.phi2);
+  const double cosine = from.phi1() / (2.0 * r);
+  const double most = std::exp(-half_band(replicates, std::acos(cosine)));
+  if (r <= most) return from;
+  Ar2 out = from;
+  out.phi2 = -most * most;
+  out.rho1 = 2.0 * most * cosine / (1.0 + most * most);
+  return out;
+}
+
+template <class Peak>
+Process widened(Peak peak, std::span<const BandedPower> replicates) {
+  peak.r = std::min(peak.r, std::exp(-half_band(replicates, peak.omega)));
+  return peak;
+}
+
 // Peaks no narrower than half a band: between the middles of bands one could hide any power.
 void widen_peaks(Model& model, std::span<const BandedPower> replicates) {
-  const auto widen = [&](auto peak) -> Process {
-    peak.r = std::min(peak.r, std::exp(-half_band(replicates, peak.omega)));
-    return peak;
-  };
   for (Term& term : model.terms) {
-    if (term.given.size() > 1 && term.given[1]) continue;
-    if (const auto* sharp = std::get_if<Resonance>(&term.process)) term.process = widen(*sharp);
-    if (const auto* spread = std::get_if<Voigt>(&term.process)) term.process = widen(*spread);
+    const std::optional<Decay> decay = decay_of(term.process);
+    if (!decay || term.given[decay->parameter]) continue;
+    if (const auto* sharp = std::get_if<Resonance>(&term.process)) {
+      term.process = widened(*sharp, replicates);
+    } else if (const auto* spread = std::get_if<Voigt>(&term.process)) {
+      term.process = widened(*spread, replicates);
+    } else {
+      term.process = widened(std::get<Ar2>(term.process), replicates);
+    }
   }
 }
 
@@ -163,10 +198,13 @@ void widen_peaks(Model& model, std::span<const BandedPower> replicates) {
 void hold_at_limit(const Model& asked, const Model& widened,
                    const std::vector<ParameterPlace>& coordinates, Curvature& to) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const ParameterPlace& place = coordinates[i];
+    const std::optional<Decay> decay = decay_of(process_of(asked, place));
+    if (!decay || decay->parameter != place.parameter) continue;
+    const bool at_limit = values(process_of(asked, place))[place.parameter] !=
+                          values(process_of(widened, place))[place.parameter];
     const auto at = static_cast<Eigen::Index>(i);
-    const double sharper = values(process_of(asked, coordinates[i]))[coordinates[i].parameter];
-    const double limit = values(process_of(widened, coordinates[i]))[coordinates[i].parameter];
-    if (sharper == limit || !(to.score(at) > 0.0)) continue;
+    if (!at_limit || !(decay->sharper * to.score(at) > 0.0)) continue;
     to.score(at) = 0.0;
     for (Eigen::MatrixXd* const one : {&to.information, &to.correction}) {
       if (one->size() == 0) continue;

@@ -82,6 +82,13 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizo
   Eigen::ArrayXd allan = 2.0 * variance(axis.noise, m);
   if (!axis.draws.empty())
     allan = allan.max(power_on_allan(axis.noise, axis.draws, m, kNextPowerOn));
+  const double hidden = axis.k.value > 0.0 ? 0.0 : axis.k.upper;
+  if (hidden > 0.0) {
+    allan += 2.0 * variance(Process(RandomWalk{hidden * hidden / axis.rate.value}), m);
+    axis.remarks.push_back(fmt::format(
+        "{}: the data show no random walk; the bound is that of the largest one that they allow",
+        axis.channel));
+  }
   const WhiteAndWalk bound = smallest_bound(m, allan, axis.rate);
   axis.n = {bound.n, 0.0, 0.0};
   axis.k = {bound.k, 0.0, 0.0};
@@ -165,8 +172,9 @@ std::string fit_words(const AxisNoise& axis) {
   if (!axis.p_value) return "";
   const std::string p = report::p_value(*axis.p_value, report::Digits::kPlain);
   const std::string equal = p.starts_with("<") ? "p " + p : "p = " + p;
-  return *axis.p_value < 0.01 ? fmt::format("; it does NOT fit ({})", equal)
-                              : fmt::format("; it fits ({})", equal);
+  if (*axis.p_value < 0.01) return fmt::format("; it does NOT fit ({})", equal);
+  return fmt::format("; {} ({})", *axis.p_value < 0.05 ? "it is doubtful that it fits" : "it fits",
+                     equal);
 }
 
 void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consumer& to,

@@ -233,7 +233,7 @@ TEST_F(Cli, VerifiesAndRepairsARecordingAndFitsIt) {
   }
   Outcome done = run("verify run");
   EXPECT_EQ(done.status, 0) << done.out;
-  EXPECT_NE(done.out.find("run: sound, 1 intact chunks"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("run: sound, 1 intact chunk\n"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("2 000 received, 2 000 stored"), std::string::npos) << done.out;
   done = run("wv run --channel gyro_x --json");
   ASSERT_EQ(done.status, 0) << done.errors;

@@ -148,6 +148,19 @@ TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
   EXPECT_NE(file.find("--conservative bounds the next power-on"), std::string::npos) << file;
 }
 
+TEST(Export, ConservativeValuesBoundARandomWalkThatTheDataDoNotShow) {
+  constexpr double kUpper = 3e-4;
+  auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=8e-6)", kAt);
+  for (auto& axis : imu.gyro.axes) axis.k = {0.0, 0.0, kUpper};
+  ExportOptions options;
+  EXPECT_NEAR(numbers_of(written(imu, "kalibr", options), "gyroscope_random_walk")[0], kUpper,
+              1e-6 * kUpper);
+  options.conservative = true;
+  const std::string safe = written(imu, "kalibr", options);
+  EXPECT_GT(numbers_of(safe, "gyroscope_random_walk")[0], 0.999 * kUpper) << safe;
+  EXPECT_NE(safe.find("the largest one that they allow"), std::string::npos) << safe;
+}
+
 TEST(Export, KalibrNeverGetsZero) {
   const auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=1e-4) + GM(sigma2=1e-6, tc=100)", kAt);
   const std::string file = written(imu, "kalibr");
