@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/diagnosis/causes.h"
 #include "core/diagnosis/missing_noise.h"
 #include "core/diagnosis/useless.h"
 #include "core/effects/known_effects.h"
@@ -334,6 +335,56 @@ TEST(UselessTerm, WhatTheModelHadFromTheStartStaysWhereItHasPower) {
   const auto kept = useless_term(model, kLevel, model.fit.model.noise);
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->term, "ramp(own)");
+}
+
+TEST(Diagnose, AFewLastSamplesAreNoStep) {
+  constexpr double kLast = 8187.0 / 50.0;  // s
+  const auto subject = subject_of({.seed = 61, .added = [](std::size_t k, double s) {
+                                     return k == 1 && s > kLast ? 12.0 : 0.0;
+                                   }});
+  const Diagnosis diagnosis = diagnose(fitted(subject));
+  for (const RankedTerm& one : diagnosis.effects) {
+    if (one.tried.cause != "step") continue;
+    EXPECT_LT((*one.tried.term())[1], (8192.0 - 16.0) / 50.0) << print(*one.tried.term());
+  }
+}
+
+TEST(Diagnose, NoiseBelowTheStepOfTheConverterHasNoHeavyTails) {
+  const auto noise = simulate(*parse_model("WN(sigma2=1)", Hertz{50.0}), 4 * 8192, 62, 0);
+  const auto subject = subject_of(
+      {.model = "WN(sigma2=1e-12)", .seed = 63, .added = [&](std::size_t k, double s) {
+         constexpr double kStep = 2.0;  // standard deviations
+         return kStep *
+                std::round(noise[8192 * k + static_cast<std::size_t>(std::lround(50.0 * s))] /
+                           kStep);
+       }});
+  // Rounding, not what was added to make the subject.
+  auto rounded = std::make_shared<Subject>(*subject);
+  for (std::size_t k = 0; k < rounded->replicates(); ++k) {
+    Eigen::VectorXd samples = rounded->samples[k];
+    samples = (samples.array() * 1e3).round() / 1e3;
+    rounded->samples[k] = std::move(samples);
+  }
+  const Diagnosis diagnosis = diagnose(fitted(rounded, "WN"));
+  for (const RankedTerm& one : diagnosis.effects) EXPECT_NE(one.tried.cause, "heavy_tails");
+}
+
+TEST(Diagnose, MainsBelowHalfTheRateAreNoAlias) {
+  constexpr Hertz kRate{200.0};
+  std::vector<std::vector<double>> all;
+  std::vector<Signal> replicates;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    all.push_back(simulate(*parse_model("WN(sigma2=1) + RW(gamma2=1e-6)", kRate), 8192, 64, k));
+    for (std::size_t t = 0; t < all[k].size(); ++t)
+      all[k][t] += 0.4 * wave(50.003, static_cast<double>(t) / kRate.value + k);
+  }
+  for (const auto& one : all)
+    replicates.emplace_back(std::span<const double>(one), kRate, Quantity::kAngularRate);
+  const Diagnosis diagnosis =
+      diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {}))));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "mains_alias");
+  EXPECT_EQ(cause_info("mains_alias").title, "mains frequency");
 }
 
 }  // namespace
