@@ -7,6 +7,7 @@
 #include "core/effects/distributions/tails.h"
 #include "core/effects/reshaped_noise.h"
 #include "core/search/search_view.h"
+#include "core/support/neighbour_steps.h"
 
 namespace imunoise::effects {
 
@@ -43,16 +44,11 @@ void simulate_heavy_tails(const EffectTerm& term, const SimulatedReplicate& at,
 
 // Of less than 0.6 steps of the converter, noise takes so few values that its distribution is that
 // of the rounding: neighbours then differ by less than √2·√(0.6² + 1/12) steps.
-bool is_coarse(const Eigen::VectorXd& samples) {
+bool is_coarse(const SharedVector& samples) {
   constexpr double kCoarse = 0.94;
-  double step = INFINITY;
-  double squares = 0.0;
-  for (Eigen::Index t = 1; t < samples.size(); ++t) {
-    const double difference = std::abs(samples(t) - samples(t - 1));
-    if (difference > 0.0) step = std::min(step, difference);
-    squares += difference * difference;
-  }
-  return squares < kCoarse * kCoarse * step * step * static_cast<double>(samples.size());
+  const NeighbourSteps steps =
+      neighbour_steps({samples.data(), static_cast<std::size_t>(samples.size())});
+  return steps.mean_square < kCoarse * kCoarse * steps.smallest * steps.smallest;
 }
 
 // One distribution is enough, and rounding has its own.

@@ -261,8 +261,8 @@ const Effect& line() {
                  {.id = "mains_alias",
                   .title = "mains frequency",
                   .physics =
-                      "The mains frequency or a multiple of it, by cables or by what hums; where "
-                      "that is above half the sampling rate, its alias.",
+                      "Cables or humming devices couple in the mains frequency or a multiple; if "
+                      "that lies above half the sampling rate, its alias shows.",
                   .record_next =
                       "the same on a battery: it disappears; at another sampling rate an "
                       "alias moves",

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 
 #include "core/estimate/band_likelihood.h"
 #include "core/estimate/fisher_scoring.h"
 #include "core/estimate/searched_parameter.h"
+#include "core/estimate/sharp_peaks.h"
 #include "core/estimate/spectral_expansion.h"
 
 namespace imunoise {
@@ -131,88 +130,6 @@ Curvature curvature_at(const Model& model, const std::vector<ParameterPlace>& co
   Curvature out{information.selfadjointView<Eigen::Lower>(), std::move(score), {}};
   if (observed) out.correction = correction.selfadjointView<Eigen::Lower>();
   return out;
-}
-
-// Half the distance of the middles of bands next to a frequency, the widest of all replicates, rad
-// per sample.
-double half_band(std::span<const BandedPower> replicates, double omega) {
-  double out = 0.0;
-  for (const BandedPower& one : replicates) {
-    const Eigen::ArrayXd& middle = one.frequency.cycles();
-    const double* const above = std::lower_bound(middle.data() + 1, middle.data() + middle.size(),
-                                                 omega / (2.0 * std::numbers::pi));
-    const double* const at = std::min(above, middle.data() + middle.size() - 1);
-    out = std::max(out, std::numbers::pi * (*at - *(at - 1)));
-  }
-  return out;
-}
-
-// The parameter that a peak's width follows, and the way in which it becomes sharper.
-struct Decay {
-  std::size_t parameter;
-  double sharper;
-};
-std::optional<Decay> decay_of(const Process& process) {
-  const bool rings =
-      std::holds_alternative<Resonance>(process) || std::holds_alternative<Voigt>(process);
-  if (rings) return Decay{1, +1.0};
-  if (std::holds_alternative<Ar2>(process)) return Decay{2, -1.0};
-  return std::nullopt;
-}
-
-// Two real roots are no peak; complex ones keep their angle.
-Process widened(const Ar2& from, std::span<const BandedPower> replicates) {
-  if (!(from.phi2 < 0.0) || !(from.phi1() * from.phi1() + 4.0 * from.phi2 < 0.0)) return from;
-  const double r = std::sqrt(-from.phi2);
-  const double cosine = from.phi1() / (2.0 * r);
-  const double most = std::exp(-half_band(replicates, std::acos(cosine)));
-  if (r <= most) return from;
-  Ar2 out = from;
-  out.phi2 = -most * most;
-  out.rho1 = 2.0 * most * cosine / (1.0 + most * most);
-  return out;
-}
-
-template <class Peak>
-Process widened(Peak peak, std::span<const BandedPower> replicates) {
-  peak.r = std::min(peak.r, std::exp(-half_band(replicates, peak.omega)));
-  return peak;
-}
-
-// Peaks no narrower than half a band: between the middles of bands one could hide any power.
-void widen_peaks(Model& model, std::span<const BandedPower> replicates) {
-  for (Term& term : model.terms) {
-    const std::optional<Decay> decay = decay_of(term.process);
-    if (!decay || term.given[decay->parameter]) continue;
-    if (const auto* sharp = std::get_if<Resonance>(&term.process)) {
-      term.process = widened(*sharp, replicates);
-    } else if (const auto* spread = std::get_if<Voigt>(&term.process)) {
-      term.process = widened(*spread, replicates);
-    } else {
-      term.process = widened(std::get<Ar2>(term.process), replicates);
-    }
-  }
-}
-
-// Holds the decay of peaks at that limit which would be sharper yet.
-void hold_at_limit(const Model& asked, const Model& widened,
-                   const std::vector<ParameterPlace>& coordinates, Curvature& to) {
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const ParameterPlace& place = coordinates[i];
-    const std::optional<Decay> decay = decay_of(process_of(asked, place));
-    if (!decay || decay->parameter != place.parameter) continue;
-    const bool at_limit = values(process_of(asked, place))[place.parameter] !=
-                          values(process_of(widened, place))[place.parameter];
-    const auto at = static_cast<Eigen::Index>(i);
-    if (!at_limit || !(decay->sharper * to.score(at) > 0.0)) continue;
-    to.score(at) = 0.0;
-    for (Eigen::MatrixXd* const one : {&to.information, &to.correction}) {
-      if (one->size() == 0) continue;
-      one->row(at).setZero();
-      one->col(at).setZero();
-    }
-    to.information(at, at) = 1.0;
-  }
 }
 
 // The maximum in these bands.

@@ -80,9 +80,9 @@ std::string prediction_of(const v1::Rung& rung, const v1::Rung& best) {
     if (!(std::abs(std::log(ratio)) > worst)) continue;
     worst = std::abs(std::log(ratio));
     out = fmt::format(
-        "The model predicts {:.2g} times the integrated {} after {:g} s that the best model "
-        "predicts.",
-        ratio, integral_name(rung.drift(i).unit()), rung.drift(i).seconds());
+        "For the error of the integrated {} after {:g} s, the model predicts {:.2g} times what the "
+        "best model predicts.",
+        integral_name(rung.drift(i).unit()), rung.drift(i).seconds(), ratio);
   }
   return out;
 }
@@ -116,7 +116,7 @@ std::string consequence_of(const v1::Rung& rung, const v1::Rung& best, double sh
     return fmt::format(
         "{}, of no consequence over {:g} s: the integrated {} changes by less than {:.1f} %.", out,
         seconds, name, percent);
-  return fmt::format("{}. Over {:g} s it changes the integrated {} by less than {:.1f} %.{}", out,
+  return fmt::format("{}. Over {:g} s the integrated {} changes by less than {:.1f} %.{}", out,
                      seconds, name, percent, and_so);
 }
 

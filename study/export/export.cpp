@@ -86,7 +86,7 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizo
   if (hidden > 0.0) {
     allan += 2.0 * variance(Process(RandomWalk{hidden * hidden / axis.rate.value}), m);
     axis.remarks.push_back(fmt::format(
-        "{}: the data show no random walk; the bound is that of the largest one that they allow",
+        "{}: the data show no random walk; the bound includes the largest one that they allow",
         axis.channel));
   }
   const WhiteAndWalk bound = smallest_bound(m, allan, axis.rate);

@@ -440,26 +440,5 @@ TEST_F(OddFiles, GetWhatTheGuideSays) {
   }
 }
 
-// Neighbours of a filtered series are the same coarse number far more often than samples apart, and
-// no sample is repeated.
-TEST_F(OddFiles, AFilteredSeriesInCoarseNumbersRepeatsNothing) {
-  constexpr int kRows = 4000;
-  constexpr int kTaps = 20;
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
-  std::vector<double> raw(kRows + kTaps);
-  for (double& one : raw) one = normal(random);
-  const auto filtered = [&](int i) {
-    double sum = 0.0;
-    for (int j = 0; j < kTaps; ++j)
-      sum += raw[static_cast<std::size_t>(i + j)] * (1 + std::min(j, kTaps - 1 - j));
-    return t(i) + fmt::format(",{}", std::round(sum / 4.0));
-  };
-  const auto got = import_one(write("odd.csv", odd_table("t,wx [rad/s]\n", filtered, kRows)));
-  ASSERT_TRUE(got) << got.error().message;
-  for (const Finding& found : got->front().preflight->findings)
-    EXPECT_EQ(found.text.find("repeat"), std::string::npos) << found.text;
-}
-
 }  // namespace
 }  // namespace imunoise::recording

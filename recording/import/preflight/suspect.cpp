@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
 
+#include "core/support/neighbour_steps.h"
 #include "recording/import/table/names.h"
 
 namespace imunoise::recording {
@@ -49,15 +49,9 @@ double agreeing(const Axes& axes, std::size_t lag) {
 // How often neighbours of an axis are the same number by chance: steps of a smooth series are
 // normal, and rounding to a quantum makes those of less than one zero, the likelier the smaller.
 double equal_by_chance(const std::vector<double>& axis) {
-  double quantum = std::numeric_limits<double>::infinity();
-  double squares = 0.0;
-  for (std::size_t i = 1; i < axis.size(); ++i) {
-    const double step = std::abs(axis[i] - axis[i - 1]);
-    if (step > 0.0) quantum = std::min(quantum, step);
-    squares += step * step;
-  }
-  const double rounding = quantum * quantum / 6.0;  // variance that it adds to a step
-  const double variance = squares / static_cast<double>(axis.size() - 1) - rounding;
+  const NeighbourSteps steps = neighbour_steps(axis);
+  const double quantum = steps.smallest;
+  const double variance = steps.mean_square - quantum * quantum / 6.0;  // that rounding adds
   if (!(variance > 0.0)) return 1.0;
   const double z = quantum / std::sqrt(variance);
   return std::erf(z / std::numbers::sqrt2) -
