@@ -14,6 +14,8 @@ namespace {
 
 using Index = Eigen::Index;
 
+constexpr double kBeyondWander = 12.0;  // nats: less may be what wanders
+
 // Degrees of freedom of the noise level where an effect's coefficients get their information: 2
 // over the variance of its logarithm, by the information on the noise's parameters (Satterthwaite
 // 1946).
@@ -67,7 +69,9 @@ TriedTerm tried_term(const Current& current, const Suggestion& suggestion) {
   const Suggestion& how = out.suggestion;
   out.log_p = log_p_value(out.likelihood_gain / how.inflation, how.dof, out.noise_dof, how.power,
                           how.search);
-  out.gain = -out.log_p;
+  out.gain = out.against_wander && -out.log_p > kBeyondWander
+                 ? -log_p_value(out.likelihood_gain, how.dof, out.noise_dof, how.power, how.search)
+                 : -out.log_p;
   return out;
 }
 

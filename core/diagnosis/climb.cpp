@@ -99,7 +99,8 @@ std::optional<RankedTerm> Climb::best_of(const Look& look, std::vector<TriedTerm
   best_first(tried);
   std::size_t proofs = 0;
   for (TriedTerm& one : tried) {
-    if (!(one.log_p < look.least(levels_)) || proofs++ == kMostProofs) break;
+    if (!(one.log_p < look.least(levels_))) continue;
+    if (proofs++ == kMostProofs) break;
     RankedTerm out = ranked(std::move(one), look.searches);
     out.heldout = held_out(out.tried.fitted);
     if (proven(out, look.heldout)) return out;

@@ -106,6 +106,8 @@ void join(TriedTerm& noise, const Suggestion& coupling, FittedModel both, double
   noise.fitted = std::move(both);
   noise.cause = coupling.coupling == MotionCoupling::kTurning ? "tilt" : "common_vibration";
   noise.shared_with = term.witness;
+  if (coupling.coupling != MotionCoupling::kTurning && may_leak(noise.fitted))
+    noise.could_be.push_back("cross_axis");
   noise.likelihood_gain += gain;
   noise.log_p += log_p;
   noise.gain = -noise.log_p;

@@ -113,6 +113,14 @@ bool may_share_motion(Quantity subject, const Witness& witness) {
   return quantity_of(witness) == subject;
 }
 
+bool may_leak(const FittedModel& coupled) {
+  constexpr double kMost = 0.18;  // the sine of 10°
+  const std::size_t effects = coupled.regression.effects().size();
+  const Eigen::Index first = coupled.regression.first(effects - 1);
+  const Eigen::Index count = coupled.regression.first(effects) - first;
+  return coupled.fit.effects.value.segment(first, count).cwiseAbs().maxCoeff() < kMost;
+}
+
 bool feels_rocking(Quantity subject, const Witness& witness) {
   return subject == Quantity::kAngularRate && quantity_of(witness) == Quantity::kAcceleration;
 }

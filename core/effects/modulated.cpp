@@ -63,6 +63,7 @@ Suggestions search_modulated(const SearchView& view) {
 // Differences between replicates are few, and another cause may make them: they are part of the
 // fit, and no evidence.
 void review_modulated(const Current&, TriedTerm& tried) {
+  tried.against_wander = true;
   const Suggestion& found = tried.suggestion;
   tried.likelihood_gain = std::min(tried.likelihood_gain, found.score_nats * found.inflation);
 }

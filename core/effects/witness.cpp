@@ -308,9 +308,11 @@ void add_vertex(const TriedTerm& tried, std::vector<ReportedNumber>& first,
       with_error({"vertex", term[kWitnessVertex], unit_of(channel)}, tried.suggestion.shape_error));
 }
 
-// What comes before its cause has another.
+// What comes before its cause has another; a small part of a motion may leak in from another axis.
 void review_witness(const Current&, TriedTerm& tried) {
   if (tried.suggestion.backwards) tried.could_be.push_back("gauss_markov");
+  if (tried.suggestion.coupling == MotionCoupling::kBand && may_leak(tried.fitted))
+    tried.could_be.push_back("cross_axis");
 }
 
 }  // namespace

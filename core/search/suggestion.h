@@ -61,11 +61,14 @@ struct TriedTerm {
   FittedModel fitted;            ///< the current model with it added
   double likelihood_gain = 0.0;  ///< nats
   double log_p = 0.0;            ///< logarithm of the p-value: noise makes this search gain as much
-  double gain = 0.0;             ///< likelihood_gain less what such a search gains by chance, nats
+  double gain = 0.0;             ///< nats that it gains over what such a search gains by chance
   double noise_dof = 0.0;        ///< degrees of freedom behind the noise level there
   std::string shared_with{};     ///< noise: the witness that feels it too; empty where none does
   bool slow = false;             ///< an unrecorded temperature could have done it
   bool steady = true;            ///< noise: it is there all the time; jumps: between two levels
+  /// It may be what wanders by itself, and is tested against that; once beyond it, all that it
+  /// explains counts against what wanders.
+  bool against_wander = false;
   std::vector<std::string_view> could_be{};  ///< causes that its data cannot exclude
 
   /// The term, or null where it is noise.

@@ -47,6 +47,37 @@ Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
   return diagnosed_beside(own, {"gyro_y", {}}, other, Quantity::kAngularRate, kRate);
 }
 
+// A gyroscope that turns, and its neighbour, which feels a share of this: the turning leaks, the
+// noise of the other does not.
+Diagnosis feels_a_share(double share) {
+  constexpr Hertz kRate{50.0};
+  const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
+    return simulate(*parse_model(model, kRate), 16'384, seed, k);
+  };
+  std::vector<Series> own;
+  std::vector<Series> other;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const Series turning = made("AR1(phi=0.97, sigma2=4)", 81, k);
+    own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 82, k));
+    other.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 83, k));
+    for (std::size_t t = 0; t < turning.size(); ++t) {
+      own[k][t] += share * turning[t];
+      other[k][t] += turning[t];
+    }
+  }
+  return diagnosed_beside(own, {"gyro_y", {}}, other, Quantity::kAngularRate, kRate);
+}
+
+TEST(Diagnose, ASmallShareOfAMotionMayLeakFromAnotherAxis) {
+  const auto may_leak = [](const Diagnosis& diagnosis) {
+    const std::vector<std::string>& with = diagnosis.effects.at(0).confused_with;
+    return diagnosis.effects[0].tried.cause == "cross_axis" ||
+           std::find(with.begin(), with.end(), "cross_axis") != with.end();
+  };
+  EXPECT_TRUE(may_leak(feels_a_share(0.05)));
+  EXPECT_FALSE(may_leak(feels_a_share(0.7)));
+}
+
 TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
   const Diagnosis diagnosis = beside_another(1.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
