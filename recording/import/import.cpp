@@ -243,10 +243,15 @@ std::vector<std::string> replicate_names(std::span<const std::filesystem::path> 
 void add_replicates(const std::filesystem::path& path, const std::string& name, Hertz rate,
                     Judged table, std::size_t split_into, std::vector<Replicate>& out) {
   std::vector<Stretch> parts;
+  std::vector<Origin> origins;
+  const std::size_t recording = out.empty() ? 0 : out.back().origin.recording + 1;
   for (const Stretch& stretch : table.stretches) {
     const std::size_t each = stretch.count / split_into;
-    for (std::size_t i = 0; i < split_into && each >= kMinimumSamples; ++i)
+    const double lies = std::max(0.0, std::round(stretch.seconds * rate.value));
+    for (std::size_t i = 0; i < split_into && each >= kMinimumSamples; ++i) {
       parts.push_back({stretch.begin + i * each, each});
+      origins.push_back({recording, static_cast<std::uint64_t>(lies) + i * each});
+    }
   }
   const std::size_t first = out.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -255,7 +260,8 @@ void add_replicates(const std::filesystem::path& path, const std::string& name, 
                    rate,
                    {},
                    {.jitter = table.jitter},
-                   table.report});
+                   table.report,
+                   origins[i]});
   }
   out[first].timing.gaps = table.gaps;
   out[first].timing.lost = table.lost;

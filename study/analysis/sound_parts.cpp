@@ -25,12 +25,37 @@ Replicate part_of(const Replicate& whole, std::size_t begin, std::size_t count) 
   return out;
 }
 
-// Cuts replicate number `k`.
-void cut(const Replicate& whole, std::size_t k, std::size_t channel,
+// Where the parts of replicates lie, in order. What begins before the last part ends is of another
+// recording.
+class Places {
+ public:
+  Part of(const Replicate& whole, std::size_t begin, std::size_t count) {
+    const std::size_t first = whole.origin.first + begin;
+    if (ends_ > 0 && (recording_ != whole.origin.recording || first < ends_)) ++recorded_;
+    recording_ = whole.origin.recording;
+    ends_ = first + count;
+    return {recorded_, static_cast<Eigen::Index>(first)};
+  }
+
+ private:
+  std::size_t recording_ = 0;
+  std::size_t ends_ = 0;
+  std::size_t recorded_ = 0;
+};
+
+std::vector<Part> uncut(const std::vector<Replicate>& replicates) {
+  std::vector<Part> out;
+  Places places;
+  for (const Replicate& one : replicates)
+    out.push_back(places.of(one, 0, one.channels.front().count));
+  return out;
+}
+
+void cut(const Replicate& whole, Places& places, std::size_t channel,
          const std::vector<StuckRun>& runs, SoundParts& to) {
   if (runs.empty()) {
     to.replicates.push_back(whole);
-    to.places.push_back({k, 0});
+    to.places.push_back(places.of(whole, 0, whole.channels[channel].count));
     return;
   }
   std::vector<Replicate> parts;
@@ -39,7 +64,7 @@ void cut(const Replicate& whole, std::size_t k, std::size_t channel,
   const auto keep_until = [&](std::size_t end) {
     if (end - begin < kFewestSamples) return;
     parts.push_back(part_of(whole, begin, end - begin));
-    to.places.push_back({k, static_cast<Eigen::Index>(begin)});
+    to.places.push_back(places.of(whole, begin, end - begin));
   };
   for (const StuckRun& run : runs) {
     keep_until(run.first);
@@ -100,8 +125,10 @@ SoundParts sound_parts(const std::vector<Replicate>& replicates, std::size_t cha
   for_each_index(replicates.size(), [&](std::size_t k) {
     runs[k] = stuck_runs(replicates[k].channels[channel].signal());
   });
-  for (std::size_t k = 0; k < replicates.size(); ++k) cut(replicates[k], k, channel, runs[k], out);
-  if (out.replicates.empty()) out = {replicates, uncut(replicates.size()), {}, false};
+  Places places;
+  for (std::size_t k = 0; k < replicates.size(); ++k)
+    cut(replicates[k], places, channel, runs[k], out);
+  if (out.replicates.empty()) out = {replicates, uncut(replicates), {}, false};
   std::vector<std::vector<WrongSample>> wrong(out.replicates.size());
   for_each_index(wrong.size(), [&](std::size_t k) {
     wrong[k] = wrong_samples(out.replicates[k].channels[channel].signal());

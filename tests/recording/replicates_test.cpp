@@ -44,6 +44,30 @@ TEST_F(Replicates, SplittingSharesTheSamplesAndDropsTheRemainder) {
                {"run.csv", "14 samples in each of 7 parts", "fewer"});
 }
 
+TEST_F(Replicates, TellWhereTheyLieInWhatWasRecorded) {
+  std::string text = "time [s],x [g]\n";
+  for (int i = 0; i < 400; ++i) {
+    if (i < 20 || (i >= 100 && i < 150)) continue;  // lost, but for the first row
+    text += std::to_string(i) + "e-2," + (i == 230 ? "nan" : std::to_string(i % 7)) + "\n";
+  }
+  const std::filesystem::path gap = write("gap.csv", text);
+  const auto got = import_files(Paths{gap, gap}, {});
+  ASSERT_TRUE(got) << got.error().message;
+  std::vector<std::pair<std::size_t, std::uint64_t>> origins;
+  for (const Replicate& one : *got) origins.emplace_back(one.origin.recording, one.origin.first);
+  EXPECT_EQ(origins, (std::vector<std::pair<std::size_t, std::uint64_t>>{
+                         {0, 0}, {0, 130}, {0, 211}, {1, 0}, {1, 130}, {1, 211}}));
+  ImportOptions options;
+  options.from = 1.5;
+  options.split_into = 2;
+  const auto later = import_one(gap, options);
+  ASSERT_TRUE(later) << later.error().message;
+  ASSERT_EQ(later->size(), 4U);
+  EXPECT_EQ((*later)[0].origin.first, 0U);
+  EXPECT_EQ((*later)[1].origin.first, 30U);
+  EXPECT_EQ((*later)[3].origin.recording, 0U);
+}
+
 TEST_F(Replicates, SeveralFilesComeInTheOrderNamed) {
   std::filesystem::create_directory(path("a"));
   std::filesystem::create_directory(path("b"));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -100,6 +101,33 @@ TEST(Diagnose, WhatStandsStillIsCutAndTold) {
   EXPECT_EQ(report->compared_before().replicates(1).name(), "run2");
   EXPECT_EQ(report->compared_before().replicates(2).name(), "run2#2");
   EXPECT_TRUE(tells(*report, "repeats its value for 500 samples in 2 places"));
+}
+
+// Gaps cut a recording; its warm-up goes on behind them.
+TEST(Diagnose, AWarmUpGoesOnBehindAGap) {
+  constexpr double kTau = 20.0;  // s
+  auto recordings = *read_quantised({}, "");
+  for (recording::Replicate& one : recordings) {
+    auto warm = std::get<std::vector<double>>(*one.channels[0].samples);
+    for (std::size_t t = 0; t < warm.size(); ++t)
+      warm[t] += 2.0 * std::exp(-static_cast<double>(t) / (kTau * one.rate.value));
+    one.channels[0].samples = std::make_shared<recording::Samples>(warm);
+  }
+  recordings.insert(recordings.begin() + 1, recordings.front());
+  recordings[0].channels[0].count = 600;
+  recordings[1].channels[0].begin = 650;
+  recordings[1].channels[0].count = 3446;
+  recordings[1].origin = {0, 650};
+  recordings[2].origin = {1, 0};
+  recordings[3].origin = {2, 0};
+  DiagnoseOptions options;
+  options.model = "WN + RW + QN";
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  const v1::EffectCandidate& found = report->candidates(0);
+  ASSERT_EQ(found.effect(), "warm_up") << found.term();
+  EXPECT_EQ(found.term().find("own"), std::string::npos) << found.term();
+  EXPECT_NEAR(found.parameters(0).value(), kTau, 4.0);
 }
 
 TEST(Diagnose, AStepAfterACutIsToldWhereItWasRecorded) {

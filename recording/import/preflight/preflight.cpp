@@ -353,6 +353,8 @@ class Judge {
     Cuts::Left left = cuts_.of(rows_);
     const std::size_t short_ones = left.all - left.stretches.size();
     out_.stretches = std::move(left.stretches);
+    const std::size_t first = options_.from ? row_at(*options_.from) : 0;
+    for (Stretch& one : out_.stretches) one.seconds = time_of(one.begin) - time_of(first);
     report_.stretches = out_.stretches.size();
     for (const Stretch& one : out_.stretches) report_.used += one.count;
     if (out_.stretches.empty())

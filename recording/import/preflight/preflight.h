@@ -16,6 +16,7 @@ namespace imunoise::recording {
 struct Stretch {
   std::size_t begin = 0;
   std::size_t count = 0;
+  double seconds = 0.0;  ///< from the first row, or options.from, to its first
 };
 
 /// A table that was judged. Its columns hold no missing value within the stretches.

@@ -56,6 +56,13 @@ struct Timing {
   double jitter = 0.0;     ///< rms departure of stamps from even spacing, in periods; 0: none known
 };
 
+/// Where a replicate lies in what was recorded: a recording that is cut makes several. They follow
+/// each other, unless its clock started anew.
+struct Origin {
+  std::size_t recording = 0;  ///< its number among the recordings of an import, from 0
+  std::uint64_t first = 0;    ///< samples, lost ones too, from its first to the replicate's first
+};
+
 /// One uninterrupted static recording of a sensor.
 struct Replicate {
   std::string name;  ///< For messages and plots; unique within an import.
@@ -64,6 +71,7 @@ struct Replicate {
   std::vector<Channel> channels;  ///< All of the same length.
   Timing timing{};
   std::shared_ptr<const Preflight> preflight{};  ///< of the file; null for a recording
+  Origin origin{};
 };
 
 }  // namespace imunoise::recording

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -20,7 +21,16 @@ struct Stretch {
   std::uint32_t replicate = 0;
   std::string name;
   GridPiece piece;
+  Origin origin;
 };
+
+// When a row was taken, ns since another time.
+double time_of(const std::vector<Timeline>& timelines, std::size_t row, std::int64_t since_ns) {
+  const auto after = [](std::size_t at, const Timeline& one) { return at < one.part.begin; };
+  const Timeline& in =
+      *std::prev(std::upper_bound(timelines.begin() + 1, timelines.end(), row, after));
+  return in.time_ns(static_cast<double>(row - in.part.begin), since_ns);
+}
 
 std::vector<Stretch> stretches_of(const WhoJoins& who) {
   std::vector<Stretch> out;
@@ -28,10 +38,20 @@ std::vector<Stretch> stretches_of(const WhoJoins& who) {
     const std::vector<GridStream> streams = in_replicate(who.joined, number);
     if (streams.empty()) continue;
     const std::string name = replicate_folder(number);
+    const std::size_t recording = out.empty() ? 0 : out.back().origin.recording + 1;
+    const std::vector<Timeline>& times = streams.front().timelines;
     std::size_t found = 0;
+    double began = 0.0;
     for (GridPiece& piece : common_grid(streams, kMinimumSamples)) {
-      out.push_back(
-          {number, ++found > 1 ? fmt::format("{}#{}", name, found) : name, std::move(piece)});
+      const double begins =
+          time_of(times, piece.picked.front().parts.front().begin, times.front().first_ns);
+      if (found == 0) began = begins;
+      const auto first =
+          static_cast<std::uint64_t>(std::llround((begins - began) / piece.period_ns));
+      out.push_back({number,
+                     ++found > 1 ? fmt::format("{}#{}", name, found) : name,
+                     std::move(piece),
+                     {recording, first}});
     }
   }
   return out;
@@ -96,7 +116,11 @@ Channel on_grid(Channel channel, const std::shared_ptr<const Samples>& samples,
 
 Replicate joined_replicate(const std::filesystem::path& root, const Stretch& stretch,
                            const WhoJoins& who) {
-  Replicate out{stretch.name, root / replicate_folder(stretch.replicate), who.rate, {}};
+  Replicate out{.name = stretch.name,
+                .source = root / replicate_folder(stretch.replicate),
+                .rate = who.rate,
+                .channels = {},
+                .origin = stretch.origin};
   for (std::size_t i = 0; i < who.joined.size(); ++i) {
     const Joining& one = who.joined[i];
     const StreamSamples& samples = one.stream->replicates.at(stretch.replicate);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -58,6 +59,12 @@ std::uint64_t lost_in(const std::vector<RowGap>& gaps) {
   return out;
 }
 
+// By the host's clock, which goes on through gaps.
+std::uint64_t samples_between(const Rows& rows, std::size_t from, std::size_t to, Hertz rate) {
+  const auto ns = static_cast<double>(rows.host_time[to] - rows.host_time[from]);
+  return static_cast<std::uint64_t>(std::max(0.0, std::round(1e-9 * ns * rate.value)));
+}
+
 class Importer {
  public:
   Importer(const std::filesystem::path& root, const ImportOptions& options,
@@ -73,16 +80,19 @@ class Importer {
     const std::string name = replicate_folder(device.where.replicate());
     const std::size_t begin = out_.size();
     const Hertz rate = options_.rate.value_or(Hertz{stream.rate_hz()});
+    const std::size_t recording = out_.empty() ? 0 : out_.back().origin.recording + 1;
     std::vector<Part> kept;
     for (const Part& part : parts) {
       const std::size_t each = part.count / options_.split_into;
       for (std::size_t i = 0; i < options_.split_into && each >= kMinimumSamples; ++i) {
         kept.push_back({part.begin + i * each, each});
-        out_.push_back({kept.size() > 1 ? fmt::format("{}#{}", name, kept.size()) : name,
-                        root_ / device.where.folder,
-                        rate,
-                        {},
-                        {}});
+        const std::size_t lies = kept.back().begin;
+        out_.push_back(
+            {.name = kept.size() > 1 ? fmt::format("{}#{}", name, kept.size()) : name,
+             .source = root_ / device.where.folder,
+             .rate = rate,
+             .channels = {},
+             .origin = {recording, samples_between(rows, kept.front().begin, lies, rate)}});
       }
     }
     if (!kept.empty()) out_[begin].timing = {.gaps = gaps.size(), .lost = lost_in(gaps)};

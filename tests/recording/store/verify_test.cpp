@@ -198,6 +198,8 @@ TEST_F(Verify, ImportsAsReplicatesCutAtGaps) {
   EXPECT_EQ((*parts)[0].timing.gaps, 1U);
   EXPECT_EQ((*parts)[0].timing.lost, 30U);
   EXPECT_EQ((*parts)[1].timing.gaps, 0U) << "told once";
+  EXPECT_EQ((*parts)[1].origin.recording, 0U);
+  EXPECT_EQ((*parts)[1].origin.first, 90U) << "the lost ones count";
 
   options.channels.clear();
   const auto both = import_recording(files_, root_, options);
