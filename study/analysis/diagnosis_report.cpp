@@ -177,8 +177,8 @@ void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport&
   std::string all;
   for (const v1::LadderFinding& one : to.findings())
     all += fmt::format("{}{}", all.empty() ? "" : "; ", one.sentence());
-  // Several effects explain together what the best of them does not.
   if (to.verdict() == v1::unknown && !all.empty()) {
+    if (verdict == DiagnosisVerdict::kNone) to.set_verdict(v1::several);
     to.set_summary(fmt::format("Missing: {}.", all));
   } else if (!all.empty()) {
     to.set_summary(fmt::format("{} Found: {}.", to.summary(), all));

@@ -42,7 +42,7 @@ FamilyScore score_family(const TrialPlan& plan, const HiddenEffect& effect,
     for (const Outcome& one : outcomes) {
       seen.add(one.detected());
       out.right.add(effect.kind == Kind::kHarmless ? !one.wrong_cause() : one.right_or_listed());
-      out.unknown.add(one.report.verdict() == v1::unknown);
+      out.unknown.add(one.report.verdict() == v1::unknown || one.report.verdict() == v1::several);
       out.wrong.add(one.wrong_cause());
       out.wrong_strong.add(one.wrong_cause());
       reached = reached && one.injections.front().delta > 0.8 * delta;

@@ -125,12 +125,12 @@ TEST(Ladder, TheHeadlineNamesAllThatItFoundWithAmplitudes) {
     found[one.effect()] = one;
     EXPECT_NE(report->summary().find(one.sentence()), std::string::npos) << report->summary();
   }
-  const v1::EffectParameter& line = found["line"].amplitude();
+  const v1::EffectParameter& line = found["line"].size();
   EXPECT_EQ(line.unit(), "rad/s");
   EXPECT_LT(line.lower(), kAmplitude);
   EXPECT_GT(line.upper(), kAmplitude);
   // Q in rad of a power of 0.3 (rad/s)² at 50 Hz.
-  const v1::EffectParameter& quantum = found["quantisation"].amplitude();
+  const v1::EffectParameter& quantum = found["quantisation"].size();
   EXPECT_EQ(quantum.unit(), "rad");
   EXPECT_LT(quantum.lower(), std::sqrt(0.3) / 50.0);
   EXPECT_GT(quantum.upper(), std::sqrt(0.3) / 50.0);
@@ -161,10 +161,10 @@ TEST(Ladder, EachResonanceHasItsOwnFrequency) {
       "WN(sigma2=1) + RES(sigma2=1, r=0.97, omega=0.6) + RES(sigma2=1, r=0.97, omega=2.2)",
       {"RES", "RES"});
   ASSERT_EQ(report.findings_size(), 2);
-  EXPECT_EQ(report.findings(0).amplitude().name(), "frequency");
+  EXPECT_EQ(report.findings(0).size().name(), "frequency");
   std::set<long> hertz;
   for (const v1::LadderFinding& one : report.findings())
-    hertz.insert(std::lround(10.0 * one.amplitude().value()));
+    hertz.insert(std::lround(10.0 * one.size().value()));
   EXPECT_EQ(hertz, (std::set<long>{48, 175}));
 }
 
@@ -174,7 +174,7 @@ TEST(Ladder, NamesNoiseThatCameWithACoupling) {
       findings_of("WN(sigma2=1) + RW(gamma2=1e-5) + line(f=0.02)", {"RW + line(f=0.02)"});
   ASSERT_EQ(report.findings_size(), 1);
   EXPECT_EQ(report.findings(0).term(), "RW + line(f=0.02)");
-  EXPECT_EQ(report.findings(0).amplitude().unit(), "rad/s");
+  EXPECT_EQ(report.findings(0).size().unit(), "rad/s");
 }
 
 // Of what a rung added, the part that was dropped later is not named.
@@ -208,7 +208,7 @@ TEST(Ladder, ACouplingIsToldByWhatItAddsToTheSamples) {
   const auto report = diagnose_series(recordings, 0, options);
   ASSERT_TRUE(report) << report.error().message;
   ASSERT_GE(report->findings_size(), 1) << report->summary();
-  const v1::EffectParameter& rms = report->findings(0).amplitude();
+  const v1::EffectParameter& rms = report->findings(0).size();
   EXPECT_EQ(rms.unit(), "rad/s");
   EXPECT_LT(rms.lower(), kCoefficient * std::sqrt(squares));
   EXPECT_GT(rms.upper(), kCoefficient * std::sqrt(squares));

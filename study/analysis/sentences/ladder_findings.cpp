@@ -145,7 +145,7 @@ class LastModel {
 };
 
 std::string sentence_of(const v1::LadderFinding& found) {
-  const v1::EffectParameter& size = found.amplitude();
+  const v1::EffectParameter& size = found.size();
   std::string out = fmt::format("{}, {}", found.title(), found.term());
   if (size.name().empty()) return out;
   std::string name = size.name();
@@ -184,7 +184,7 @@ void add_findings(const FittedModel& last, v1::DiagnosisReport& to) {
     found.set_effect(rung->effect());
     found.set_title(std::string(cause_info(rung->effect()).title));
     found.set_term(left.term);
-    if (!left.size->name.empty()) *found.mutable_amplitude() = message_of(*left.size);
+    if (!left.size->name.empty()) *found.mutable_size() = message_of(*left.size);
     found.set_sentence(sentence_of(found));
   }
 }

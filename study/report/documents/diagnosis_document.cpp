@@ -276,12 +276,11 @@ Section section(const v1::DiagnosisReport& report, Digits digits) {
 }  // namespace
 
 VerdictWords diagnosis_words(const v1::DiagnosisReport& report) {
-  // Several effects explain together what the best of them does not.
-  if (report.verdict() == v1::unknown && report.has_remaining() && report.remaining() == v1::none)
-    return {"effects found", Mood::kBad};
   switch (report.verdict()) {
     case v1::found:
       return {"effect found", Mood::kBad};
+    case v1::several:
+      return {"effects found", Mood::kBad};
     case v1::one_of:
       return {"one of several", Mood::kDoubtful};
     case v1::unknown:

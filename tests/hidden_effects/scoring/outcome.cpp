@@ -75,7 +75,7 @@ bool Outcome::right_or_listed() const {
 }
 
 bool Outcome::abstained() const {
-  return report.verdict() == v1::unknown || report.verdict() == v1::one_of;
+  return report.verdict() != v1::found && report.verdict() != v1::none;
 }
 
 bool Outcome::described() const {

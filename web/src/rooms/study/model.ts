@@ -71,6 +71,7 @@ export function verdict(study: Study): VerdictWords {
     case "found": return { mood: "alarm", sign: "✗", words: `something is missing: ${name}` };
     case "one_of": return { mood: "doubt", sign: "?", words: `something is missing: ${name}, or a rival` };
     case "unknown": return { mood: "alarm", sign: "✗", words: best ? `something is missing; best guess: ${name}` : "something is missing that no known effect explains" };
+    case "several": return { mood: "alarm", sign: "✗", words: `something is missing: ${name}, and more` };
     case "none": return { mood: "good", sign: "✓", words: "nothing is missing that these data could show" };
     default: return { mood: "plain", sign: "", words: "not yet compared with the known effects" };
   }
