@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/effect/columns.h"
+#include "core/effect/converter_steps.h"
 #include "core/effects/distributions/tails.h"
 #include "core/effects/reshaped_noise.h"
 #include "core/search/search_view.h"
-#include "core/support/neighbour_steps.h"
 
 namespace imunoise::effects {
 
@@ -42,23 +42,12 @@ void simulate_heavy_tails(const EffectTerm& term, const SimulatedReplicate& at,
   for (double& x : samples) x += term[kHeavyTailsSize] * student_number(dof, at.random);
 }
 
-// Of less than 0.6 steps of the converter, noise takes so few values that its distribution is that
-// of the rounding: neighbours then differ by less than √2·√(0.6² + 1/12) steps.
-bool is_coarse(const SharedVector& samples) {
-  constexpr double kCoarse = 0.94;
-  const NeighbourSteps steps =
-      neighbour_steps({samples.data(), static_cast<std::size_t>(samples.size())});
-  return steps.mean_square < kCoarse * kCoarse * steps.smallest * steps.smallest;
-}
-
 // One distribution is enough, and rounding has its own.
 bool may_have_tails(const Current& current) {
   const std::vector<EffectTerm>& effects = current.regression.effects();
-  const std::vector<SharedVector>& samples = current.subject().samples;
   return std::none_of(effects.begin(), effects.end(),
                       [](const EffectTerm& one) { return one.effect == &heavy_tails(); }) &&
-         std::none_of(samples.begin(), samples.end(),
-                      [](const SharedVector& one) { return is_coarse(one); });
+         !converter_steps(current.subject()).is_coarse();
 }
 
 Suggestions search_heavy_tails(const SearchView& view) {
@@ -76,12 +65,10 @@ void review_heavy_tails(const Current& current, TriedTerm& tried) {
   if (!compare_tails(sizes).rules_out_mixture()) tried.could_be.push_back("outliers");
 }
 
-// Standard deviation of the innovations, all of which have such tails: from the mean logarithm of
-// the spectrum (Szegő and Kolmogorov: Brockwell & Davis 1991, Theorem 5.8.1).
+// All innovations have such tails.
 std::vector<ReportedNumber> heavy_tails_numbers(const FittedEffect& effect) {
-  const Frequencies frequency(Eigen::ArrayXd::LinSpaced(1024, 0.5, 1023.5) / 2048.0);
-  const Eigen::ArrayXd power = spectrum(effect.model.fit.model.noise, frequency);
-  return {{"size", std::exp(0.5 * power.log().mean()), unit_of(effect.term(), effect.subject())}};
+  return {{"size", innovation_deviation(effect.model.fit.model.noise),
+           unit_of(effect.term(), effect.subject())}};
 }
 
 }  // namespace

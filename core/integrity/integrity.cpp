@@ -76,8 +76,19 @@ std::vector<Occurrence> occurrences(const Signal& signal) {
   return out;
 }
 
-// Below half a step of noise, rounding is no longer white noise of step²/12.
-bool is_coarse(const Codes& codes) { return codes.step > 0.0 && codes.spread < 0.7 * codes.step; }
+// Deviation of what changes from one sample to the next, in steps, as if it were white.
+double noise_in_steps(const Codes& codes) {
+  if (!(codes.step > 0.0)) return INFINITY;
+  const double spread = codes.spread / codes.step;
+  return std::sqrt(std::max(0.0, 0.5 * spread * spread - 1.0 / 12.0));
+}
+
+// Less noise makes few codes, and the error of rounding depends on where between two the mean lies:
+// it is no longer white noise of step²/12.
+bool is_coarse(const Codes& codes) {
+  constexpr double kCoarse = 0.6;
+  return noise_in_steps(codes) < kCoarse;
+}
 
 // Codes that a converter never gives. The density of noise that is wider than a step is concave in
 // its logarithm from one code to the next: a code has at least the geometric mean of its
@@ -275,7 +286,8 @@ std::vector<Defect> integrity(const Signal& signal) {
   add_duplicates(signal, stuck, ends, std::move(repeats), out);
   if (codes.missing > 0)
     out.push_back({"missing_codes", codes.missing, codes.missed, 0, codes.missing, {}});
-  if (is_coarse(codes)) out.push_back({"quantisation", codes.distinct, 0.0, 0, 1, {}});
+  if (is_coarse(codes))
+    out.push_back({"quantisation", codes.distinct, noise_in_steps(codes), 0, 1, {}});
   return out;
 }
 

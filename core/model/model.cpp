@@ -71,6 +71,11 @@ Eigen::MatrixXd jacobian(const Model& model, HalfWidths m) {
   return out;
 }
 
+double innovation_deviation(const Model& model) {
+  const Frequencies frequency(Eigen::ArrayXd::LinSpaced(1024, 0.5, 1023.5) / 2048.0);
+  return std::exp(0.5 * spectrum(model, frequency).log().mean());
+}
+
 SumCovariance sum_covariance(const Model& model) {
   SumCovariance out;
   for (const Term& term : model.terms) {

@@ -27,8 +27,8 @@ std::string defect_words(const Defect& defect, double rate) {
         "{} codes of the converter never occur between others that do; noise like "
         "this would give them {:.0f} samples",
         defect.count, defect.expected);
-  return fmt::format("the noise is smaller than the step of the converter: {} codes occur",
-                     defect.count);
+  return fmt::format("the noise is only {:.2g} steps of the converter: {} codes occur",
+                     defect.expected, defect.count);
 }
 
 void add_finding(const std::string& effect, const std::string& replicate, std::uint64_t count,

@@ -74,18 +74,19 @@ std::optional<ErrorView> over_time(const MisfitReport& misfit, double rate) {
   return out;
 }
 
-ErrorView of_distribution(const MisfitReport& misfit) {
+std::optional<ErrorView> of_distribution(const MisfitReport& misfit) {
+  if (!misfit.excess_within_replicates) return std::nullopt;
   double samples = 0.0;
   for (const ReplicatePower& one : misfit.powers) samples += one.dof;
   const double error = std::sqrt(24.0 / samples);
-  const double value = std::abs(misfit.excess_within_replicates);
-  return {.view = "distribution",
+  const double value = std::abs(*misfit.excess_within_replicates);
+  return ErrorView{.view = "distribution",
           .unit = "1",
           .value = value,
           .floor = error,
           .chance_limit = error * normal_quantile(1.0 - 0.5 * kLimitLevel),
           .p_value = chi_square_tail(value * value / (error * error), 1.0),
-          .worst = {.deviation = misfit.excess_within_replicates}};
+          .worst = {.deviation = *misfit.excess_within_replicates}};
 }
 
 std::optional<ErrorView> over_replicates(const MisfitReport& misfit) {

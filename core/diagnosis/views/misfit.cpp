@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/views/efficient_residuals.h"
 #include "core/diagnosis/views/normal_power.h"
+#include "core/effect/converter_steps.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/parallel.h"
 
@@ -137,9 +138,13 @@ MisfitReport misfit_of(const FittedModel& fitted) {
     samples += one.samples;
   }
   out.time = chi_square_test(chi, static_cast<Index>(out.times.size() - each.size()));
-  out.excess_kurtosis = fourth * samples / (squares * squares) - 3.0;
-  out.excess_within_replicates = within / samples - 3.0;
-  out.kurtosis = chi_square_test(out.excess_kurtosis * out.excess_kurtosis * samples / 24.0, 1);
+  const ConverterSteps steps = converter_steps(subject);
+  if (!steps.is_coarse()) {
+    const double normal = 3.0 + steps.excess_kurtosis(innovation_deviation(noise));
+    out.excess_kurtosis = fourth * samples / (squares * squares) - normal;
+    out.excess_within_replicates = within / samples - normal;
+    out.kurtosis = chi_square_test(*out.excess_kurtosis * *out.excess_kurtosis * samples / 24.0, 1);
+  }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/inference/goodness.h"
@@ -35,15 +36,16 @@ struct ReplicatePower {
 
 /// How the current model fails, whatever the cause.
 struct MisfitReport {
-  TestOutcome spectrum;           ///< all half octaves together, less what the parameters can do
-  TestOutcome time;               ///< variance of the innovations over 16 stretches a replicate
-  TestOutcome kurtosis;           ///< of the innovations, one degree of freedom
-  double excess_kurtosis = 0.0;   ///< 0 for normal noise
+  TestOutcome spectrum;    ///< all half octaves together, less what the parameters can do
+  TestOutcome time;        ///< variance of the innovations over 16 stretches a replicate
+  TestOutcome kurtosis{};  ///< of the innovations, one degree of freedom
+  /// 0 for normal noise that was rounded as these samples; none where few values occur.
+  std::optional<double> excess_kurtosis{};
   std::vector<BandMisfit> bands;  ///< half octaves, lowest first
   std::vector<TimeMisfit> times;
   std::vector<ReplicatePower> powers;
-  /// 0 for normal noise, however much power each replicate has.
-  double excess_within_replicates = 0.0;
+  /// The same, however much power each replicate has.
+  std::optional<double> excess_within_replicates{};
 };
 MisfitReport misfit_of(const FittedModel& fitted);
 

@@ -208,7 +208,7 @@ void add_kurtosis(const MisfitReport& misfit, v1::DiagnosisReport& to) {
   const double sigma = std::sqrt(misfit.kurtosis.statistic);
   add(to, "kurtosis", sigma,
       fmt::format("The noise is not normal: its excess kurtosis is {:.3g} ({:.1f} sigma).",
-                  misfit.excess_kurtosis, sigma));
+                  *misfit.excess_kurtosis, sigma));
 }
 
 void keep_worst(google::protobuf::RepeatedPtrField<v1::Misfit>& misfits) {

@@ -97,6 +97,7 @@ TEST(Integrity, EachDefectIsNamed) {
   EXPECT_EQ(effects(wandering), (Names{"saturation", "saturation"}));
 
   EXPECT_EQ(effects(noise(4.0)), Names{"quantisation"});
+  EXPECT_EQ(effects(noise(1.8)), Names{"quantisation"});
   EXPECT_EQ(effects(std::vector<double>(100, 3.0)), Names{"stuck"});
 }
 
