@@ -9,6 +9,7 @@
 #include "cli/output.h"
 #include "cli/study_input.h"
 #include "daemon/process/spawning.h"
+#include "daemon/service/page/page.h"
 #include "daemon/service/service.h"
 #include "study/analysis/preflights.h"
 #include "study/ladder/study.h"
@@ -121,7 +122,10 @@ int run(const OpenArguments& arguments) {
                                       (*service)->invite());
   try_print(url + "\n");
   tell("Ctrl-C, or closing the last page, ends it.\n");
-  if (arguments.browser) open_browser(url);
+  const bool page = !service::page_assets().empty();
+  if (!page)
+    tell("This imunoise was built without the page: only programs find an answer there.\n");
+  if (page && arguments.browser) open_browser(url);
   wait_for_end(**service, interrupt.token());
   return 0;
 }

@@ -27,6 +27,66 @@ double disagreement(const Model& average, const std::vector<Estimate>& separate,
   return std::exp(ratio.log().abs().maxCoeff());
 }
 
+// Correlation of neighbours and variance of a free Markov process.
+struct Memory {
+  double phi = 1.0;
+  double variance = 0.0;
+};
+
+Memory memory_of(const Term& term) {
+  const auto of = [](const Ar1& one) {
+    return Memory{one.phi, one.sigma2 / (1.0 - one.phi * one.phi)};
+  };
+  if (std::find(term.given.begin(), term.given.end(), true) != term.given.end()) return {};
+  if (const auto* markov = std::get_if<Ar1>(&term.process)) return of(*markov);
+  const auto* markov = std::get_if<GaussMarkov>(&term.process);
+  return markov == nullptr ? Memory{} : of(markov->discrete());
+}
+
+// The Markov process that may be white noise, while a term for that has no power.
+std::optional<std::size_t> white_by_another_name(const Model& model) {
+  constexpr double kNoPower = 1e-3;
+  constexpr double kNextToNone = 0.3;
+  const WhiteNoise* white = nullptr;
+  for (const Term& term : model.terms) {
+    if (const auto* one = std::get_if<WhiteNoise>(&term.process); one && !term.given[0])
+      white = one;
+  }
+  if (white == nullptr) return std::nullopt;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    const Memory memory = memory_of(model.terms[t]);
+    if (memory.phi < kNextToNone && white->sigma2 < kNoPower * memory.variance) return t;
+  }
+  return std::nullopt;
+}
+
+// Where the data show no memory, the noise is the white noise's.
+void name_white_noise(const Model& open, std::span<const WaveletVariance> replicates,
+                      const std::vector<Eigen::MatrixXd>& full_roots, Minimum& found) {
+  const std::optional<std::size_t> markov = white_by_another_name(found.model);
+  if (!markov) return;
+  const auto at = static_cast<std::ptrdiff_t>(*markov);
+  Model less = open;
+  less.terms.erase(less.terms.begin() + at);
+  Minimum white = minimise(tied_problem(less, replicates, full_roots));
+  name_white_noise(less, replicates, full_roots, white);  // another one may have taken its place
+  constexpr double kChance = 3.84;  // of χ² with a degree of freedom, once in twenty
+  if (white.objective > found.objective + kChance) return;
+  // Without power it has any memory; a bound on its power means most in the middle of the scales.
+  const double memory = std::sqrt(static_cast<double>(longest(replicates).scales.largest()));
+  Term none = found.model.terms[*markov];
+  if (auto* process = std::get_if<Ar1>(&none.process)) {
+    *process = {.sigma2 = 0.0, .phi = std::exp(-1.0 / memory)};
+  } else {
+    auto& slow = std::get<GaussMarkov>(none.process);
+    slow.sigma2 = 0.0;
+    slow.tc = memory / slow.rate.value;
+  }
+  white.model.terms.insert(white.model.terms.begin() + at, std::move(none));
+  found.model = std::move(white.model);
+  found.objective = white.objective;
+}
+
 }  // namespace
 
 MomentCovariances moment_covariances(const Model& model,
@@ -118,6 +178,8 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
     const Eigen::ArrayXd after = variance(found.model, longest(replicates).scales.half_widths());
     if (((after - before).abs() <= 1e-7 * after).all()) break;
   }
+  if (full && gives_weights(found.model, replicates))
+    name_white_noise(model, replicates, out.weight_roots, found);
   out.model = sorted(std::move(found.model));
   out.objective = found.objective;
   out.termination = found.termination;

@@ -81,12 +81,12 @@ std::optional<ErrorView> of_distribution(const MisfitReport& misfit) {
   const double error = std::sqrt(24.0 / samples);
   const double value = std::abs(*misfit.excess_within_replicates);
   return ErrorView{.view = "distribution",
-          .unit = "1",
-          .value = value,
-          .floor = error,
-          .chance_limit = error * normal_quantile(1.0 - 0.5 * kLimitLevel),
-          .p_value = chi_square_tail(value * value / (error * error), 1.0),
-          .worst = {.deviation = *misfit.excess_within_replicates}};
+                   .unit = "1",
+                   .value = value,
+                   .floor = error,
+                   .chance_limit = error * normal_quantile(1.0 - 0.5 * kLimitLevel),
+                   .p_value = chi_square_tail(value * value / (error * error), 1.0),
+                   .worst = {.deviation = *misfit.excess_within_replicates}};
 }
 
 std::optional<ErrorView> over_replicates(const MisfitReport& misfit) {

@@ -82,7 +82,10 @@ Table weights(const v1::VirtualSensor& sensor, Digits digits) {
 }
 
 Table gains(const v1::VirtualSensor& sensor, Digits digits) {
-  Table out{"Wavelet variance relative to the mean of the sensors",
+  Table out{sensor.plain_mean()
+                ? "Wavelet variance of the best weights, which are not used, relative to the mean "
+                  "of the sensors"
+                : "Wavelet variance relative to the mean of the sensors",
             {"averaging time", "by the model", "on held-out replicates"},
             {}};
   for (const v1::ScaleGain& one : sensor.scale_gains()) {

@@ -168,6 +168,22 @@ TEST(Intervals, CoverWhatIsBarelySeen) {
   EXPECT_GE(share, 0.95 - testing::binomial_allowance(0.95, of_prepared));
 }
 
+// A Markov process without memory is white noise: one by that name must not take its place.
+TEST(WhiteNoise, IsNotTakenByAMarkovProcess) {
+  const Model truth = model_of("WN(sigma2=1)");
+  for (std::uint64_t seed = kSeed; seed < kSeed + 12; ++seed) {
+    for (const char* const model : {"2*AR1 + WN + RW", "GM + WN"}) {
+      const auto moments = simulated_set(truth, {16'384, 16'384}, 1, seed);
+      const Model open = parse_model(model, Hertz{1.0}).value();
+      const Model found = mugmwm(open, moments, Weighting::kFull).model;
+      const auto white = std::find_if(found.terms.begin(), found.terms.end(), [](const Term& one) {
+        return std::holds_alternative<WhiteNoise>(one.process);
+      });
+      EXPECT_GT(std::get<WhiteNoise>(white->process).sigma2, 0.5) << model << ", seed " << seed;
+    }
+  }
+}
+
 TEST(Intervals, SayWhatTheDataSay) {
   const auto moments =
       simulated_set(model_of("WN(sigma2=1) + RW(gamma2=1e-3)"), {16'384}, 1, kSeed);
