@@ -91,6 +91,21 @@ std::vector<std::string> wrong_terms(const Outcome& outcome, double rate_hz) {
   return {line, effect.witness == "supply" ? "witness(mag_x)" : "witness(supply)"};
 }
 
+// Whether a failing view, within its limit or not, is as good as that of the same noise without the
+// effect under the true model.
+bool as_clean(const HiddenCase& made, const v1::Rung& after, const ErrorFall& fall) {
+  constexpr double kAlike = 1.1;
+  const auto value = [&](const v1::Rung& rung) {
+    const auto found = std::find_if(rung.views().begin(), rung.views().end(),
+                                    [&](const auto& one) { return one.view() == fall.failing; });
+    return found == rung.views().end() ? 0.0 : found->value() / found->chance_limit();
+  };
+  const auto look = looked(made.clean, made.rate_hz);
+  if (!look) return false;
+  const auto clean = judged(look->prepared, made.base.model);
+  return clean && value(after) <= kAlike * value(*clean);
+}
+
 void compare_views(const v1::Rung& before, const v1::Rung& after, ErrorFall& out) {
   const v1::ErrorView* failing = nullptr;
   const auto excess = [](const v1::ErrorView& one) { return one.value() / one.chance_limit(); };
@@ -135,6 +150,7 @@ std::optional<ErrorFall> error_fall(const Outcome& outcome) {
   out.offered = true;
   out.share = (nats_of(*after) - nats_of(before)) / *oracle;
   compare_views(before, *after, out);
+  out.as_clean = out.at_floor || (!out.failing.empty() && as_clean(made, *after, out));
   const auto again = judged(prepared, after->model());
   for (const std::string& term : wrong_terms(outcome, made.rate_hz)) {
     const auto wrong = judged(prepared, after->model() + " + " + term);
@@ -148,6 +164,7 @@ void FallScore::add(const ErrorFall& fall) {
   if (!fall.offered) return;
   shares.push_back(fall.share);
   if (!fall.failing.empty()) at_floor.add(fall.at_floor);
+  if (!fall.failing.empty()) as_clean.add(fall.as_clean);
   risen.add(!fall.risen.empty());
   for (const WrongTerm& one : fall.wrong) wrong.add(one.beyond_chance());
 }
@@ -155,6 +172,7 @@ void FallScore::add(const ErrorFall& fall) {
 void FallScore::add(const FallScore& other) {
   enough.add(other.enough);
   at_floor.add(other.at_floor);
+  as_clean.add(other.as_clean);
   risen.add(other.risen);
   wrong.add(other.wrong);
   shares.insert(shares.end(), other.shares.begin(), other.shares.end());
@@ -166,7 +184,10 @@ std::string describe(const Outcome& outcome, const ErrorFall& fall) {
   std::snprintf(share, sizeof share, ": falls by %.0f %%", 100.0 * fall.share);
   std::string out = outcome.describe() + share;
   if (!fall.failing.empty())
-    out += ", " + fall.failing + (fall.at_floor ? " at its floor" : " above its floor");
+    out += ", " + fall.failing +
+           (fall.at_floor   ? " at its floor"
+            : fall.as_clean ? " above its floor, as without the effect"
+                            : " above its floor");
   if (!fall.risen.empty()) out += ", " + fall.risen + " rose";
   for (const WrongTerm& one : fall.wrong) {
     char gain[64];

@@ -28,7 +28,8 @@ struct ErrorFall {
   bool offered = false;   ///< the true effect is among the candidates
   double share = 0.0;     ///< of the fall of `unexplained` that an oracle sees
   std::string failing{};  ///< the view that failed most before; empty: none did (p ≥ 1e-3)
-  bool at_floor = false;  ///< that view lies within its 95 % limit after it
+  bool at_floor = false;  ///< that view lies within its 95 % limit after it,
+  bool as_clean = false;  ///< or no further off than of the same noise without the effect
   std::string risen{};    ///< another view that rose beyond its limit; empty: none
   std::vector<WrongTerm> wrong{};
 
@@ -47,6 +48,7 @@ std::optional<ErrorFall> error_fall(const Outcome& outcome);
 struct FallScore {
   Share enough;    ///< at least 80 % of the oracle's fall; goal 95 %
   Share at_floor;  ///< of the views that failed; goal 90 %
+  Share as_clean;  ///< these, or no further off than without the effect
   Share risen;     ///< another view rose; goal 0, a limit is passed once in 20 by chance
   Share wrong;     ///< wrong terms that gained beyond chance; at most 5 %
   std::vector<double> shares{};
