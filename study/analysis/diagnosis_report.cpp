@@ -174,6 +174,16 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
 }
 
 void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport& to) {
+  constexpr auto kComb = 3;
+  const auto resonances =
+      std::count_if(to.findings().begin(), to.findings().end(),
+                    [](const v1::LadderFinding& one) { return one.effect() == "resonance"; });
+  if (resonances >= kComb)
+    to.add_notes(fmt::format(
+        "The {} resonances may together be one filter of a form that imunoise does not know, such "
+        "as a Butterworth, notch or CIC filter. Record the same without the filter, or with "
+        "another cutoff frequency: the resonances of a structure stay, those of a filter move.",
+        resonances));
   std::string all;
   for (const v1::LadderFinding& one : to.findings())
     all += fmt::format("{}{}", all.empty() ? "" : "; ", one.sentence());

@@ -151,6 +151,22 @@ std::vector<OddFile> odd_files() {
                                       x(i));
                  }),
        "header.stamp.sec and header.stamp.nanosec, nanoseconds");
+  good("columns `nsec` and `sec`", "100 Hz, no digit is lost",
+       odd_table("nsec,sec,x\n",
+                 [](int i) {
+                   return fmt::format("{},{},{}", i % 100 * 10'000'000, 1'700'000'000 + i / 100,
+                                      x(i));
+                 }),
+       "sec and nsec, nanoseconds");
+  good("dates with AM and PM, as 1/5/2026 11:59:58 AM", "100 Hz",
+       odd_table("time,x\n",
+                 [](int i) {
+                   const int s = 58 + i / 100;
+                   const char* const when = s < 60 ? "1/5/2026 11:59" : "1/5/2026 12:00";
+                   return fmt::format("{}:{:02}.{:02} {},{}", when, s % 60, i % 100,
+                                      s < 60 ? "AM" : "PM", x(i));
+                 }),
+       "dates and times");
   good("a first column that rises steadily, whatever its name", "it is the time",
        odd_table("Zeit,x\n", [](int i) { return t(i) + "," + x(i); }), "Zeit rises steadily");
   good("`millis()` of Arduino", "100 Hz",
@@ -286,6 +302,14 @@ std::vector<OddFile> odd_files() {
        with_cr(odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); })), "");
   good("a header in Latin-1", "100 Hz, the unit too",
        odd_table("t;gyro_x (\xb0/s)\n", [](int i) { return t(i) + ";" + x(i); }), "");
+  good("a measurement file of LabVIEW", "its head and its column for comments are left out",
+       odd_table("LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\n"
+                 "***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t400\t\nDelta_X\t0.01\t\n"
+                 "***End_of_Header***\t\t\nX_Value\tx\tComment\n",
+                 [](int i) { return t(i) + "\t" + x(i); }),
+       "X_Value rises steadily");
+  good("a name with a unit and no axis: `gyro_rad_s`", "rad/s",
+       odd_table("t,gyro_rad_s\n", [](int i) { return t(i) + "," + x(i); }), "rad/s");
   good("lines about the device before the table", "left out",
        odd_table("Device: MTi-30\nRate, 100 Hz\n\nt,x,y\n",
                  [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),

@@ -11,6 +11,7 @@
 
 #include "core/effects/parse_full_model.h"
 #include "study/analysis/diagnose_series.h"
+#include "study/analysis/diagnosis_report.h"
 #include "study/analysis/sentences/ladder_findings.h"
 #include "study/analysis/sentences/misfit_sentences.h"
 
@@ -153,6 +154,30 @@ v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string
   }
   add_findings(last, out);
   return out;
+}
+
+TEST(Ladder, ManyResonancesMayBeOneFilter) {
+  v1::DiagnosisReport report;
+  for (int i = 0; i < 2; ++i) report.add_findings()->set_effect("resonance");
+  v1::DiagnosisReport two = report;
+  add_remaining(DiagnosisVerdict::kNone, two);
+  EXPECT_EQ(two.notes_size(), 0);
+  report.add_findings()->set_effect("resonance");
+  add_remaining(DiagnosisVerdict::kNone, report);
+  ASSERT_EQ(report.notes_size(), 1);
+  EXPECT_NE(report.notes(0).find("3 resonances may together be one filter"), std::string::npos);
+}
+
+// What the best effect does not explain, several do.
+TEST(Ladder, SeveralEffectsHaveAVerdict) {
+  v1::DiagnosisReport report;
+  report.set_verdict(v1::unknown);
+  report.add_findings()->set_sentence("a");
+  v1::DiagnosisReport fails = report;
+  add_remaining(DiagnosisVerdict::kNone, report);
+  EXPECT_EQ(report.verdict(), v1::several);
+  add_remaining(DiagnosisVerdict::kUnknown, fails);
+  EXPECT_EQ(fails.verdict(), v1::unknown);
 }
 
 // Two resonances are two, each with its own frequency: ω/2π of 50 Hz, 4.8 and 17.5 Hz.

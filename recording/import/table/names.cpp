@@ -73,9 +73,12 @@ constexpr std::array kTimeSuffixes = {
 constexpr std::array kLongTimes = {Suffix{"min", 60.0}, Suffix{"minutes", 60.0},
                                    Suffix{"h", 3600.0}, Suffix{"hours", 3600.0}};
 
-// Times whose name is their unit: those of Arduino, and of Xsens devices.
-constexpr std::array kTimesOfOneUnit = {Suffix{"millis", 1e-3}, Suffix{"micros", 1e-6},
-                                        Suffix{"sampletimefine", 1e-4}};
+// Times whose name is their unit: those of Arduino, of Xsens devices, and of ROS, which has
+// nanoseconds beside them.
+constexpr std::array kTimesOfOneUnit = {
+    Suffix{"millis", 1e-3}, Suffix{"micros", 1e-6}, Suffix{"sampletimefine", 1e-4},
+    Suffix{"sec", 1.0},     Suffix{"secs", 1.0},    Suffix{"seconds", 1.0},
+    Suffix{"nsec", 1e-9},   Suffix{"nsecs", 1e-9},  Suffix{"nanosec", 1e-9}};
 
 // They say how a number was made, not what it is.
 constexpr std::array<std::string_view, 6> kAttributes = {"raw", "imu",          "lsb",
@@ -151,15 +154,15 @@ const Suffix* time_of_one_unit(std::string_view text) {
 }
 
 // The name without its last word, if that is a unit of time of this length.
-std::string stem_without(std::string_view name, double seconds) {
+std::optional<std::string> stem_without(std::string_view name, double seconds) {
   std::vector<std::string> words = words_of(name);
-  if (words.size() < 2) return {};
+  if (words.empty()) return std::nullopt;
   const std::string last = std::move(words.back());
   words.pop_back();
   const bool unit = std::any_of(kTimeSuffixes.begin(), kTimeSuffixes.end(), [&](const auto& one) {
     return one.text == last && one.seconds == seconds;
   });
-  return unit ? joined(words) : std::string();
+  return unit ? std::optional(joined(words)) : std::nullopt;
 }
 
 const Stem* stem_of(std::string_view text) {
@@ -169,7 +172,7 @@ const Stem* stem_of(std::string_view text) {
   return found == kStems.end() ? nullptr : found;
 }
 
-// Units that stand behind an axis: "gyro_x_rad_s", "acc_z_g".
+// Units that stand behind an axis, or a sensor: "gyro_x_rad_s", "acc_z_g", "gyro_rad_s".
 struct UnitWords {
   std::string_view first;
   std::string_view second;
@@ -189,14 +192,18 @@ constexpr std::array kUnitWords = {UnitWords{"rad", "s", Quantity::kAngularRate,
 
 bool is_axis(char c) { return (c >= 'x' && c <= 'z') || (c >= '0' && c <= '3'); }
 
-// Takes the words of a unit off the end of a name that has an axis before them.
+// Takes the words of a unit off the end of a name that has an axis, or a sensor of that kind,
+// before them.
 const UnitWords* take_unit(std::vector<std::string>& words) {
   for (const UnitWords& one : kUnitWords) {
     const std::size_t count = one.second.empty() ? 1 : 2;
-    if (words.size() < count + 2 || words.back() != (count == 2 ? one.second : one.first)) continue;
+    if (words.size() < count + 1 || words.back() != (count == 2 ? one.second : one.first)) continue;
     if (count == 2 && words[words.size() - 2] != one.first) continue;
-    const std::string& axis = words[words.size() - count - 1];
-    if (axis.size() != 1 || !is_axis(axis.front())) continue;
+    const std::string& before = words[words.size() - count - 1];
+    const Stem* const sensor = stem_of(before);
+    const bool axis = before.size() == 1 && is_axis(before.front());
+    if (axis && words.size() < count + 2) continue;
+    if (!axis && (sensor == nullptr || sensor->whole || sensor->quantity != one.quantity)) continue;
     words.resize(words.size() - count);
     return &one;
   }
@@ -240,8 +247,12 @@ bool is_norm_name(std::string_view name) {
                      [&](const std::string& word) { return is_one_of(kNorms, word); });
 }
 
-std::string stem_of_seconds(std::string_view name) { return stem_without(name, 1.0); }
-std::string stem_of_nanoseconds(std::string_view name) { return stem_without(name, 1e-9); }
+std::optional<std::string> stem_of_seconds(std::string_view name) {
+  return stem_without(name, 1.0);
+}
+std::optional<std::string> stem_of_nanoseconds(std::string_view name) {
+  return stem_without(name, 1e-9);
+}
 
 Role role_of(std::string_view name) {
   std::vector<std::string> words = words_of(name);
@@ -266,7 +277,8 @@ Role role_of(std::string_view name) {
   }
   const Stem* const stem = stem_of(text);
   if (stem == nullptr || stem->whole) return {};
-  return {stem->quantity, ' ', stem->increment, stem->unit, {}};
+  const bool own = stated != nullptr && stated->quantity == stem->quantity;
+  return {stem->quantity, ' ', stem->increment, own ? stated->unit : stem->unit, {}};
 }
 
 std::string common_name(const Role& role) {

@@ -28,9 +28,9 @@ bool is_counter_name(std::string_view name);
 bool is_norm_name(std::string_view name);
 
 /// The name of a time in seconds without that word ("header.stamp" of "header.stamp.sec"), and of
-/// one in nanoseconds ("header.stamp.nanosec"); empty for any other name.
-std::string stem_of_seconds(std::string_view name);
-std::string stem_of_nanoseconds(std::string_view name);
+/// one in nanoseconds ("header.stamp.nanosec"), which may be all of it; none for any other name.
+std::optional<std::string> stem_of_seconds(std::string_view name);
+std::optional<std::string> stem_of_nanoseconds(std::string_view name);
 
 /// "wx", "gyr_x", "angular_velocity.x", "accelX", "linear_acceleration.z", "imu_temp", ...
 Role role_of(std::string_view name);

@@ -31,6 +31,12 @@ std::optional<int> take_digits(std::string_view& text, std::size_t count) {
   return value;
 }
 
+// One digit or two.
+std::optional<int> take_short(std::string_view& text) {
+  const auto two = take_digits(text, 2);
+  return two ? two : take_digits(text, 1);
+}
+
 bool take_char(std::string_view& text, std::string_view any_of) {
   if (text.empty() || any_of.find(text.front()) == std::string_view::npos) return false;
   text.remove_prefix(1);
@@ -73,11 +79,12 @@ std::optional<Date> take_year_first(std::string_view& text) {
 
 // "24.11.2026"; "11/24/2026", where the month comes first if it can.
 std::optional<Date> take_year_last(std::string_view& text) {
-  const auto first = take_digits(text, 2);
+  const auto first = take_short(text);
   if (!first || text.empty()) return std::nullopt;
+  const std::string_view separator = text.front() == '/' ? "/" : ".";
   const bool slash = text.front() == '/';
-  const auto second = take_part(text, slash ? "/" : ".");
-  if (!second || !take_char(text, slash ? "/" : ".")) return std::nullopt;
+  const auto second = take_char(text, separator) ? take_short(text) : std::nullopt;
+  if (!second || !take_char(text, separator)) return std::nullopt;
   const auto year = take_digits(text, 4);
   if (!year) return std::nullopt;
   return slash && *first <= 12 ? Date{*year, *first, *second} : Date{*year, *second, *first};
@@ -98,6 +105,17 @@ std::optional<std::int64_t> take_date(std::string_view& text) {
   if (!date.ok() || known->year < 1700 || known->year > 2200) return std::nullopt;
   text = rest;
   return std::chrono::sys_days(date).time_since_epoch().count();
+}
+
+// Hours of a day by a clock of twelve: " PM" behind them. Nothing for hours that it has not.
+std::optional<int> of_half_day(std::string_view& text, int hours) {
+  std::string_view rest = text;
+  take_char(rest, " ");
+  const bool noon = rest.starts_with("PM") || rest.starts_with("pm");
+  if (!noon && !rest.starts_with("AM") && !rest.starts_with("am")) return hours;
+  if (hours < 1 || hours > 12) return std::nullopt;
+  text = rest.substr(2);
+  return hours % 12 + (noon ? 12 : 0);
 }
 
 // "Z", "+01:00", "-0330", " +0200": seconds to subtract. Nothing where something else follows.
@@ -136,11 +154,13 @@ bool has_decimal_comma(std::string_view text) {
 
 std::optional<std::int64_t> read_calendar(std::string_view text) {
   const std::optional<std::int64_t> days = take_date(text);
-  const auto hours = take_digits(text, 2);
-  const auto minutes = hours ? take_part(text, ":") : std::nullopt;
+  const auto shown = take_short(text);
+  const auto minutes = shown ? take_part(text, ":") : std::nullopt;
   const auto seconds = minutes ? take_part(text, ":") : std::nullopt;
   if (!seconds) return std::nullopt;
   const std::int64_t fraction = take_fraction(text);
+  const auto hours = of_half_day(text, *shown);
+  if (!hours) return std::nullopt;
   const auto zone = zone_of(text);
   if (!zone || *hours > 24 || *minutes > 59 || *seconds > 60) return std::nullopt;
   const std::int64_t whole = days.value_or(0) * 86400 + *hours * 3600 + *minutes * 60 + *seconds;

@@ -61,6 +61,20 @@ bool agrees(const std::vector<TextHead::Row>& rows, char delimiter) {
   return fields >= 2;
 }
 
+// Rows of the head that LabVIEW writes, which may look like a table of two columns.
+std::size_t labview_head(const std::vector<TextHead::Row>& rows) {
+  std::size_t out = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].text.starts_with("***End_of_Header***")) out = r + 1;
+  }
+  return out;
+}
+
+// LabVIEW names a last column for comments, which few rows have.
+bool has_comment_column(const std::vector<std::string>& names, std::size_t fields) {
+  return names.size() == fields + 1 && names.back() == "Comment";
+}
+
 // Where the table begins, and what separates its values.
 struct Start {
   char delimiter = ',';
@@ -75,9 +89,10 @@ std::optional<Start> after_preamble(const std::vector<TextHead::Row>& rows, char
   if (fields < 2) return std::nullopt;
   const auto is_row = [&](std::size_t r, bool text) {
     const std::vector<std::string> cut = split_header(rows[r].text, delimiter);
-    return cut.size() == fields && (kind_of(cut) == Kind::kText) == text;
+    const bool whole = cut.size() == fields || (text && has_comment_column(cut, fields));
+    return whole && (kind_of(cut) == Kind::kText) == text;
   };
-  std::size_t first = 0;
+  std::size_t first = labview_head(rows);
   while (first < rows.size() && !is_row(first, false)) ++first;
   std::size_t names = first;
   while (names > 0 && is_row(names - 1, true)) --names;
@@ -231,13 +246,18 @@ Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& opti
   layout.delimiter = start.delimiter;
   layout.header_rows = start.row;
   if (start.row > 0) {
-    layout.notes.push_back(fmt::format("rows {} to {} come before the table: left out",
-                                       head.rows.front().line, head.rows[start.row - 1].line));
+    const std::size_t last = head.rows[start.row - 1].line;
+    layout.notes.push_back(last == head.rows.front().line
+                               ? fmt::format("row {} comes before the table: left out", last)
+                               : fmt::format("rows {} to {} come before the table: left out",
+                                             head.rows.front().line, last));
   }
   const TextHead::Row& top = head.rows[start.row];
   const Result<bool> header = has_header(top, head.file, layout.delimiter, options);
   if (!header) return tl::make_unexpected(header.error());
-  const std::vector<std::string> first = split_header(top.text, layout.delimiter);
+  std::vector<std::string> first = split_header(top.text, layout.delimiter);
+  const std::size_t fields = split_header(head.rows.back().text, layout.delimiter).size();
+  if (has_comment_column(first, fields)) first.pop_back();
   if (*header) {
     take_names(layout, first);
     ++layout.header_rows;

@@ -88,7 +88,9 @@ Head read_head(LineReader& lines, const std::string& file) {
   Head head;
   head.text.file = file;
   read_up_to(kHeadRows, lines, head);
-  if (!have_one_shape(head.text.rows)) read_up_to(kPreambleRows, lines, head);
+  const bool labview =
+      !head.text.rows.empty() && head.text.rows.front().text.starts_with("LabVIEW Measurement");
+  if (labview || !have_one_shape(head.text.rows)) read_up_to(kPreambleRows, lines, head);
   return head;
 }
 
@@ -128,12 +130,19 @@ std::string why_left_out(const HeaderField& column, bool text, bool others) {
                                     : fmt::format("is in {}, which is no unit here", column.unit);
 }
 
+// Nanoseconds that belong to the seconds of another column.
+bool is_part_of_a_time(const TextLayout& layout, std::size_t column) {
+  const auto stem = stem_of_nanoseconds(layout.columns[column].name);
+  return stem && std::any_of(layout.columns.begin(), layout.columns.end(),
+                             [&](const auto& one) { return stem_of_seconds(one.name) == stem; });
+}
+
 // The stamp of the measurement rather than that of the file that holds it.
 std::optional<std::size_t> time_of(const TextLayout& layout) {
   std::optional<std::size_t> first;
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const std::string& name = layout.columns[c].name;
-    if (!is_time_name(name)) continue;
+    if (!is_time_name(name) || is_part_of_a_time(layout, c)) continue;
     if (name.find("header") != std::string::npos) return c;
     if (!first) first = c;
   }
@@ -142,8 +151,8 @@ std::optional<std::size_t> time_of(const TextLayout& layout) {
 
 // "stamp.nanosec" beside "stamp.sec".
 std::optional<std::size_t> nanoseconds_of(const TextLayout& layout, std::size_t time) {
-  const std::string stem = stem_of_seconds(layout.columns[time].name);
-  for (std::size_t c = 0; c < layout.columns.size() && !stem.empty(); ++c) {
+  const auto stem = stem_of_seconds(layout.columns[time].name);
+  for (std::size_t c = 0; c < layout.columns.size() && stem; ++c) {
     if (c != time && stem_of_nanoseconds(layout.columns[c].name) == stem) return c;
   }
   return std::nullopt;
@@ -174,6 +183,7 @@ Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stat
   if (plan.time) {
     plan.wanted[*plan.time] = false;
     plan.nanoseconds = nanoseconds_of(layout, *plan.time);
+    if (plan.nanoseconds && plan.wanted[*plan.nanoseconds]) plan.nanoseconds.reset();  // a channel
     if (plan.nanoseconds) plan.wanted[*plan.nanoseconds] = true;
   } else if (!text.front() && !layout.unnamed.front() && !stated_rate) {
     plan.may_be_time = 0;
