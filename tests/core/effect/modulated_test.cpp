@@ -40,8 +40,8 @@ TEST(Modulated, ExplainsReplicatesOfOtherTemperatures) {
   for (const ReplicatePower& one : misfit_of(with).powers) EXPECT_NEAR(one.power, 1.0, 0.045);
 }
 
-// A course as slow as this could be power that wanders by itself, which bursts explain, too. In this
-// Against that alone, this seed has 40 nats left.
+// A course as slow as this could be power that wanders by itself, which bursts explain, too. In
+// this Against that alone, this seed has 40 nats left.
 TEST(Modulated, ComesBeforeWhatExplainsLessOfASlowCourse) {
   constexpr std::uint64_t kSeed = 36;
   constexpr double kPeriods[] = {700.0, 500.0, 900.0, 650.0};  // s; a replicate has 655
