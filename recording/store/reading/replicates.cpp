@@ -61,8 +61,10 @@ std::uint64_t lost_in(const std::vector<RowGap>& gaps) {
 
 // By the host's clock, which goes on through gaps.
 std::uint64_t samples_between(const Rows& rows, std::size_t from, std::size_t to, Hertz rate) {
-  const auto ns = static_cast<double>(rows.host_time[to] - rows.host_time[from]);
-  return static_cast<std::uint64_t>(std::max(0.0, std::round(1e-9 * ns * rate.value)));
+  constexpr double kFarthest = 1e15;
+  const double ns =
+      static_cast<double>(rows.host_time[to]) - static_cast<double>(rows.host_time[from]);
+  return static_cast<std::uint64_t>(std::clamp(std::round(1e-9 * ns * rate.value), 0.0, kFarthest));
 }
 
 class Importer {
