@@ -28,8 +28,7 @@ ConverterSteps converter_steps(const Subject& subject) {
     const NeighbourSteps steps =
         neighbour_steps({samples.data(), static_cast<std::size_t>(samples.size())});
     if (!(steps.mean_square > 0.0)) return;
-    const double all = 0.5 * steps.mean_square / (steps.smallest * steps.smallest);
-    each[k] = {steps.smallest, std::sqrt(std::max(0.0, all - 1.0 / 12.0))};
+    each[k] = {steps.smallest, steps.noise_in_steps()};
   });
   return *std::min_element(each.begin(), each.end(),
                            [](const ConverterSteps& one, const ConverterSteps& other) {

@@ -62,14 +62,16 @@ std::optional<std::size_t> white_by_another_name(const Model& model) {
 
 // Where the data show no memory, the noise is the white noise's.
 void name_white_noise(const Model& open, std::span<const WaveletVariance> replicates,
-                      const std::vector<Eigen::MatrixXd>& full_roots, Minimum& found) {
+                      const std::vector<Eigen::MatrixXd>& roots, const Progress& progress,
+                      Minimum& found) {
   const std::optional<std::size_t> markov = white_by_another_name(found.model);
   if (!markov) return;
   const auto at = static_cast<std::ptrdiff_t>(*markov);
   Model less = open;
   less.terms.erase(less.terms.begin() + at);
-  Minimum white = minimise(tied_problem(less, replicates, full_roots));
-  name_white_noise(less, replicates, full_roots, white);  // another one may have taken its place
+  Minimum white = minimise(tied_problem(less, replicates, roots), progress);
+  name_white_noise(less, replicates, roots, progress,
+                   white);          // another one may have taken its place
   constexpr double kChance = 3.84;  // of χ² with a degree of freedom, once in twenty
   if (white.objective > found.objective + kChance) return;
   // Without power it has any memory; a bound on its power means most in the middle of the scales.
@@ -179,7 +181,7 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
     if (((after - before).abs() <= 1e-7 * after).all()) break;
   }
   if (full && gives_weights(found.model, replicates))
-    name_white_noise(model, replicates, out.weight_roots, found);
+    name_white_noise(model, replicates, out.weight_roots, progress, found);
   out.model = sorted(std::move(found.model));
   out.objective = found.objective;
   out.termination = found.termination;

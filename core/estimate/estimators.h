@@ -49,8 +49,9 @@ struct Estimate {
 };
 
 /// MuGMWM (Radi et al. 2019): one model for K replicates, which may differ in length. K = 1 is the
-/// GMWM of Guerrier et al. 2013. Precondition: at least one replicate, all of one rate, each with
-/// scales.
+/// GMWM of Guerrier et al. 2013. With full weights, white noise keeps its name: a Markov process
+/// whose memory the data do not show takes no power from a WN term. Precondition: at least one
+/// replicate, all of one rate, each with scales.
 Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
                 Weighting weighting, const Progress& progress = {});
 

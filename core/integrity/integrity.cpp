@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/support/neighbour_steps.h"
+
 namespace imunoise {
 namespace {
 
@@ -76,11 +78,8 @@ std::vector<Occurrence> occurrences(const Signal& signal) {
   return out;
 }
 
-// Deviation of what changes from one sample to the next, in steps, as if it were white.
 double noise_in_steps(const Codes& codes) {
-  if (!(codes.step > 0.0)) return INFINITY;
-  const double spread = codes.spread / codes.step;
-  return std::sqrt(std::max(0.0, 0.5 * spread * spread - 1.0 / 12.0));
+  return NeighbourSteps{codes.step, codes.spread * codes.spread}.noise_in_steps();
 }
 
 // Less noise makes few codes, and the error of rounding depends on where between two the mean lies:

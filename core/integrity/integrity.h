@@ -17,7 +17,7 @@ struct WrongSample {
 struct Defect {
   std::string effect;      ///< its id in the catalogue
   std::size_t count = 0;   ///< samples concerned
-  double expected = 0.0;   ///< of them without the defect
+  double expected = 0.0;   ///< of them without the defect; of few codes, their noise in steps
   std::size_t first = 0;   ///< place of the first
   std::size_t places = 1;  ///< stretches that it comes in
   /// The samples, rising, where few of them can be sound; else empty.

@@ -247,12 +247,10 @@ void add_replicates(const std::filesystem::path& path, const std::string& name, 
   const std::size_t recording = out.empty() ? 0 : out.back().origin.recording + 1;
   for (const Stretch& stretch : table.stretches) {
     const std::size_t each = stretch.count / split_into;
-    constexpr double kFarthest = 1e15;  // samples: damaged times lie anywhere
-    const double samples = std::round(stretch.seconds * rate.value);
-    const double lies = std::isfinite(samples) ? std::clamp(samples, 0.0, kFarthest) : 0.0;
+    const Origin begins = origin_at(recording, stretch.seconds * rate.value);
     for (std::size_t i = 0; i < split_into && each >= kMinimumSamples; ++i) {
       parts.push_back({stretch.begin + i * each, each});
-      origins.push_back({recording, static_cast<std::uint64_t>(lies) + i * each});
+      origins.push_back({recording, begins.first + i * each});
     }
   }
   const std::size_t first = out.size();

@@ -51,6 +51,7 @@ std::vector<Part> uncut(const std::vector<Replicate>& replicates) {
   return out;
 }
 
+// Cuts a replicate.
 void cut(const Replicate& whole, Places& places, std::size_t channel,
          const std::vector<StuckRun>& runs, SoundParts& to) {
   if (runs.empty()) {

@@ -1,5 +1,7 @@
 // Forty odd files, and what a user gets of each: the table of docs/importing.md.
 
+#include "tests/recording/odd_files.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,37 +15,8 @@
 
 #include "tests/recording/files.h"
 
-namespace imunoise::recording {
+namespace imunoise::recording::odd {
 namespace {
-
-constexpr int kOddRows = 400;  // at 100 Hz
-
-using OddRow = std::function<std::string(int)>;
-
-std::string odd_table(const std::string& head, const OddRow& row, int rows = kOddRows) {
-  std::string out = head;
-  for (int i = 0; i < rows; ++i) out += row(i) + "\n";
-  return out;
-}
-
-// Times of 100 Hz in s.
-std::string t(int i) { return fmt::format("{:.2f}", 0.01 * i); }
-std::string x(int i) { return fmt::format("{:.4f}", 0.01 * std::sin(0.7 * i * i)); }
-
-struct OddFile {
-  std::string what;  // as docs/importing.md says it
-  std::string gets;
-  std::string name;
-  std::string content;
-  double rate = 100.0;  // 0: refused
-  std::size_t channels = 1;
-  std::size_t stretches = 1;
-  std::size_t used = kOddRows;
-  std::string told;  // in what is recognised, found or refused
-  ImportOptions options = {};
-};
-
-ImportOptions with_rate(double rate) { return at_rate(rate); }
 
 std::string utf16(const std::string& text) {
   std::string out = "\xff\xfe";
@@ -73,308 +46,167 @@ std::string knocked() {
       20'000);
 }
 
-std::vector<OddFile> odd_files() {
-  std::vector<OddFile> all;
-  const auto good = [&](const std::string& what, const std::string& gets,
-                        const std::string& content, const std::string& told) -> OddFile& {
-    return all.emplace_back(OddFile{what, gets, "odd.csv", content, 100.0, 1, 1, kOddRows, told});
-  };
-  const auto refused = [&](const std::string& what, const std::string& gets,
-                           const std::string& content, const std::string& told) -> OddFile& {
-    return all.emplace_back(OddFile{what, gets, "odd.csv", content, 0.0, 0, 0, 0, told});
-  };
-
-  // Times.
-  good("times in s", "100 Hz", odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); }),
-       "seconds");
-  good("times in ms", "100 Hz, milliseconds by their steps",
-       odd_table("t,x\n", [](int i) { return fmt::format("{},{}", 10 * i, x(i)); }),
-       "milliseconds");
-  good("times in µs", "100 Hz, microseconds",
-       odd_table("t_us,x\n", [](int i) { return fmt::format("{},{}", 10'000 * i, x(i)); }),
-       "microseconds");
-  good("times in ns", "100 Hz, nanoseconds",
-       odd_table("t,x\n", [](int i) { return fmt::format("{},{}", 10'000'000LL * i, x(i)); }),
-       "nanoseconds");
-  good(
-      "seconds since 1970 with fractions", "100 Hz",
-      odd_table("time,x\n", [](int i) { return fmt::format("{:.2f},{}", 1.7e9 + 0.01 * i, x(i)); }),
-      "seconds since 1970");
-  good("nanoseconds since 1970", "100 Hz, no digit is lost",
-       odd_table("timestamp,x\n",
-                 [](int i) {
-                   return fmt::format("{},{}", 1'700'000'000'123'456'789LL + 10'000'000LL * i,
-                                      x(i));
-                 }),
-       "nanoseconds since 1970");
-  good("ISO dates and times", "100 Hz",
-       odd_table("time,x\n",
-                 [](int i) {
-                   return fmt::format("2026-11-24T12:00:{:02}.{:02}Z,{}", i / 100, i % 100, x(i));
-                 }),
-       "dates and times");
-  good("dates as 24.11.2026", "100 Hz",
-       odd_table("time,x\n",
-                 [](int i) {
-                   return fmt::format("24.11.2026 23:59:{:02}.{:02},{}", 56 + i / 100, i % 100,
-                                      x(i));
-                 }),
-       "dates and times");
-  good("dates as 11/24/2026", "100 Hz",
-       odd_table("time,x\n",
-                 [](int i) {
-                   return fmt::format("11/24/2026 23:59:{:02}.{:02},{}", 56 + i / 100, i % 100,
-                                      x(i));
-                 }),
-       "dates and times");
-  good("times in minutes", "100 Hz",
-       odd_table("Time [min],x\n",
-                 [](int i) { return fmt::format("{:.9f},{}", 0.01 / 60.0 * i, x(i)); }),
-       "minutes");
-  good("ticks of .NET, 100 ns since the year 1", "100 Hz",
-       odd_table("time,x\n",
-                 [](int i) {
-                   return fmt::format("{},{}", 638'000'000'000'000'000LL + 100'000LL * i, x(i));
-                 }),
-       "units of 100 ns");
-  good("times of day that pass midnight", "100 Hz, one stretch",
-       odd_table("time,x\n",
-                 [](int i) {
-                   return fmt::format("{}:{:02}.{:02},{}", i < 200 ? "23:59" : "00:00",
-                                      (58 + i / 100) % 60, i % 100, x(i));
-                 }),
-       "dates and times");
-  good("seconds and nanoseconds in two columns", "100 Hz, no digit is lost",
-       odd_table("header.stamp.sec,header.stamp.nanosec,x\n",
-                 [](int i) {
-                   return fmt::format("{},{},{}", 1'700'000'000 + i / 100, i % 100 * 10'000'000,
-                                      x(i));
-                 }),
-       "header.stamp.sec and header.stamp.nanosec, nanoseconds");
-  good("columns `nsec` and `sec`", "100 Hz, no digit is lost",
-       odd_table("nsec,sec,x\n",
-                 [](int i) {
-                   return fmt::format("{},{},{}", i % 100 * 10'000'000, 1'700'000'000 + i / 100,
-                                      x(i));
-                 }),
-       "sec and nsec, nanoseconds");
-  good("dates with AM and PM, as 1/5/2026 11:59:58 AM", "100 Hz",
-       odd_table("time,x\n",
-                 [](int i) {
-                   const int s = 58 + i / 100;
-                   const char* const when = s < 60 ? "1/5/2026 11:59" : "1/5/2026 12:00";
-                   return fmt::format("{}:{:02}.{:02} {},{}", when, s % 60, i % 100,
-                                      s < 60 ? "AM" : "PM", x(i));
-                 }),
-       "dates and times");
-  good("a first column that rises steadily, whatever its name", "it is the time",
-       odd_table("Zeit,x\n", [](int i) { return t(i) + "," + x(i); }), "Zeit rises steadily");
-  good("`millis()` of Arduino", "100 Hz",
-       odd_table("millis,x\n", [](int i) { return fmt::format("{},{}", 10 * i, x(i)); }),
-       "milliseconds");
-  good("one late stamp", "all rows",
-       odd_table(
-           "t [s],x\n",
-           [](int i) { return fmt::format("{:.3f},{}", 0.01 * i + (i == 200 ? 0.03 : 0), x(i)); }),
-       "100 Hz");
-  good("stamps in bursts of 8", "all rows, with a warning of the jitter",
-       odd_table("t [s],x\n",
-                 [](int i) { return fmt::format("{:.2f},{}", 0.01 * (i / 8 * 8), x(i)); }),
-       "bursts");
-  good("coarse stamps (10 ms at 400 Hz)", "400 Hz, with a warning of the jitter",
-       odd_table("t [ms],x\n", [](int i) { return fmt::format("{},{}", i * 5 / 20 * 10, x(i)); }),
-       "jitter")
-      .rate = 400.0;
-  {
-    OddFile& one = good(
-        "a gap of 0.5 s", "two stretches",
-        odd_table(
-            "t [s],x\n",
-            [](int i) { return fmt::format("{:.2f},{}", 0.01 * i + (i >= 200 ? 0.5 : 0), x(i)); }),
-        "gap of 0.5 s at 1.99 s");
-    one.stretches = 2;
-  }
-  {
-    OddFile& one = good("time that starts again (two files in one)", "two stretches",
-                        odd_table("t [s],x\n", [](int i) { return t(i % 200) + "," + x(i); }),
-                        "goes backwards by 2 s");
-    one.stretches = 2;
-  }
-  {
-    OddFile& one = good("rows that repeat the row before", "left out",
-                        odd_table("t [s],x\n",
-                                  [](int i) {
-                                    const int k = i > 250 ? i - 1 : i;
-                                    return t(k) + "," + x(k);
-                                  }),
-                        "1 rows repeat the row before");
-    one.used = kOddRows - 1;
-  }
-  refused("times that never rise", "refused: `--rate`",
-          odd_table("t,x\n", [](int i) { return "5," + x(i); }), "do not rise");
-  {
-    OddFile& one =
-        refused("no time, no rate", "refused: `--rate`",
-                odd_table("x,y\n", [](int i) { return x(i) + "," + x(i + 1); }), "--rate HZ");
-    static_cast<void>(one);
-  }
-  {
-    OddFile& one = good("numbers without a header, with `--rate 100`", "channels `col1`, `col2`",
-                        odd_table("", [](int i) { return x(i) + "," + x(i + 1); }), "");
-    one.options = with_rate(100.0);
-    one.channels = 2;
-  }
-
+// Those with odd layouts, units, sensors and names.
+std::vector<OddFile> odd_layouts() {
+  OddFiles list;
+  std::vector<OddFile>& all = list.all;
   // Layouts.
-  good("semicolons", "100 Hz", odd_table("t;x\n", [](int i) { return t(i) + ";" + x(i); }), "");
-  good("tabs", "100 Hz", odd_table("t\tx\n", [](int i) { return t(i) + "\t" + x(i); }), "");
-  good("columns aligned with blanks", "100 Hz",
-       odd_table("t x\n", [](int i) { return fmt::format("  {:>8}   {:>10}", t(i), x(i)); }), "");
-  good("line ends of Windows", "100 Hz",
-       odd_table("t,x\r\n", [](int i) { return t(i) + "," + x(i) + "\r"; }), "");
-  good("quoted fields", "100 Hz",
-       odd_table("\"t\",\"x\"\n", [](int i) { return "\"" + t(i) + "\",\"" + x(i) + "\""; }), "");
-  good("a byte order mark (UTF-8)", "100 Hz",
-       odd_table("\xef\xbb\xbft,x\n", [](int i) { return t(i) + "," + x(i); }), "");
-  refused("UTF-16 (spreadsheets)", "refused",
-          utf16(odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); })), "UTF-16");
-  good("a header as a comment (EuRoC)", "units from the header",
-       odd_table("#timestamp [ns],w_RS_S_x [rad s^-1]\n",
-                 [](int i) {
-                   return fmt::format("{},{}", 1'403'636'580'838'555'648LL + 10'000'000LL * i,
-                                      x(i));
-                 }),
-       "nanoseconds");
-  good("`rostopic echo -p`", "rates in rad/s by their names",
-       odd_table("%time,field.header.stamp,field.header.frame_id,field.angular_velocity.x\n",
-                 [](int i) {
-                   const long long now = 1'700'000'000'000'000'000LL + 10'000'000LL * i;
-                   return fmt::format("{},{},imu,{}", now, now, x(i));
-                 }),
-       "holds text")
+  list.good("semicolons", "100 Hz", odd_table("t;x\n", [](int i) { return t(i) + ";" + x(i); }),
+            "");
+  list.good("tabs", "100 Hz", odd_table("t\tx\n", [](int i) { return t(i) + "\t" + x(i); }), "");
+  list.good("columns aligned with blanks", "100 Hz",
+            odd_table("t x\n", [](int i) { return fmt::format("  {:>8}   {:>10}", t(i), x(i)); }),
+            "");
+  list.good("line ends of Windows", "100 Hz",
+            odd_table("t,x\r\n", [](int i) { return t(i) + "," + x(i) + "\r"; }), "");
+  list.good("quoted fields", "100 Hz",
+            odd_table("\"t\",\"x\"\n", [](int i) { return "\"" + t(i) + "\",\"" + x(i) + "\""; }),
+            "");
+  list.good("a byte order mark (UTF-8)", "100 Hz",
+            odd_table("\xef\xbb\xbft,x\n", [](int i) { return t(i) + "," + x(i); }), "");
+  list.refused("UTF-16 (spreadsheets)", "refused",
+               utf16(odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); })), "UTF-16");
+  list.good("a header as a comment (EuRoC)", "units from the header",
+            odd_table("#timestamp [ns],w_RS_S_x [rad s^-1]\n",
+                      [](int i) {
+                        return fmt::format("{},{}", 1'403'636'580'838'555'648LL + 10'000'000LL * i,
+                                           x(i));
+                      }),
+            "nanoseconds");
+  list.good("`rostopic echo -p`", "rates in rad/s by their names",
+            odd_table("%time,field.header.stamp,field.header.frame_id,field.angular_velocity.x\n",
+                      [](int i) {
+                        const long long now = 1'700'000'000'000'000'000LL + 10'000'000LL * i;
+                        return fmt::format("{},{},imu,{}", now, now, x(i));
+                      }),
+            "holds text")
       .channels = 1;
-  good("units in a row under the names", "units from that row",
-       odd_table("t,gyro_x\ns,deg/s\n", [](int i) { return t(i) + "," + x(i); }), "");
-  good("an unnamed index column", "left out",
-       odd_table(",t,x\n", [](int i) { return fmt::format("{},{},{}", i, t(i), x(i)); }), "");
-  good("a trailing comma", "100 Hz",
-       odd_table("t,x,\n", [](int i) { return t(i) + "," + x(i) + ","; }), "");
-  good("a column of text", "left out",
-       odd_table("t,x,frame\n", [](int i) { return t(i) + "," + x(i) + ",imu_link"; }),
-       "holds text");
-  good("an empty column", "left out",
-       odd_table("t,x,y\n", [](int i) { return t(i) + "," + x(i) + ","; }), "y")
+  list.good("units in a row under the names", "units from that row",
+            odd_table("t,gyro_x\ns,deg/s\n", [](int i) { return t(i) + "," + x(i); }), "");
+  list.good("an unnamed index column", "left out",
+            odd_table(",t,x\n", [](int i) { return fmt::format("{},{},{}", i, t(i), x(i)); }), "");
+  list.good("a trailing comma", "100 Hz",
+            odd_table("t,x,\n", [](int i) { return t(i) + "," + x(i) + ","; }), "");
+  list.good("a column of text", "left out",
+            odd_table("t,x,frame\n", [](int i) { return t(i) + "," + x(i) + ",imu_link"; }),
+            "holds text");
+  list.good("an empty column", "left out",
+            odd_table("t,x,y\n", [](int i) { return t(i) + "," + x(i) + ","; }), "y")
       .channels = 1;
   {
     OddFile& one =
-        good("NaN, inf, null, empty values", "left out: four more stretches",
-             odd_table("t,x\n",
-                       [](int i) {
-                         const char* const odd[] = {"nan", "inf", "null", ""};
-                         return t(i) + "," + (i % 80 == 79 && i < 320 ? odd[i / 80] : x(i));
-                       }),
-             "misses 4 values");
+        list.good("NaN, inf, null, empty values", "left out: four more stretches",
+                  odd_table("t,x\n",
+                            [](int i) {
+                              const char* const odd[] = {"nan", "inf", "null", ""};
+                              return t(i) + "," + (i % 80 == 79 && i < 320 ? odd[i / 80] : x(i));
+                            }),
+                  "misses 4 values");
     one.stretches = 5;
     one.used = kOddRows - 4;
   }
   {
-    OddFile& one =
-        good("a row that cannot be read", "left out: cut there",
-             odd_table("t,x\n", [](int i) { return i == 200 ? "2.00,abc" : t(i) + "," + x(i); }),
-             "1 rows cannot be read");
+    OddFile& one = list.good(
+        "a row that cannot be read", "left out: cut there",
+        odd_table("t,x\n", [](int i) { return i == 200 ? "2.00,abc" : t(i) + "," + x(i); }),
+        "1 rows cannot be read");
     one.stretches = 2;
     one.used = kOddRows - 1;
   }
   {
-    OddFile& one = good("a last row that was cut off", "left out",
-                        odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); }) + "4.0", "");
+    OddFile& one =
+        list.good("a last row that was cut off", "left out",
+                  odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); }) + "4.0", "");
     one.used = kOddRows;
   }
-  good("decimal commas between semicolons", "100 Hz",
-       odd_table("t;x\n",
-                 [](int i) { return fmt::format("{},{:02};0,{}", i / 100, i % 100, i % 7); }),
-       "");
-  refused("decimal commas in quotes between commas", "refused: write decimal points",
-          odd_table("t,x\n", [](int i) { return fmt::format("{},\"0,{}\"", 0.01 * i, i % 7); }),
-          "decimal");
-  good("vertical bars", "100 Hz", odd_table("t|x\n", [](int i) { return t(i) + "|" + x(i); }), "");
-  good("line ends of old Macs (CR)", "100 Hz",
-       with_cr(odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); })), "");
-  good("a header in Latin-1", "100 Hz, the unit too",
-       odd_table("t;gyro_x (\xb0/s)\n", [](int i) { return t(i) + ";" + x(i); }), "");
-  good("a measurement file of LabVIEW", "its head and its column for comments are left out",
-       odd_table("LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\n"
-                 "***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t400\t\nDelta_X\t0.01\t\n"
-                 "***End_of_Header***\t\t\nX_Value\tx\tComment\n",
-                 [](int i) { return t(i) + "\t" + x(i); }),
-       "X_Value rises steadily");
-  good("a name with a unit and no axis: `gyro_rad_s`", "rad/s",
-       odd_table("t,gyro_rad_s\n", [](int i) { return t(i) + "," + x(i); }), "rad/s");
-  good("lines about the device before the table", "left out",
-       odd_table("Device: MTi-30\nRate, 100 Hz\n\nt,x,y\n",
-                 [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),
-       "rows 1 to 2 come before the table")
+  list.good("decimal commas between semicolons", "100 Hz",
+            odd_table("t;x\n",
+                      [](int i) { return fmt::format("{},{:02};0,{}", i / 100, i % 100, i % 7); }),
+            "");
+  list.refused(
+      "decimal commas in quotes between commas", "refused: write decimal points",
+      odd_table("t,x\n", [](int i) { return fmt::format("{},\"0,{}\"", 0.01 * i, i % 7); }),
+      "decimal");
+  list.good("vertical bars", "100 Hz", odd_table("t|x\n", [](int i) { return t(i) + "|" + x(i); }),
+            "");
+  list.good("line ends of old Macs (CR)", "100 Hz",
+            with_cr(odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); })), "");
+  list.good("a header in Latin-1", "100 Hz, the unit too",
+            odd_table("t;gyro_x (\xb0/s)\n", [](int i) { return t(i) + ";" + x(i); }), "");
+  list.good(
+      "a measurement file of LabVIEW", "its head and its column for comments are left out",
+      odd_table("LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\n"
+                "***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t400\t\nDelta_X\t0.01\t\n"
+                "***End_of_Header***\t\t\nX_Value\tx\tComment\n",
+                [](int i) { return t(i) + "\t" + x(i); }),
+      "X_Value rises steadily");
+  list.good("a name with a unit and no axis: `gyro_rad_s`", "rad/s",
+            odd_table("t,gyro_rad_s\n", [](int i) { return t(i) + "," + x(i); }), "rad/s");
+  list.good("lines about the device before the table", "left out",
+            odd_table("Device: MTi-30\nRate, 100 Hz\n\nt,x,y\n",
+                      [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),
+            "rows 1 to 2 come before the table")
       .channels = 2;
-  good("rows, but not names, with a trailing comma", "100 Hz",
-       odd_table("t,x\n", [](int i) { return t(i) + "," + x(i) + ","; }), "");
-  good("three columns of one name", "`gyro_x`, `gyro_y`, `gyro_z`",
-       odd_table("t,gyro,gyro,gyro\n",
-                 [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + "," + x(i + 2); }),
-       "gyro_x to gyro_z")
+  list.good("rows, but not names, with a trailing comma", "100 Hz",
+            odd_table("t,x\n", [](int i) { return t(i) + "," + x(i) + ","; }), "");
+  list.good("three columns of one name", "`gyro_x`, `gyro_y`, `gyro_z`",
+            odd_table("t,gyro,gyro,gyro\n",
+                      [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + "," + x(i + 2); }),
+            "gyro_x to gyro_z")
       .channels = 3;
-  good("a packet counter", "left out",
-       odd_table("PacketCounter,t,x\n",
-                 [](int i) { return fmt::format("{},{},{}", i % 256, t(i), x(i)); }),
-       "PacketCounter counts");
+  list.good("a packet counter", "left out",
+            odd_table("PacketCounter,t,x\n",
+                      [](int i) { return fmt::format("{},{},{}", i % 256, t(i), x(i)); }),
+            "PacketCounter counts");
 
   // Units.
-  refused("an unknown unit", "refused: `--unit`",
-          odd_table("t,x [cubit]\n", [](int i) { return t(i) + "," + x(i); }), "'cubit'");
+  list.refused("an unknown unit", "refused: `--unit`",
+               odd_table("t,x [cubit]\n", [](int i) { return t(i) + "," + x(i); }), "'cubit'");
   {
     OddFile& one =
-        good("accelerations in g that state no unit", "g, by their norm",
-             odd_table("t,ax,ay,az\n",
-                       [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + ",1.001"; }),
-             "accelerations ax, ay, az: g");
+        list.good("accelerations in g that state no unit", "g, by their norm",
+                  odd_table("t,ax,ay,az\n",
+                            [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + ",1.001"; }),
+                  "accelerations ax, ay, az: g");
     one.channels = 3;
   }
   {
     OddFile& one =
-        good("accelerations in m/s² that are called g", "used, with a warning",
-             odd_table("t,ax [g],ay [g],az [g]\n",
-                       [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + ",9.81"; }),
-             "not 9.81");
+        list.good("accelerations in m/s² that are called g", "used, with a warning",
+                  odd_table("t,ax [g],ay [g],az [g]\n",
+                            [](int i) { return t(i) + "," + x(i) + "," + x(i + 1) + ",9.81"; }),
+                  "not 9.81");
     one.channels = 3;
   }
   {
-    OddFile& one =
-        good("angular rates that state no unit", "used as they are, with a warning",
-             odd_table("t,wx\n", [](int i) { return t(i) + "," + x(i); }), "no unit is stated");
+    OddFile& one = list.good("angular rates that state no unit", "used as they are, with a warning",
+                             odd_table("t,wx\n", [](int i) { return t(i) + "," + x(i); }),
+                             "no unit is stated");
     one.channels = 1;
   }
   {
-    OddFile& one = good(
+    OddFile& one = list.good(
         "counts, with `--unit 'gx_raw=0.0076 deg/s'`", "the unit times the factor",
         odd_table("t,gx_raw\n", [](int i) { return fmt::format("{},{}", t(i), i * i % 17); }), "");
     one.options.units = {{"gx_raw", parse_unit("0.0076 deg/s").value()}};
   }
   {
-    OddFile& one = good("increments Δθ, Δv", "divided by the period",
-                        odd_table("t,dtheta_x [rad],dvz [m/s]\n",
-                                  [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),
-                        "increments: dtheta_x, dvz, divided by 0.01 s");
+    OddFile& one = list.good("increments Δθ, Δv", "divided by the period",
+                             odd_table("t,dtheta_x [rad],dvz [m/s]\n",
+                                       [](int i) { return t(i) + "," + x(i) + "," + x(i + 1); }),
+                             "increments: dtheta_x, dvz, divided by 0.01 s");
     one.channels = 2;
   }
 
   {
-    OddFile& one = good(
+    OddFile& one = list.good(
         "angular rates in deg/s that are called rad/s", "used, with a warning",
         odd_table("t,wx [rad/s]\n", [](int i) { return t(i) + fmt::format(",{}", 2 + i % 3); }),
         "is rad/s the wrong unit?");
     one.told = "wrong unit";
   }
   {
-    OddFile& one = good(
+    OddFile& one = list.good(
         "Δv in columns called ax, ay, az, beside rates that state no unit",
         "all divided by the period",
         odd_table(
@@ -386,58 +218,59 @@ std::vector<OddFile> odd_files() {
 
   // Sensors.
   {
-    OddFile& one = good("an axis that never changes", "used, with a warning",
-                        odd_table(
-                            "t,gyro_x [deg/s],gyro_y [deg/s]\n",
-                            [](int i) { return t(i) + "," + x(i) + ",0.5"; }, 2000),
-                        "gyro_y of the angular rates never changes");
+    OddFile& one = list.good("an axis that never changes", "used, with a warning",
+                             odd_table(
+                                 "t,gyro_x [deg/s],gyro_y [deg/s]\n",
+                                 [](int i) { return t(i) + "," + x(i) + ",0.5"; }, 2000),
+                             "gyro_y of the angular rates never changes");
     one.channels = 2;
     one.used = 2000;
   }
   {
-    OddFile& one =
-        good("one of a hundred samples lost throughout", "100 Hz; cut at each loss",
-             odd_table(
-                 "t,wx [rad/s]\n", [](int i) { return t(i + (i + 50) / 99) + "," + x(i); }, 990),
-             "1 % of the samples are lost in 10 places");
+    OddFile& one = list.good(
+        "one of a hundred samples lost throughout", "100 Hz; cut at each loss",
+        odd_table(
+            "t,wx [rad/s]\n", [](int i) { return t(i + (i + 50) / 99) + "," + x(i); }, 990),
+        "1 % of the samples are lost in 10 places");
     one.stretches = 11;
     one.used = 990;
   }
-  good("two sensors of different rates in one table", "that of the rates; the other is named",
-       odd_table("t,wx [rad/s],ax [m/s^2]\n",
-                 [](int i) { return t(i) + "," + x(i) + "," + (i % 4 == 0 ? x(i) : ""); }),
-       "channel ax (25 Hz) is left out");
+  list.good("two sensors of different rates in one table", "that of the rates; the other is named",
+            odd_table("t,wx [rad/s],ax [m/s^2]\n",
+                      [](int i) { return t(i) + "," + x(i) + "," + (i % 4 == 0 ? x(i) : ""); }),
+            "channel ax (25 Hz) is left out");
   {
-    OddFile& one =
-        good("a knock of all axes", "left out: two stretches", knocked(), "disturbed from 100 to");
+    OddFile& one = list.good("a knock of all axes", "left out: two stretches", knocked(),
+                             "disturbed from 100 to");
     one.channels = 6;
     one.stretches = 2;
     one.used = 0;  // the test of the preflight counts them
   }
-  good("every second sample repeated", "used, with a warning",
-       odd_table(
-           "t,wx [rad/s]\n", [](int i) { return t(i) + "," + x(i / 2 * 2); }, 2000),
-       "repeat the sample before")
+  list.good("every second sample repeated", "used, with a warning",
+            odd_table(
+                "t,wx [rad/s]\n", [](int i) { return t(i) + "," + x(i / 2 * 2); }, 2000),
+            "repeat the sample before")
       .used = 2000;
 
   // Names.
-  refused("an empty file", "refused", "", "is empty");
-  refused("a header and no rows", "refused", "t,x\n", "");
+  list.refused("an empty file", "refused", "", "is empty");
+  list.refused("a header and no rows", "refused", "t,x\n", "");
   all.emplace_back(OddFile{"a CSV that is called .npy", "refused: the name promises NumPy",
                            "odd.npy", odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); }),
                            0.0, 0, 0, 0, "is not a NumPy file"});
   all.emplace_back(OddFile{"a CSV that is called .log", "100 Hz", "odd.log",
                            odd_table("t,x\n", [](int i) { return t(i) + "," + x(i); }), 100.0, 1, 1,
                            kOddRows, ""});
-  return all;
+  return list.all;
 }
 
-class OddFiles : public FileTest {};
+class OddFilesTest : public FileTest {};
 
-TEST_F(OddFiles, GetWhatTheGuideSays) {
+TEST_F(OddFilesTest, GetWhatTheGuideSays) {
   const std::string guide =
       bytes_in(std::filesystem::path(IMUNOISE_SOURCE_DIR) / "docs/importing.md");
-  const std::vector<OddFile> all = odd_files();
+  std::vector<OddFile> all = odd_times();
+  for (OddFile& one : odd_layouts()) all.push_back(std::move(one));
   EXPECT_GE(all.size(), 40U);
   for (const OddFile& one : all) {
     EXPECT_NE(guide.find("| " + one.what + " | " + one.gets + " |"), std::string::npos)
@@ -465,4 +298,4 @@ TEST_F(OddFiles, GetWhatTheGuideSays) {
 }
 
 }  // namespace
-}  // namespace imunoise::recording
+}  // namespace imunoise::recording::odd

@@ -2,6 +2,8 @@
 
 // What an import yields: replicates, each a set of channels that share one rate and one length.
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -62,6 +64,14 @@ struct Origin {
   std::size_t recording = 0;  ///< its number among the recordings of an import, from 0
   std::uint64_t first = 0;    ///< samples, lost ones too, from its first to the replicate's first
 };
+
+/// The origin of what begins so many samples after the first of a recording: by a clock, which may
+/// be damaged.
+inline Origin origin_at(std::size_t recording, double samples) {
+  constexpr double kFarthest = 1e15;
+  if (!std::isfinite(samples)) return {recording, 0};
+  return {recording, static_cast<std::uint64_t>(std::clamp(std::round(samples), 0.0, kFarthest))};
+}
 
 /// One uninterrupted static recording of a sensor.
 struct Replicate {

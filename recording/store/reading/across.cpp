@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -46,12 +45,9 @@ std::vector<Stretch> stretches_of(const WhoJoins& who) {
       const double begins =
           time_of(times, piece.picked.front().parts.front().begin, times.front().first_ns);
       if (found == 0) began = begins;
-      const auto first =
-          static_cast<std::uint64_t>(std::llround((begins - began) / piece.period_ns));
-      out.push_back({number,
-                     ++found > 1 ? fmt::format("{}#{}", name, found) : name,
-                     std::move(piece),
-                     {recording, first}});
+      const Origin origin = origin_at(recording, (begins - began) / piece.period_ns);
+      out.push_back({number, ++found > 1 ? fmt::format("{}#{}", name, found) : name,
+                     std::move(piece), origin});
     }
   }
   return out;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -60,11 +59,10 @@ std::uint64_t lost_in(const std::vector<RowGap>& gaps) {
 }
 
 // By the host's clock, which goes on through gaps.
-std::uint64_t samples_between(const Rows& rows, std::size_t from, std::size_t to, Hertz rate) {
-  constexpr double kFarthest = 1e15;
+double samples_between(const Rows& rows, std::size_t from, std::size_t to, Hertz rate) {
   const double ns =
       static_cast<double>(rows.host_time[to]) - static_cast<double>(rows.host_time[from]);
-  return static_cast<std::uint64_t>(std::clamp(std::round(1e-9 * ns * rate.value), 0.0, kFarthest));
+  return 1e-9 * ns * rate.value;
 }
 
 class Importer {
@@ -88,13 +86,12 @@ class Importer {
       const std::size_t each = part.count / options_.split_into;
       for (std::size_t i = 0; i < options_.split_into && each >= kMinimumSamples; ++i) {
         kept.push_back({part.begin + i * each, each});
-        const std::size_t lies = kept.back().begin;
-        out_.push_back(
-            {.name = kept.size() > 1 ? fmt::format("{}#{}", name, kept.size()) : name,
-             .source = root_ / device.where.folder,
-             .rate = rate,
-             .channels = {},
-             .origin = {recording, samples_between(rows, kept.front().begin, lies, rate)}});
+        const double lies = samples_between(rows, kept.front().begin, kept.back().begin, rate);
+        out_.push_back({.name = kept.size() > 1 ? fmt::format("{}#{}", name, kept.size()) : name,
+                        .source = root_ / device.where.folder,
+                        .rate = rate,
+                        .channels = {},
+                        .origin = origin_at(recording, lies)});
       }
     }
     if (!kept.empty()) out_[begin].timing = {.gaps = gaps.size(), .lost = lost_in(gaps)};
