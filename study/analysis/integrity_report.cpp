@@ -62,9 +62,9 @@ void add_timing(const std::vector<recording::Replicate>& recordings, v1::Diagnos
       const std::string lost =
           timing.lost > 0 ? fmt::format("{}", timing.lost) : "an unknown number of";
       add_finding("lost_samples", one.name, timing.lost,
-                  fmt::format("{} samples were lost in {} places; the recording is cut there, and "
+                  fmt::format("{} samples were lost in {} place{}; the recording is cut there, and "
                               "its parts are replicates",
-                              lost, timing.gaps),
+                              lost, timing.gaps, timing.gaps == 1 ? "" : "s"),
                   to);
     }
     if (timing.jitter > kUneven) {

@@ -1,7 +1,7 @@
 // Files with odd times.
 
 #include "tests/recording/files.h"
-#include "tests/recording/odd_files.h"
+#include "tests/recording/odd/odd_files.h"
 
 namespace imunoise::recording::odd {
 

@@ -1,6 +1,6 @@
 // Forty odd files, and what a user gets of each: the table of docs/importing.md.
 
-#include "tests/recording/odd_files.h"
+#include "tests/recording/odd/odd_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
