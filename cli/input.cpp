@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "cli/progress_line.h"
+#include "core/support/counted.h"
 #include "recording/import/pieces.h"
 #include "recording/import/table/names.h"
 #include "recording/store/reading/across.h"
@@ -37,8 +38,8 @@ bool several_devices(const InputArguments& arguments) {
 }
 
 void tell(const recording::JoinedStream& one) {
-  fmt::print(stderr, "joined: {}/{}, {:.6g} Hz, clock {:+.1f} ppm, {} samples left out{}\n",
-             one.device, one.stream, one.rate.value, one.clock_ppm, one.dropped,
+  fmt::print(stderr, "joined: {}/{}, {:.6g} Hz, clock {:+.1f} ppm, {} left out{}\n", one.device,
+             one.stream, one.rate.value, one.clock_ppm, counted(one.dropped, "sample"),
              one.averaged > 1 ? fmt::format(", means of {}", one.averaged) : "");
 }
 
@@ -97,8 +98,8 @@ void tell_preflight(const std::vector<recording::Replicate>& replicates) {
     for (const std::string& said : found->recognised) say(said, found->file, all);
     for (const recording::Finding& finding : found->findings) say(finding.text, found->file, all);
     if (found->used < found->samples)
-      say(fmt::format("{} of {} samples used, in {} stretches", found->used, found->samples,
-                      found->stretches),
+      say(fmt::format("{} of {} used, in {}", found->used, counted(found->samples, "sample"),
+                      counted(found->stretches, "stretch")),
           found->file, all);
   }
   for (const Said& one : all) fmt::print(stderr, "{}: {}\n", files_of(one), printable(one.text));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/effects/parse_full_model.h"
+#include "core/support/counted.h"
 #include "recording/import/import.h"
 
 namespace imunoise::cli {
@@ -40,17 +41,17 @@ Result<void> usable(const recording::Replicate& read, const SimulateArguments& s
     return fail(fmt::format("{} has a rate of {:g} Hz; simulate at --rate {:g}", read.name,
                             read.rate.value, read.rate.value));
   if (read.channels.front().count < size.samples)
-    return fail(fmt::format("{} has {} samples; simulate at most so many", read.name,
-                            read.channels.front().count));
+    return fail(fmt::format("{} has {}; simulate at most so many", read.name,
+                            counted(read.channels.front().count, "sample")));
   return {};
 }
 
 Result<WrittenWitness> recorded(const WitnessArguments& witness, const SimulateArguments& size) {
   if (witness.files.size() > 1 && witness.files.size() != size.replicates)
-    return tl::unexpected(
-        of_witness(witness.name, fmt::format("there are {} files for {} replicates; give one for "
-                                             "all, or one for each",
-                                             witness.files.size(), size.replicates)));
+    return tl::unexpected(of_witness(
+        witness.name,
+        fmt::format("there are {} for {}; give one for all, or one for each",
+                    counted(witness.files.size(), "file"), counted(size.replicates, "replicate"))));
   recording::ImportOptions options;
   options.channels = {witness.name};
   auto read = recording::import_files(witness.files, options);

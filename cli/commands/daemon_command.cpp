@@ -9,6 +9,7 @@
 #include "cli/commands/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
+#include "core/support/counted.h"
 #include "daemon/app/status_text.h"
 #include "imunoise/v1/service.pb.h"
 #include "study/words/number.h"
@@ -99,10 +100,10 @@ std::string campaign_lines(const v1::CampaignList& list) {
                                    ? "every " + report::duration(schedule.every_s())
                                : schedule.calendar().empty() ? "once"
                                                              : "by a timer, " + schedule.calendar();
-    out += report::clean_text(
-               fmt::format("{}: {} replicates of {}, {}; {}; into {}; {}", campaign.name(),
-                           campaign.replicates(), report::duration(campaign.length_s()), rhythm,
-                           devices, campaign.folder(), one.running() ? "runs" : "does not run")) +
+    out += report::clean_text(fmt::format(
+               "{}: {} of {}, {}; {}; into {}; {}", campaign.name(),
+               counted(campaign.replicates(), "replicate"), report::duration(campaign.length_s()),
+               rhythm, devices, campaign.folder(), one.running() ? "runs" : "does not run")) +
            "\n";
   }
   return out.empty() ? "no campaigns\n" : out;

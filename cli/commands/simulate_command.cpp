@@ -5,6 +5,7 @@
 #include "cli/progress_line.h"
 #include "cli/simulated_witness.h"
 #include "core/effects/parse_full_model.h"
+#include "core/support/counted.h"
 #include "recording/export/write_samples.h"
 #include "study/report/json.h"
 
@@ -98,8 +99,8 @@ int run(const SimulateArguments& arguments) {
     print(report::to_json(report));
     return 0;
   }
-  print(fmt::format("{}\n{} samples at {:g} Hz, seed {}\n", report.model(), arguments.samples,
-                    arguments.rate.value, arguments.seed));
+  print(fmt::format("{}\n{} at {:g} Hz, seed {}\n", report.model(),
+                    counted(arguments.samples, "sample"), arguments.rate.value, arguments.seed));
   for (const std::string& file : report.files()) print("wrote " + file + "\n");
   return 0;
 }

@@ -4,6 +4,7 @@
 
 #include "cli/commands/commands.h"
 #include "cli/output.h"
+#include "core/support/counted.h"
 #include "recording/store/verify/verify.h"
 #include "study/report/json.h"
 #include "study/words/number.h"
@@ -37,8 +38,8 @@ void describe_gaps(const v1::StreamIntegrity& stream, std::string& out) {
 void describe_channels(const v1::StreamIntegrity& stream, std::string& out) {
   for (const v1::ChannelIntegrity& channel : stream.channels()) {
     if (channel.saturated() > 0) {
-      out +=
-          fmt::format("  {}: {} samples saturated\n", channel.name(), count(channel.saturated()));
+      out += fmt::format("  {}: {} {} saturated\n", channel.name(), count(channel.saturated()),
+                         plural(channel.saturated(), "sample"));
     }
     if (channel.stuck()) {
       out += fmt::format("  {}: stuck for {} samples from sample {}\n", channel.name(),
@@ -71,9 +72,9 @@ void describe_stream(const v1::StreamIntegrity& stream, std::string& out) {
 }
 
 std::string describe(const v1::VerifyReport& report) {
-  std::string out = fmt::format("{}: {}, {} intact chunk{}\n", report::clean_text(report.folder()),
+  std::string out = fmt::format("{}: {}, {} intact {}\n", report::clean_text(report.folder()),
                                 report.sound() ? "sound" : "NOT SOUND", count(report.chunks()),
-                                report.chunks() == 1 ? "" : "s");
+                                plural(report.chunks(), "chunk"));
   for (const v1::Defect& defect : report.defects()) {
     out += fmt::format("  {} {}\n", defect.repaired() ? "repaired:" : "defect:  ",
                        report::clean_text(defect.message()));

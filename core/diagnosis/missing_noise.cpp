@@ -80,8 +80,8 @@ void add_second_order(const Current& current, const ScoreSpace& space, double lo
   const double reached = fitted(best).objective;
   const bool special = std::any_of(out.begin(), out.end(), [&](const Suggestion& other) {
     if (other.cause != "gauss_markov" && other.cause != "resonance") return false;
-    const WhittleEstimate found = fitted(other);
-    return peaks(found.model) && found.objective < reached + kClearly;
+    const WhittleEstimate simpler = fitted(other);
+    return peaks(simpler.model) && simpler.objective < reached + kClearly;
   });
   if (special) best.score_nats = 0.0;
   out.push_back(std::move(best));

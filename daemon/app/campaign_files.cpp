@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "core/support/utf8.h"
 #include "daemon/acquire/disk_space.h"
 #include "daemon/acquire/recorded_device.h"
@@ -183,9 +184,9 @@ std::vector<std::string> problems(const CampaignFiles& files) {
 
 std::string summary(const v1::Campaign& campaign, const drivers::Drivers& drivers) {
   const auto bytes = size_of(campaign, drivers);
-  return fmt::format("{}: {} device{}, {} replicate{} of {}, {}{}", campaign.name(),
-                     campaign.devices_size(), campaign.devices_size() == 1 ? "" : "s",
-                     campaign.replicates(), campaign.replicates() == 1 ? "" : "s",
+  return fmt::format("{}: {}, {} of {}, {}{}", campaign.name(),
+                     counted(campaign.devices_size(), "device"),
+                     counted(campaign.replicates(), "replicate"),
                      config::print_duration(campaign.length_s()), rhythm(campaign.schedule()),
                      bytes ? ", at most " + config::print_bytes(*bytes) + " each time" : "");
 }

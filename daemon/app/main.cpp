@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "daemon/app/arguments.h"
 #include "daemon/app/campaign_files.h"
 #include "daemon/app/campaign_reload.h"
@@ -112,8 +113,8 @@ class Memory {
 void apply(std::optional<CampaignFiles> files, Supervisor& supervisor, Log& log) {
   if (!files) return;
   for (const std::string& problem : problems(*files)) log.error(problem);
-  log.fact(fmt::format("SIGHUP: {} campaigns are in force, {} files were rejected",
-                       files->found.size(), files->rejected.size()));
+  log.fact(fmt::format("SIGHUP: {} in force, {} rejected", counted(files->found.size(), "campaign"),
+                       counted(files->rejected.size(), "file")));
   supervisor.reload(std::move(*files));
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/effects/parse_full_model.h"
+#include "core/support/counted.h"
 #include "daemon/config/device_tables.h"
 #include "daemon/config/quantity_text.h"
 
@@ -126,11 +127,12 @@ void check_rhythm(TableReader& reader, const v1::Campaign& campaign) {
   const double needed = campaign.settling_s() + replicates * campaign.length_s() +
                         (replicates - 1.0) * campaign.pause_s();
   if (needed <= campaign.schedule().every_s()) return;
-  reader.complain("schedule",
-                  fmt::format("a recording takes {} (settling, {} replicates, pauses), longer than "
-                              "every = {}; record less, or less often",
-                              print_duration(needed), campaign.replicates(),
-                              print_duration(campaign.schedule().every_s())));
+  reader.complain(
+      "schedule",
+      fmt::format("a recording takes {} (settling, {}, pauses), longer than every = {}; "
+                  "record less, or less often",
+                  print_duration(needed), counted(campaign.replicates(), "replicate"),
+                  print_duration(campaign.schedule().every_s())));
 }
 
 void read_all(TableReader& reader, const drivers::Drivers& drivers, CampaignConfig& out) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "core/support/counted.h"
 #include "core/support/distributions.h"
 #include "core/support/units.h"
 #include "daemon/config/quantity_text.h"
@@ -209,7 +210,7 @@ void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
   for (const Channel& one : of.channels) {
     if (const auto since = one.saturated.since(of.now_ns)) {
       add(v1::saturated, name(one.index), *since,
-          fmt::format("{} samples are at the limit of the range", one.saturated.count()));
+          fmt::format("{} at the limit of the range", counted(one.saturated.count(), "sample")));
     }
     if (of.now_ns - one.same_since_ns > kStuckAfter) {
       add(v1::stuck, name(one.index), one.same_since_ns,
@@ -272,8 +273,9 @@ v1::LiveWarning LiveDevice::past_warning() const {
                     times(of.lost.count())));
     for (const Channel& one : of.channels) {
       see(v1::saturated, one.saturated, of,
-          fmt::format("{}: {} samples were at the limit of the range",
-                      stream.channels(static_cast<int>(one.index)).name(), one.saturated.count()));
+          fmt::format("{}: {} at the limit of the range",
+                      stream.channels(static_cast<int>(one.index)).name(),
+                      counted(one.saturated.count(), "sample")));
     }
   }
   return out;

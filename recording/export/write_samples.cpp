@@ -7,6 +7,7 @@
 #include <exception>
 #include <set>
 
+#include "core/support/counted.h"
 #include "recording/export/formats.h"
 
 namespace imunoise::recording {
@@ -35,8 +36,8 @@ Result<void> check(const std::string& file, std::span<const OutputChannel> chann
                       file, channel.name));
     }
     if (channel.values.size() != channels.front().values.size()) {
-      return fail(fmt::format("{}: channel {} has {} samples where {} has {}", file, channel.name,
-                              channel.values.size(), channels.front().name,
+      return fail(fmt::format("{}: channel {} has {} where {} has {}", file, channel.name,
+                              counted(channel.values.size(), "sample"), channels.front().name,
                               channels.front().values.size()));
     }
     const auto bad = std::find_if(channel.values.begin(), channel.values.end(),

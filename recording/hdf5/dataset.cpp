@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/support/counted.h"
 #include "core/support/parallel.h"
 #include "recording/hdf5/filters.h"
 
@@ -160,10 +161,8 @@ Result<OpenDataset> open_dataset(hid_t group, const std::string& name, int dimen
   const std::uint64_t stored =
       std::min<std::uint64_t>(H5Dget_storage_size(out.id.get()), file_bytes(out.id.get()));
   if (out.size / kBestCompression > stored / out.width || stored == 0) {
-    return trouble(
-        fmt::format("claims {} samples, but only {} bytes are stored; it was not written "
-                    "to its end",
-                    out.size, stored));
+    return trouble(fmt::format("claims {}, but only {} stored; it was not written to its end",
+                               counted(out.size, "sample"), counted(stored, "byte")));
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "core/support/parallel.h"
 #include "recording/import/packed/unpacked_file.h"
 #include "recording/import/pieces.h"
@@ -36,15 +37,15 @@ Result<void> check_lengths(const std::string& file, const Table& table) {
   const Column& first = table.columns.front();
   for (const Column& column : table.columns) {
     if (size(column.samples) != size(first.samples)) {
-      return fail(
-          fmt::format("{}: channel {} has {} samples where {} has {}; read them separately with "
-                      "--channel",
-                      file, column.name, size(column.samples), first.name, size(first.samples)));
+      return fail(fmt::format(
+          "{}: channel {} has {} where {} has {}; read them separately with --channel", file,
+          column.name, counted(size(column.samples), "sample"), first.name, size(first.samples)));
     }
   }
   if (!table.time || size(table.time->stamps) == size(first.samples)) return {};
-  return fail(fmt::format("{}: {} has {} times for {} samples; give --rate HZ to ignore them", file,
-                          table.time->name, size(table.time->stamps), size(first.samples)));
+  return fail(fmt::format("{}: {} has {} for {}; give --rate HZ to ignore them", file,
+                          table.time->name, counted(size(table.time->stamps), "time"),
+                          counted(size(first.samples), "sample")));
 }
 
 Result<Table> read_as_it_is(const std::filesystem::path& path, const ImportOptions& options,
@@ -141,8 +142,7 @@ Result<Table> read_pieces(const std::filesystem::path& folder,
     progress.report(static_cast<double>(&piece - pieces.data() + 1) /
                     static_cast<double>(pieces.size()));
   }
-  out->notes.push_back(fmt::format("{} file{} of {}", pieces.size(), pieces.size() == 1 ? "" : "s",
-                                   folder.string()));
+  out->notes.push_back(fmt::format("{} of {}", counted(pieces.size(), "file"), folder.string()));
   return std::move(*out);
 }
 
@@ -178,9 +178,9 @@ Result<void> check_parts(const std::string& file, const Judged& table, std::size
   for (const Stretch& one : table.stretches) each = std::max(each, one.count / split_into);
   if (each >= kMinimumSamples) return {};
   return fail(
-      fmt::format("{}: {} samples in each of {} parts are too few: a replicate needs at least {}; "
-                  "record longer or split into fewer",
-                  file, each, split_into, kMinimumSamples));
+      fmt::format("{}: {} in each of {} parts: too few, a replicate needs at least {}; record "
+                  "longer or split into fewer",
+                  file, counted(each, "sample"), split_into, kMinimumSamples));
 }
 
 // Files are replicates of one another only when they measure the same.

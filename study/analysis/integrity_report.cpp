@@ -4,6 +4,7 @@
 
 #include "core/diagnosis/causes.h"
 #include "core/integrity/integrity.h"
+#include "core/support/counted.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::study {
@@ -11,16 +12,19 @@ namespace {
 
 std::string defect_words(const Defect& defect, double rate) {
   if (defect.effect == "duplicated_samples")
-    return fmt::format("{} samples repeat the one before; noise like this repeats {:.0f}",
-                       defect.count, defect.expected);
+    return fmt::format("{} {} the one before; noise like this repeats {:.0f}",
+                       counted(defect.count, "sample"), defect.count == 1 ? "repeats" : "repeat",
+                       defect.expected);
   if (defect.effect == "stuck") {
     const std::string places =
         defect.places > 1 ? fmt::format(" in {} places, the first", defect.places) : "";
-    return fmt::format("the output stands still for {} samples{} from {:.2f} s on", defect.count,
-                       places, static_cast<double>(defect.first) / rate);
+    return fmt::format("the output stands still for {}{} from {:.2f} s on",
+                       counted(defect.count, "sample"), places,
+                       static_cast<double>(defect.first) / rate);
   }
   if (defect.effect == "saturation")
-    return fmt::format("{} samples lie at the {} end of the range, {:.0f} next to it", defect.count,
+    return fmt::format("{} {} at the {} end of the range, {:.0f} next to it",
+                       counted(defect.count, "sample"), defect.count == 1 ? "lies" : "lie",
                        defect.wrong.front().beyond > 0 ? "upper" : "lower", defect.expected);
   if (defect.effect == "missing_codes")
     return fmt::format(
@@ -62,9 +66,10 @@ void add_timing(const std::vector<recording::Replicate>& recordings, v1::Diagnos
       const std::string lost =
           timing.lost > 0 ? fmt::format("{}", timing.lost) : "an unknown number of";
       add_finding("lost_samples", one.name, timing.lost,
-                  fmt::format("{} samples were lost in {} place{}; the recording is cut there, and "
-                              "its parts are replicates",
-                              lost, timing.gaps, timing.gaps == 1 ? "" : "s"),
+                  fmt::format("{} {} lost in {}; the recording is cut there, and its parts are "
+                              "replicates",
+                              lost, timing.lost == 1 ? "sample was" : "samples were",
+                              counted(timing.gaps, "place")),
                   to);
     }
     if (timing.jitter > kUneven) {

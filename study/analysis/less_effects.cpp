@@ -8,6 +8,7 @@
 #include "core/effects/parse_full_model.h"
 #include "core/estimate/estimators.h"
 #include "core/spectrum/cross_power.h"
+#include "core/support/counted.h"
 #include "core/support/parallel.h"
 #include "study/analysis/effect_parameters.h"
 #include "study/analysis/prepare.h"
@@ -35,8 +36,9 @@ Result<std::vector<NamedChannel>> followed(const FullModel& model, const Series&
 Result<void> long_enough(const Series& series) {
   for (std::size_t k = 0; k < series.replicates.size(); ++k) {
     if (series.replicates[k].size() >= kFewestSamples) continue;
-    return fail(fmt::format("{}: {} samples are too few to fit effects to; record at least {}",
-                            series.names[k], series.replicates[k].size(), kFewestSamples));
+    return fail(fmt::format("{}: too short to fit effects to, {}; record at least {}",
+                            series.names[k], counted(series.replicates[k].size(), "sample"),
+                            kFewestSamples));
   }
   return {};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/spectrum/cross_power.h"
+#include "core/support/counted.h"
 #include "study/analysis/measure.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/series.h"
@@ -38,8 +39,8 @@ Result<RecordedChannel> prepare_channel(std::vector<recording::Replicate> record
   const Series whole = series_of(recorded, channel);
   for (std::size_t k = 0; k < whole.replicates.size(); ++k) {
     if (whole.replicates[k].size() < kFewestSamples)
-      return fail(
-          fmt::format("{}: {} samples are too few", whole.names[k], whole.replicates[k].size()));
+      return fail(fmt::format("{}: too short, {}", whole.names[k],
+                              counted(whole.replicates[k].size(), "sample")));
   }
   if (auto known = check_witnesses(witnesses, recorded.front()); !known)
     return tl::unexpected(known.error());

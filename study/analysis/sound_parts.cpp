@@ -9,6 +9,7 @@
 #include "core/integrity/integrity.h"
 #include "core/integrity/mend.h"
 #include "core/spectrum/cross_power.h"
+#include "core/support/counted.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::study {
@@ -75,9 +76,6 @@ void cut(const Replicate& whole, Places& places, std::size_t channel,
   keep_until(whole.channels[channel].count);
   for (std::size_t i = 1; i < parts.size(); ++i)
     parts[i].name = fmt::format("{}#{}", whole.name, i + 1);
-  const auto counted = [](std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
   to.notes.push_back(fmt::format(
       "{}: {} repeats its value for {} in {}; the replicate is cut there, which leaves {}.",
       whole.name, whole.channels[channel].name, counted(lost, "sample"),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/effects/parse_full_model.h"
+#include "core/support/counted.h"
 #include "study/batch/tasks.h"
 
 namespace imunoise::study {
@@ -25,8 +26,8 @@ Result<void> check_simulation(const v1::SimulationTask& task) {
   if (!fitted) return tl::unexpected(fitted.error());
   // Each replicate of each set has a random stream of its own, named by 32 bits.
   if (std::uint64_t{task.sets()} * task.replicates() > UINT32_MAX)
-    return fail(fmt::format("{} sets of {} replicates: at most 2^32 replicates in all", task.sets(),
-                            task.replicates()));
+    return fail(fmt::format("{} of {}: at most 2^32 replicates in all", counted(task.sets(), "set"),
+                            counted(task.replicates(), "replicate")));
   return {};
 }
 

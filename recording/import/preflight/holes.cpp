@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/support/counted.h"
+
 namespace imunoise::recording {
 
 bool missing(const Column& column, std::size_t row) {
@@ -19,9 +21,8 @@ bool repeats(const Column& column, std::size_t row) {
 
 std::string Hole::said() const {
   const bool several = names.size() > 1;
-  return fmt::format("channel{} {} {} {} value{}{}", several ? "s" : "", fmt::join(names, ", "),
-                     several ? "miss" : "misses", count, count == 1 ? "" : "s",
-                     several ? " each" : "");
+  return fmt::format("{} {} {} {}{}", plural(names.size(), "channel"), fmt::join(names, ", "),
+                     several ? "miss" : "misses", counted(count, "value"), several ? " each" : "");
 }
 
 std::vector<Hole> holes_in(std::span<const Column> columns) {

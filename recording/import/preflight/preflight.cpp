@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "recording/import/preflight/cuts.h"
 #include "recording/import/preflight/dropped_rows.h"
 #include "recording/import/preflight/frozen.h"
@@ -95,11 +96,10 @@ class Judge {
     if (rows_ == 0) return refuse("holds no rows of numbers");
     if (options_.from || options_.until || !options_.exclude.empty())
       return refuse(fmt::format(
-          "--from, --until and --exclude leave {} of {} samples{}: a replicate needs at least {}",
-          samples, rows_, where, kMinimumSamples));
-    return refuse(
-        fmt::format("{} samples{} are too few: a replicate needs at least {}; record longer",
-                    samples, where, kMinimumSamples));
+          "--from, --until and --exclude leave {} of {}{}: a replicate needs at least {}", samples,
+          counted(rows_, "sample"), where, kMinimumSamples));
+    return refuse(fmt::format("{}{}: too few, a replicate needs at least {}; record longer",
+                              counted(samples, "sample"), where, kMinimumSamples));
   }
 
   std::string row(std::size_t i) const { return table_.row(dropped_.counted(i)); }
@@ -360,9 +360,8 @@ class Judge {
     if (out_.stretches.empty())
       return too_few(left.longest, left.all > 1 ? " in the longest stretch" : "");
     if (short_ones > 0)
-      find(Severity::kLeftOut,
-           fmt::format("{} stretch{} shorter than a tenth of the longest: left out", short_ones,
-                       short_ones == 1 ? "" : "es"));
+      find(Severity::kLeftOut, fmt::format("{} shorter than a tenth of the longest: left out",
+                                           counted(short_ones, "stretch")));
     return {};
   }
 

@@ -49,10 +49,10 @@ std::vector<std::size_t> axes_beside(const std::vector<std::size_t>& chosen,
     return of_inertia(role.quantity) && same && role.axis != ' ' ? common_name(role)
                                                                  : std::string();
   };
-  const auto axis = std::find_if(chosen.begin(), chosen.end(),
-                                 [&](std::size_t i) { return !axis_of(i).empty(); });
-  if (axis == chosen.end()) return {};
-  const std::size_t first = *axis;
+  const auto on_axis = std::find_if(chosen.begin(), chosen.end(),
+                                    [&](std::size_t i) { return !axis_of(i).empty(); });
+  if (on_axis == chosen.end()) return {};
+  const std::size_t first = *on_axis;
   sensor = role_of(offers[first].name).sensor;
   const auto distance = [&](std::size_t i) { return i > first ? i - first : first - i; };
   std::map<std::string, std::size_t> nearest;

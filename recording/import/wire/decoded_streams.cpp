@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/support/counted.h"
+
 namespace imunoise::recording {
 namespace {
 
@@ -113,10 +115,9 @@ class DecodedFile {
     std::erase_if(streams, [](const TimedStream& one) { return one.columns.empty(); });
     auto table = join_streams(file_.name(), std::move(streams), "time of the samples", options_);
     if (!table) return table;
-    table->notes.push_back(
-        fmt::format("{} samples, {} lost by the device's counter, {} other "
-                    "messages",
-                    tally.samples, tally.lost, tally.other_messages));
+    table->notes.push_back(fmt::format("{}, {} lost by the device's counter, {}",
+                                       counted(tally.samples, "sample"), tally.lost,
+                                       counted(tally.other_messages, "other message")));
     for (std::size_t i = 0; i < drivers::kRefusals; ++i) {
       const auto reason = static_cast<drivers::Refusal>(i);
       if (tally.refused.count(reason) == 0) continue;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "core/support/counted.h"
 #include "recording/hdf5/attributes.h"
 #include "recording/hdf5/dataset.h"
 #include "recording/hdf5/memory_file.h"
@@ -95,8 +96,8 @@ Result<std::vector<Number>> read_numbers(hid_t group, const std::string& name, s
   const Result<OpenDataset> dataset = open_dataset(group, name);
   if (!dataset) return tl::make_unexpected(dataset.error());
   if (dataset->size != rows) {
-    return fail(fmt::format("dataset {}: has {} samples where {} has {}", name, dataset->size,
-                            kHostTime, rows));
+    return fail(fmt::format("dataset {}: has {} where {} has {}", name,
+                            counted(dataset->size, "sample"), kHostTime, rows));
   }
   std::vector<Number> out(rows);
   if (!read_dataset(*dataset, hdf5_types<Number>().memory, out.data())) {

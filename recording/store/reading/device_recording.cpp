@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "core/support/parallel.h"
 #include "recording/store/format/layout.h"
 #include "recording/store/journal/journal_reader.h"
@@ -140,12 +141,11 @@ class DeviceReader {
     }
     std::string damaged;
     if (!segment->damage.empty()) {
-      damaged = fmt::format(", {} stretches of it are damaged", segment->damage.size());
+      damaged = fmt::format(", damaged in {}", counted(segment->damage.size(), "place"));
     }
     out_.defects.push_back(
-        fmt::format("{}: {} samples are not in a chunk yet{} (imunoise verify --repair puts them "
-                    "there)",
-                    name, rows, damaged));
+        fmt::format("{}: {} not in a chunk yet{} (imunoise verify --repair makes one)", name,
+                    counted(rows, "sample"), damaged));
     return {};
   }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "core/support/counted.h"
+
 namespace imunoise::recording {
 namespace {
 
@@ -35,7 +37,7 @@ Result<void> check_written(const v1::RecordedDevice& device, const RecorderState
   for (const StreamCounts& counts : state.counts[index]) rows += not_written(counts);
   if (rows == 0) return {};
   const std::optional<DiskTrouble>& trouble = state.disks[index].trouble;
-  return fail(fmt::format("device {}: {} samples were not written: {}", device.name(), rows,
+  return fail(fmt::format("device {}: {} not written: {}", device.name(), counted(rows, "sample"),
                           trouble ? trouble->error.message : "the disk failed at the end"));
 }
 

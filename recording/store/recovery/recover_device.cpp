@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/support/counted.h"
 #include "recording/store/format/layout.h"
 #include "recording/store/recovery/recover.h"
 #include "recording/store/recovery/seal.h"
@@ -83,8 +84,9 @@ class DeviceRecovery {
     if (!sealed) return tl::make_unexpected(sealed.error());
     if (sealed->damage) record(damaged_segment(where_, number, *sealed));
     if (!sealed->entry) return {};
-    out_.repaired.push_back(fmt::format("{}: its {} samples are in chunk {} now", where_.file(name),
-                                        sealed->entry->samples(), sealed->entry->file()));
+    out_.repaired.push_back(fmt::format("{}: in chunk {} now, {}", where_.file(name),
+                                        sealed->entry->file(),
+                                        counted(sealed->entry->samples(), "sample")));
     add(number, std::move(*sealed->entry), *sealed->chunk);
     return {};
   }
@@ -165,7 +167,7 @@ class DeviceRecovery {
   void record_missing(std::uint64_t number, const v1::ChunkEntry& chunk) {
     if (chunks_.contains(number) || on_record(chunk.file(), "")) return;
     const std::string why =
-        fmt::format("{}: is missing, with {} samples", chunk.file(), chunk.samples());
+        fmt::format("{}: is missing, with {}", chunk.file(), counted(chunk.samples(), "sample"));
     if (how_ == Recovery::kEverything)
       return record(damaged_file(numbered(number, kChunkSuffix), "", why));
     chunks_[number] = chunk;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "core/support/counted.h"
 #include "study/words/number.h"
 
 namespace imunoise::study {
@@ -129,8 +130,8 @@ void add_stretches(v1::DiagnosisReport& to, double side) {
   if (worst == nullptr) return;
   std::string others;
   if (stretches > 1)
-    others = fmt::format(" The same holds in {} stretches of {} replicate{}; this is the worst.",
-                         stretches, replicates.size(), replicates.size() == 1 ? "" : "s");
+    others = fmt::format(" The same holds in {} of {}; this is the worst.",
+                         counted(stretches, "stretch"), counted(replicates.size(), "replicate"));
   v1::Misfit& misfit =
       add(to, "time", worst->sigma(),
           fmt::format("{}: from {:.0f} to {:.0f} s the noise has {} variance than in the rest "

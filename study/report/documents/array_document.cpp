@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
@@ -101,9 +102,9 @@ Document document(const v1::ArrayReport& report, Digits digits) {
   Section section;
   section.title = joined(report.sensors());
   add_verdict(report, section);
-  section.facts = fmt::format("{} · {:g} Hz · {} sensors · {} replicates · {}", report.model(),
-                              report.rate_hz(), report.sensors_size(), report.replicates(),
-                              report.termination()) +
+  section.facts = fmt::format("{} · {:g} Hz · {} · {} · {}", report.model(), report.rate_hz(),
+                              counted(report.sensors_size(), "sensor"),
+                              counted(report.replicates(), "replicate"), report.termination()) +
                   estimator_fact(report.estimator());
   section.summary = report.summary();
   if (auto figure = gain_figure(report.virtual_sensor())) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/support/counted.h"
 #include "study/report/documents/batch_documents.h"
 
 namespace imunoise::report {
@@ -38,9 +39,10 @@ Section simulation_section(const v1::SimulationSummary& simulation, Digits digit
   const v1::SimulationTask& task = simulation.task();
   Section out;
   out.title = task.model();
-  out.facts = fmt::format("{} sets of {} replicates, {} samples each at {:g} Hz · seed {}",
-                          count(task.sets(), digits), task.replicates(),
-                          count(task.samples(), digits), task.rate_hz(), task.seed());
+  out.facts = fmt::format("{} {} of {}, {} {} each at {:g} Hz · seed {}",
+                          count(task.sets(), digits), plural(task.sets(), "set"),
+                          counted(task.replicates(), "replicate"), count(task.samples(), digits),
+                          plural(task.samples(), "sample"), task.rate_hz(), task.seed());
   out.summary =
       fmt::format("{} was fitted to each set; the goodness-of-fit test rejected {} of {} at 5 %.",
                   task.fit(), simulation.rejected(), simulation.tested());

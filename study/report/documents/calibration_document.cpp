@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "core/support/counted.h"
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/documents/diagnosis_words.h"
@@ -169,8 +170,8 @@ Table clocks_table(const v1::ArrayJoin& join, Digits digits) {
   for (const v1::JoinedStream& one : join.streams()) {
     out.rows.push_back({one.device(), fmt::format("{:g} Hz", one.rate_hz()),
                         duration(one.seconds()), number(one.clock_ppm(), 2, digits) + " ppm",
-                        one.averaged() == 1 ? "no" : fmt::format("{} samples", one.averaged()),
-                        fmt::format("{} samples", one.dropped())});
+                        one.averaged() == 1 ? "no" : counted(one.averaged(), "sample"),
+                        counted(one.dropped(), "sample")});
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/support/counted.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/deviation_figure.h"
 #include "study/report/view/budget_view.h"
@@ -28,8 +29,8 @@ Section section_of(const v1::DeviationReport& report, Digits digits) {
   const AllanUnit unit = allan_unit(report.unit());
   Section out;
   out.title = fmt::format("{}: {} deviation", channel_name(report.channel()), report.kind());
-  out.facts = fmt::format("overlapping · {:g} Hz · {} replicate{}", report.rate_hz(),
-                          report.replicates(), report.replicates() == 1 ? "" : "s");
+  out.facts = fmt::format("overlapping · {:g} Hz · {}", report.rate_hz(),
+                          counted(report.replicates(), "replicate"));
   out.summary = minimum_words(report, digits);
   out.panel = deviation_figure(report);
   Table table{

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/support/counted.h"
 #include "study/report/documents/diagnosis_words.h"
 #include "study/report/documents/effect_rows.h"
 #include "study/report/documents/inference_documents.h"
@@ -153,10 +154,10 @@ Table drift_table(const v1::DiagnosisReport& report, Digits digits) {
       {"model"},
       {}};
   for (const v1::IntegratedError& one : report.ladder(0).drift())
-    out.head.push_back(one.stretches() > 0 && one.stretches() < kFewStretches
-                           ? fmt::format("{:g} s (only {} stretch{})", one.seconds(),
-                                         one.stretches(), one.stretches() == 1 ? "" : "es")
-                           : fmt::format("{:g} s", one.seconds()));
+    out.head.push_back(
+        one.stretches() > 0 && one.stretches() < kFewStretches
+            ? fmt::format("{:g} s (only {})", one.seconds(), counted(one.stretches(), "stretch"))
+            : fmt::format("{:g} s", one.seconds()));
   for (const v1::Rung& rung : report.ladder()) {
     std::vector<std::string> row{name_of(rung)};
     for (const v1::IntegratedError& one : rung.drift()) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/support/counted.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/covariate_figure.h"
@@ -128,11 +129,10 @@ Section section(const v1::DynamicReport& report, Digits digits) {
               : follows ? "noise follows it"
                         : "no change seen";
   out.mood = misfit ? Mood::kBad : missed ? Mood::kDoubtful : Mood::kGood;
-  out.facts =
-      fmt::format("{} · {:g} Hz · {} recording{} · {} bins · {}", report.model(), report.rate_hz(),
-                  report.recordings(), report.recordings() == 1 ? "" : "s", report.bins_size(),
-                  report.termination()) +
-      estimator_fact(report.estimator());
+  out.facts = fmt::format("{} · {:g} Hz · {} · {} · {}", report.model(), report.rate_hz(),
+                          counted(report.recordings(), "recording"),
+                          counted(report.bins_size(), "bin"), report.termination()) +
+              estimator_fact(report.estimator());
   out.summary = report.summary();
   out.tables.push_back(trends(report, digits));
   for (const v1::DynamicQuantity& one : report.quantities()) {

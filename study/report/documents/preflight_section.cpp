@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/support/counted.h"
+
 namespace imunoise::report {
 namespace {
 
@@ -9,11 +11,10 @@ Section file_section(const v1::Preflight& file) {
   Section out;
   out.title = file.file();
   const int findings = file.findings_size();
-  out.badge = findings == 0 ? "no faults found"
-                            : fmt::format("{} finding{}", findings, findings == 1 ? "" : "s");
+  out.badge = findings == 0 ? "no faults found" : counted(findings, "finding");
   out.mood = findings == 0 ? Mood::kGood : Mood::kDoubtful;
-  out.facts = fmt::format("{} of {} samples used, in {} stretch{}", file.used(), file.samples(),
-                          file.stretches(), file.stretches() == 1 ? "" : "es");
+  out.facts = fmt::format("{} of {} used, in {}", file.used(), counted(file.samples(), "sample"),
+                          counted(file.stretches(), "stretch"));
   Table recognised{"Recognised", {"", ""}, {}};
   for (const std::string& one : file.recognised()) {
     const std::size_t colon = one.find(": ");

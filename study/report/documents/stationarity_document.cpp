@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/support/counted.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/interval_figure.h"
@@ -67,8 +68,8 @@ Section section(const v1::StationarityReport& report, Digits digits) {
              : differ      ? Mood::kDoubtful
              : both_tested ? Mood::kGood
                            : Mood::kNeutral;
-  out.facts = fmt::format("{} · {:g} Hz · {} replicates", report.model(), report.rate_hz(),
-                          report.replicates()) +
+  out.facts = fmt::format("{} · {:g} Hz · {}", report.model(), report.rate_hz(),
+                          counted(report.replicates(), "replicate")) +
               estimator_fact(report.estimator());
   if (report.bootstrap_sets() > 0) {
     out.facts +=

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/support/counted.h"
 #include "study/words/number.h"
 
 namespace imunoise::report {
@@ -41,9 +42,7 @@ std::string facts(const v1::FitReport& report) {
   fact(report.model());
   fact(report.quantity());
   if (report.rate_hz() > 0.0) fact(fmt::format("{:g} Hz", report.rate_hz()));
-  if (const int n = report.replicates_size(); n > 0) {
-    fact(fmt::format("{} replicate{}", n, n == 1 ? "" : "s"));
-  }
+  if (const int n = report.replicates_size(); n > 0) fact(counted(n, "replicate"));
   return out + estimator_fact(report.estimator());
 }
 

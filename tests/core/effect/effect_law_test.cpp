@@ -134,7 +134,7 @@ TEST_P(EveryEffect, HasColumnsWithNamesThatAreTransformsOfWhatItAdds) {
 
 INSTANTIATE_TEST_SUITE_P(Registered, EveryEffect,
                          testing::ValuesIn(known_effects().begin(), known_effects().end()),
-                         [](const auto& info) { return std::string(info.param->name); });
+                         [](const auto& one) { return std::string(one.param->name); });
 
 // One line an effect whose size is given, well above the noise of subject_of().
 const std::vector<std::string>& simulated_terms() {
@@ -205,8 +205,8 @@ TEST_P(SimulatedEffect, IsFoundAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, SimulatedEffect, testing::ValuesIn(simulated_terms()),
-                         [](const auto& info) {
-                           return info.param.substr(0, info.param.find('('));
+                         [](const auto& one) {
+                           return one.param.substr(0, one.param.find('('));
                          });
 
 TEST(Effects, ASimulationSaysWhatItLacks) {

@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/known_effects.h"
+#include "core/regression/current.h"
 #include "tests/core/diagnosis/subject_of.h"
 
 namespace imunoise {

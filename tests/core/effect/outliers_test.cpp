@@ -7,6 +7,7 @@
 
 #include "core/effects/distributions/contamination.h"
 #include "core/effects/known_effects.h"
+#include "core/regression/current.h"
 #include "core/support/distributions.h"
 #include "core/support/random.h"
 #include "tests/core/diagnosis/subject_of.h"

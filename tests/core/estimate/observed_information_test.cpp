@@ -96,14 +96,14 @@ TEST(FisherScoring, FollowsABentValley) {
     ++asked;
     return 0.5 * residuals(at).squaredNorm();
   };
-  valley.curvature = [&](const Eigen::VectorXd& at, Asked asked) {
+  valley.curvature = [&](const Eigen::VectorXd& at, Asked how) {
     const Eigen::Vector2d r = residuals(at);
     const Eigen::MatrixXd slopes =
         (Eigen::MatrixXd(2, 2) << -20.0 * at(0), 10.0, -1.0, 0.0).finished();
     Curvature out;
     out.information = slopes.transpose() * slopes;
     out.score = -slopes.transpose() * r;
-    if (asked == Asked::kObserved) out.correction = two(-20.0 * r(0), 0.0, 0.0);
+    if (how == Asked::kObserved) out.correction = two(-20.0 * r(0), 0.0, 0.0);
     return out;
   };
   const Scored found = fisher_scoring(valley, Eigen::Vector2d(-1.2, 1.0));
@@ -125,11 +125,11 @@ TEST(FisherScoring, BelievesTheObservedCurvature) {
     ++asked;
     return kTimes * (std::cosh(at(0)) - 1.0);
   };
-  sharp.curvature = [&](const Eigen::VectorXd& at, Asked asked) {
+  sharp.curvature = [&](const Eigen::VectorXd& at, Asked how) {
     Curvature out;
     out.information = Eigen::MatrixXd::Ones(1, 1);
     out.score = Eigen::VectorXd::Constant(1, -kTimes * std::sinh(at(0)));
-    if (asked == Asked::kObserved)
+    if (how == Asked::kObserved)
       out.correction = Eigen::MatrixXd::Constant(1, 1, kTimes * std::cosh(at(0)) - 1.0);
     return out;
   };

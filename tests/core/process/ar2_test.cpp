@@ -67,7 +67,7 @@ TEST(Ar2, WaveletVarianceInHighPrecision) {
 }
 
 TEST(Ar2, ContainsAr1AndTheResonance) {
-  const Eigen::ArrayXd m = (Eigen::ArrayXd(4) << 1, 5, 64, 1000).finished();
+  const Eigen::ArrayXd m{{1.0, 5.0, 64.0, 1000.0}};
   const Eigen::ArrayXd f = Eigen::ArrayXd::LinSpaced(50, 0.001, 0.5);
   const Resonance ringing{2.0, 0.97, 0.4};
   Ar2 same = of_roots(std::polar(0.97, 0.4), std::polar(0.97, -0.4));
@@ -88,7 +88,7 @@ TEST(Ar2, ContainsAr1AndTheResonance) {
 
 // Roots of one sign are a difference of two AR1, roots of opposite sign a sum of two.
 TEST(Ar2, IsASumOfTwoAr1OnlyWhereItsRootsHaveOppositeSigns) {
-  const Eigen::ArrayXd m = (Eigen::ArrayXd(4) << 1, 5, 64, 1000).finished();
+  const Eigen::ArrayXd m{{1.0, 5.0, 64.0, 1000.0}};
   for (const double other : {0.6, -0.6}) {
     const Ar2 process = of_roots(0.95, other);
     const auto part = [&](double z, double apart) {  // variance of the AR1's innovations

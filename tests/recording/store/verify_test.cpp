@@ -148,7 +148,7 @@ TEST_F(Verify, AJournalThatWasLeftBecomesAChunk) {
   v1::VerifyReport report = verify();
   EXPECT_FALSE(report.sound());
   EXPECT_EQ(report.streams(0).in_journal(), 30U);
-  expect_parts(defects(report), {"000013.journal: 30 samples are not in a chunk yet", "--repair"});
+  expect_parts(defects(report), {"000013.journal: 30 samples not in a chunk yet", "--repair"});
   report = verify(true);
   EXPECT_TRUE(report.sound()) << defects(report);
   EXPECT_EQ(report.streams(0).stored(), 390U);
