@@ -61,15 +61,22 @@ void Regression::extend_moments(std::size_t replicate) {
   for (Index b = 0; b < bands.size(); ++b) {
     const Index begin = bands.edges[static_cast<std::size_t>(b)];
     const Index width = bands.edges[static_cast<std::size_t>(b) + 1] - begin;
+    const auto segment = [&](Index i) {
+      return all[static_cast<std::size_t>(i)]->segment(begin, width);
+    };
+    const auto mean = [&](Index i, Index j) {
+      return segment(i).dot(segment(j)) / static_cast<double>(width);
+    };
     for (Index i = 0; i < size; ++i) {
-      for (Index j = 0; j <= i; ++j) {
+      if (pair_of(i, i) < known) continue;
+      // A column of one octave is nothing beyond it.
+      const double square = mean(i, i);
+      for (Index j = 0; j < i; ++j) {
         if (pair_of(i, j) < known) continue;
-        made.product(b, pair_of(i, j)) =
-            all[static_cast<std::size_t>(i)]
-                ->segment(begin, width)
-                .dot(all[static_cast<std::size_t>(j)]->segment(begin, width)) /
-            static_cast<double>(width);
+        const bool apart = square == 0.0 || made.product(b, pair_of(j, j)) == 0.0;
+        made.product(b, pair_of(i, j)) = apart ? 0.0 : mean(i, j);
       }
+      made.product(b, pair_of(i, i)) = square;
     }
   }
   made.bands.power = made.product.col(0);
@@ -106,7 +113,27 @@ Regression Regression::without(std::size_t effect) const {
   out.names_.erase(out.names_.begin() + first_[effect], out.names_.begin() + first_[effect + 1]);
   out.first_.erase(out.first_.begin() + place + 1);
   for (std::size_t e = effect + 1; e < out.first_.size(); ++e) out.first_[e] -= taken;
-  out.fill_moments();
+  if (taken == 0) return out;
+  for (auto& one : out.moments_)
+    one = std::make_shared<const Moments>(one->without(first_[effect], first_[effect + 1]));
+  return out;
+}
+
+Regression::Moments Regression::Moments::without(Index first, Index end) const {
+  Moments out{bands, {}, {}};
+  std::vector<Index> kept{0};  // numbers, of which the response is the first
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    if (places[c] >= first && places[c] < end) continue;
+    kept.push_back(static_cast<Index>(c) + 1);
+    out.places.push_back(places[c] < first ? places[c] : places[c] - (end - first));
+  }
+  const auto size = static_cast<Index>(kept.size());
+  out.product.resize(product.rows(), pair_of(size, 0));
+  for (Index i = 0; i < size; ++i) {
+    for (Index j = 0; j <= i; ++j)
+      out.product.col(pair_of(i, j)) = product.col(
+          pair_of(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]));
+  }
   return out;
 }
 
@@ -220,19 +247,40 @@ std::vector<BandedPower> Regression::residual(const EffectCoefficients& found,
 Eigen::VectorXd Regression::residual_cosines(const Eigen::VectorXd& coefficients,
                                              std::size_t replicate) const {
   Eigen::VectorXd out = subject_->cosines[replicate];
-  for (std::size_t e = 0; e < columns_.size(); ++e) {
-    const Columns& columns = columns_[e]->replicates[replicate];
-    for (std::size_t i = 0; i < columns.places.size(); ++i)
-      out -= coefficients(first_[e] + columns.places[i]) * columns.cosines[i];
-  }
+  const std::vector<Index>& places = moments_[replicate]->places;
+  Eigen::VectorXd factors(static_cast<Index>(places.size()));
+  for (Index c = 0; c < factors.size(); ++c)
+    factors(c) = -coefficients(places[static_cast<std::size_t>(c)]);
+  add_columns(replicate, factors, out);
   return out;
+}
+
+void Regression::add_columns(std::size_t replicate, const Eigen::VectorXd& factors,
+                             Eigen::VectorXd& to) const {
+  std::vector<const SharedVector*> all;
+  for (const auto& effect : columns_) {
+    for (const SharedVector& one : effect->replicates[replicate].cosines) all.push_back(&one);
+  }
+  const Eigen::ArrayXXd& product = moments_[replicate]->product;
+  const Bands bands(to.size() + 1);
+  for (Index b = 0; b < bands.size(); ++b) {
+    const Index begin = bands.edges[static_cast<std::size_t>(b)];
+    const Index width = bands.edges[static_cast<std::size_t>(b) + 1] - begin;
+    for (Index c = 0; c < factors.size(); ++c) {
+      if (factors(c) == 0.0 || product(b, pair_of(c + 1, c + 1)) == 0.0) continue;
+      to.segment(begin, width) +=
+          factors(c) * all[static_cast<std::size_t>(c)]->segment(begin, width);
+    }
+  }
 }
 
 Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients,
                                              std::size_t replicate) const {
   Eigen::VectorXd out = subject_->samples[replicate];
   // Columns that are known by their transforms alone: their sum takes one transform back.
-  Eigen::VectorXd cosines(0);
+  Eigen::VectorXd factors =
+      Eigen::VectorXd::Zero(static_cast<Index>(moments_[replicate]->places.size()));
+  Index at = 0;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Columns& columns = columns_[e]->replicates[replicate];
     Eigen::VectorXd own(static_cast<Index>(columns.places.size()));
@@ -240,13 +288,15 @@ Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients
       own(static_cast<Index>(i)) = -coefficients(first_[e] + columns.places[i]);
     if (effects_[e].effect->add != nullptr || !columns.samples.empty()) {
       add_effect(effects_[e], *subject_, replicate, columns, own, out);
-      continue;
+    } else {
+      factors.segment(at, own.size()) = own;
     }
-    if (own.size() > 0 && cosines.size() == 0) cosines = Eigen::VectorXd::Zero(out.size() - 1);
-    for (std::size_t i = 0; i < columns.places.size(); ++i)
-      cosines += own(static_cast<Index>(i)) * columns.cosines[i];
+    at += own.size();
   }
-  if (cosines.size() > 0) out += inverse_cosine_transform(cosines);
+  if ((factors.array() == 0.0).all()) return out;
+  Eigen::VectorXd cosines = Eigen::VectorXd::Zero(out.size() - 1);
+  add_columns(replicate, factors, cosines);
+  out += inverse_cosine_transform(cosines);
   return out;
 }
 

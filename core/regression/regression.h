@@ -74,6 +74,8 @@ class Regression {
     // Σ over pairs of what a symmetric matrix (columns)² says of them, a band each; less the
     // response.
     Eigen::ArrayXd of_columns(const Eigen::MatrixXd& symmetric) const;
+    // Less the columns of the coefficients from `first` to before `end`.
+    Moments without(Eigen::Index first, Eigen::Index end) const;
   };
 
   std::shared_ptr<const Subject> subject_;
@@ -97,6 +99,10 @@ class Regression {
   void fill_moments();
   // Of what there are already, all but products with further columns.
   void extend_moments(std::size_t replicate);
+  // Adds the columns of a replicate, times a factor each, band by band: where a column is nothing
+  // it costs nothing.
+  void add_columns(std::size_t replicate, const Eigen::VectorXd& factors,
+                   Eigen::VectorXd& to) const;
   // Normal equations of all coefficients.
   struct Normal {
     Eigen::MatrixXd gram;
