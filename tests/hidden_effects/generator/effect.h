@@ -25,6 +25,8 @@ struct Injection {
   /// Nats by which the true spectra exceed, on these very data, the nearest of the base's noises;
   /// absent where the effect does not change spectra.
   std::optional<double> gained{};
+  /// Nats that it costs an observer not to be told what each replicate has of its own (phases).
+  double untold = 0.0;
 };
 
 /// What is asked of the tool.

@@ -308,6 +308,35 @@ TEST(Strength, OfOutliersIsTheMeanRatioOfASample) {
   EXPECT_NEAR(outlier_divergence(kShare, kFactor), mean, 5.0 * error);
 }
 
+// The likelihood ratio summed over phases one by one.
+TEST(Strength, OfAWaveFallsByWhatItsPhaseCosts) {
+  constexpr int kPhases = 64;
+  constexpr int kSets = 20000;
+  for (const double delta : {0.5, 2.0, 6.0}) {
+    RandomStream random(20261127);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int i = 0; i < kSets; ++i) {
+      const double x = delta + random.normal();
+      const double y = random.normal();
+      double untold = 0.0;
+      for (int p = 0; p < kPhases; ++p) {
+        const double phase = 2.0 * std::numbers::pi * p / kPhases;
+        untold += std::exp(delta * (x * std::cos(phase) + y * std::sin(phase))) / kPhases;
+      }
+      const double price = delta * x - std::log(untold);
+      sum += price;
+      squares += price * price;
+    }
+    const double mean = sum / kSets;
+    const double error = std::sqrt((squares / kSets - mean * mean) / kSets);
+    EXPECT_NEAR(phase_price(delta), mean, 4.0 * error) << delta;
+  }
+  constexpr double kLarge = 40.0;
+  EXPECT_NEAR(phase_price(kLarge), 0.5 * std::log(2.0 * std::numbers::pi * kLarge * kLarge) - 0.5,
+              1e-3);
+}
+
 // KL of Student's t of 4 degrees of freedom and unit variance from the normal law: the difference
 // of their entropies, ½ ln(2πe) - (5/2)(ψ(5/2) - ψ(2)) - ln(√2·B(2, ½)); ψ(5/2) = 8/3 - γ - 2 ln 2,
 // ψ(2) = 1 - γ, B(2, ½) = 4/3.

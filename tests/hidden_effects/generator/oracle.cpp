@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "tests/hidden_effects/generator/cosine.h"
@@ -98,6 +99,30 @@ double mixture_divergence(const Series& weights, const Series& variances) {
 
 double outlier_divergence(double share, double factor) {
   return mixture_divergence({1.0 - share, share}, {1.0, 1.0 + factor * factor});
+}
+
+namespace {
+
+// The logarithm of Bessel's I₀ (Abramowitz & Stegun 9.7.1 where it is large).
+double log_bessel(double x) {
+  constexpr double kLarge = 50.0;
+  if (x < kLarge) return std::log(std::cyl_bessel_i(0.0, x));
+  return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + std::log1p(1.0 / (8.0 * x));
+}
+
+}  // namespace
+
+// Of a wave in noise of variance 1, the observer sees the modulus r, which has Rice's distribution,
+// and the ratio is I₀(δr)·exp(-δ²/2).
+double phase_price(double delta) {
+  constexpr double kStep = 0.01;
+  constexpr double kFar = 9.0;
+  double mean = 0.0;
+  for (double r = std::max(0.0, delta - kFar) + 0.5 * kStep; r < delta + kFar; r += kStep) {
+    const double bessel = log_bessel(delta * r);
+    mean += kStep * r * std::exp(bessel - 0.5 * (r * r + delta * delta)) * bessel;
+  }
+  return delta * delta - mean;
 }
 
 double swing_strength(const Series& after) {

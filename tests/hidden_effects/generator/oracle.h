@@ -46,6 +46,11 @@ double mixture_divergence(const Series& weights, const Series& variances);
 /// normal sample of the same variance; nats.
 double outlier_divergence(double share, double factor);
 
+/// What it costs an observer of a wave not to be told its phase, which may be any: how far the
+/// mean of the log-likelihood ratio, summed over phases, stays behind δ²/2, nats. For a wave that
+/// stands out it grows as ½ ln(2πδ²) - ½.
+double phase_price(double delta);
+
 /// δ of `count` independent repetitions.
 double strength(double divergence, double count);
 

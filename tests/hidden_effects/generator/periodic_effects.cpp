@@ -5,6 +5,7 @@
 
 #include "tests/hidden_effects/generator/apply.h"
 #include "tests/hidden_effects/generator/draw.h"
+#include "tests/hidden_effects/generator/oracle.h"
 
 namespace imunoise::hidden {
 namespace {
@@ -36,21 +37,27 @@ double draw_frequency(Scene& scene, double low, double high) {
 Injection hide_lines(Scene& scene, double delta, double frequency,
                      const std::vector<double>& amplitudes) {
   std::vector<Series> shapes;
+  std::vector<double> strengths;  // of each wave
   for (std::size_t r = 0; r < scene.replicates(); ++r) {
     Series shape(scene.samples(), 0.0);
     for (std::size_t order = 1; order <= amplitudes.size(); ++order) {
       const double phase = uniform(scene.random, 0.0, 2.0 * std::numbers::pi);
       const double omega =
           2.0 * std::numbers::pi * frequency * static_cast<double>(order) / scene.rate_hz;
-      for (std::size_t t = 0; t < shape.size(); ++t) {
-        shape[t] += amplitudes[order - 1] * std::sin(omega * static_cast<double>(t) + phase);
+      Series wave(scene.samples());
+      for (std::size_t t = 0; t < wave.size(); ++t) {
+        wave[t] = amplitudes[order - 1] * std::sin(omega * static_cast<double>(t) + phase);
+        shape[t] += wave[t];
       }
+      strengths.push_back(mean_strength({wave}, scene.spectrum));
     }
     shapes.push_back(std::move(shape));
   }
   const double amplitude = add_shapes(scene, shapes, delta);
-  return of_mean(delta, {{"frequency_hz", folded(frequency, scene.rate_hz), "Hz"},
-                         {"amplitude", amplitude, "rad/s"}});
+  Injection out = of_mean(delta, {{"frequency_hz", folded(frequency, scene.rate_hz), "Hz"},
+                                  {"amplitude", amplitude, "rad/s"}});
+  for (const double one : strengths) out.untold += phase_price(amplitude * one);
+  return out;
 }
 
 Injection hide_line(Scene& scene, double delta) {

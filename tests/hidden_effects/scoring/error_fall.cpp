@@ -69,7 +69,7 @@ std::optional<double> oracle_gain(const Outcome& outcome, const HiddenCase& made
   if (!clean) return std::nullopt;
   const double price = effect.id == "telegraph" ? price_of_courses(made)
                                                 : 0.5 * put.informed * put.informed - expected;
-  return nats_of(*clean) - before - price;
+  return nats_of(*clean) - before - price - put.untold;
 }
 
 // Of the tool's candidates, the first that has a right name.

@@ -38,7 +38,8 @@ struct ErrorFall {
 
 /// Adds the true effect of a diagnosed case, as the diagnosis offers it, and then wrong ones. The
 /// oracle's fall: of an effect that shifts the mean, what the base's model gains on the same noise
-/// without it (less what it costs not to know when noise jumps, see two_level_oracle.h); of an
+/// without it (less what it costs not to know when noise jumps, see two_level_oracle.h, or the
+/// phases of waves, see phase_price()); of an
 /// effect that changes spectra, what its generator says (Injection::gained); else its expectation,
 /// δ²/2, which a set of data misses by δ (standard deviation). Absent where nothing can be held
 /// out.
