@@ -16,8 +16,10 @@ endif()
 if(CMAKE_UNITY_BUILD)
   # All sources of a room at once: half the time of eight by eight, most of which is headers and templates.
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
-  # Joined sources see each other's names; each by itself is held to these warnings.
-  target_compile_options(imunoise_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # Joined sources see each other's names; each by itself is held to these warnings. Locals that hide locals are
+  # hidden everywhere.
+  target_compile_options(imunoise_flags INTERFACE
+    -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local -Wno-subobject-linkage>)
   if(IMUNOISE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC follows values through code that sanitizers added, and warns of what is not there; the dev build judges.
     target_compile_options(imunoise_flags INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized

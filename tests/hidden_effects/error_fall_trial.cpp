@@ -14,10 +14,11 @@ namespace imunoise::hidden {
 namespace {
 
 void print(const std::string& name, const FallScore& score) {
-  std::printf("| %-24s | %-15s | %4.0f %% | %-15s | %-15s | %-15s | %-15s |\n", name.c_str(),
-              to_string(score.enough).c_str(), 100.0 * median(score.shares).value_or(0.0),
-              to_string(score.at_floor).c_str(), to_string(score.as_clean).c_str(),
-              to_string(score.risen).c_str(), to_string(score.wrong).c_str());
+  std::printf("| %-24s | %-15s | %-15s | %4.0f %% | %-15s | %-15s | %-15s | %-15s |\n",
+              name.c_str(), to_string(score.enough).c_str(), to_string(score.found).c_str(),
+              100.0 * median(score.shares).value_or(0.0), to_string(score.at_floor).c_str(),
+              to_string(score.as_clean).c_str(), to_string(score.risen).c_str(),
+              to_string(score.wrong).c_str());
   std::fflush(stdout);
 }
 
@@ -26,8 +27,9 @@ TEST(ErrorFallTrial, EveryEffectOfTheCatalogue) {
   FallScore all;
   std::string worth_a_look;
   std::printf(
-      "| effect | falls by 80 %% of the oracle's fall | median | failing view at its floor | "
-      "or as without the effect | another view rose | wrong terms beyond chance |\n");
+      "| effect | falls by 80 %% of the oracle's fall | where that is 20 nats | median | "
+      "failing view at its floor | or as without the effect | another view rose | "
+      "wrong terms beyond chance |\n");
   for (const HiddenEffect& effect : hidden_effects()) {
     if (effect.kind != Kind::kCatalogue || !plan.wants(effect.name())) continue;
     std::vector<CaseSpec> specs;

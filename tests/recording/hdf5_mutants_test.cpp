@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                               }
                             },
                             "it exceeded its computing time"}),
-    [](const auto& info) { return info.param.what; });
+    [](const auto& one) { return one.param.what; });
 
 // The parent stops waiting, and the child is gone with the object.
 TEST(LimitedChild, IsStopped) {

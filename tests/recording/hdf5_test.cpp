@@ -203,6 +203,46 @@ TEST_F(Hdf5, DatasetsOfTheWrongKind) {
                {"a.h5: dataset x", "units must be a string"});
 }
 
+// A title, parameters, a covariance a sample and the rate beside channels of one dimension, and
+// beside channels in a matrix of one column.
+TEST_F(Hdf5, WhatIsNoChannelIsLeftOut) {
+  const auto beside = [](Hdf5File& f, bool with_title) {
+    f.dataset("bias", std::vector<double>(3), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+    f.dataset("covariance", std::vector<double>(80), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {20, 2, 2});
+    f.dataset("rotation", std::vector<double>(9), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {3, 3});
+    const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
+    const Hdf5Handle fs(H5Dcreate2(f.id(), "fs", H5T_IEEE_F64LE, scalar.get(), H5P_DEFAULT,
+                                   H5P_DEFAULT, H5P_DEFAULT),
+                        H5Dclose);
+    const double rate = 250.0;
+    ASSERT_GE(H5Dwrite(fs.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &rate), 0);
+    if (!with_title) return;
+    const Hdf5Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
+    const Hdf5Handle title(H5Dcreate2(f.id(), "title", text.get(), scalar.get(), H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                           H5Dclose);
+    ASSERT_TRUE(title);
+  };
+  for (const bool matrix : {false, true}) {
+    {
+      Hdf5File file(path("a.h5"));
+      const std::vector<hsize_t> shape =
+          matrix ? std::vector<hsize_t>{20, 1} : std::vector<hsize_t>{20};
+      file.dataset("gyro_x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16, shape);
+      file.dataset("gyro_y", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16, shape);
+      beside(file, !matrix);
+    }
+    const auto got = import_one(path("a.h5"));
+    ASSERT_TRUE(got) << got.error().message << ", in a matrix: " << matrix;
+    ASSERT_EQ(got->front().channels.size(), 2U) << matrix;
+    EXPECT_EQ(got->front().channels[1].name, "gyro_y");
+    EXPECT_EQ(got->front().rate.value, 250.0);
+    ImportOptions options;
+    options.channels = {"covariance"};
+    expect_parts(error_of(path("a.h5"), options), {"covariance: has 3 dimensions"});
+  }
+}
+
 // Read in pieces of a million numbers, or of whole chunks.
 TEST_F(Hdf5, DatasetsOfSeveralPieces) {
   constexpr std::size_t kMany = 2'500'001;

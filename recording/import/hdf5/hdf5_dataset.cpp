@@ -28,6 +28,23 @@ hsize_t numbers_in_piece(hid_t dataset, int time, hsize_t count) {
 
 }  // namespace
 
+Hdf5Dataset::Form Hdf5Dataset::form(hid_t file, const std::string& name) {
+  Form out;
+  const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset) return out;
+  const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
+  if (!type || !space) return out;
+  const H5T_class_t kind = H5Tget_class(type.get());
+  out.numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
+  out.dimensions = H5Sget_simple_extent_ndims(space.get());
+  double number = 0.0;
+  if (out.numbers && H5Sget_simple_extent_type(space.get()) == H5S_SCALAR &&
+      H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) >= 0)
+    out.single = number;
+  return out;
+}
+
 Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
   Result<OpenDataset> opened = open_dataset(file, name, 2);
   if (!opened) return tl::make_unexpected(opened.error());

@@ -3,6 +3,7 @@
 // Numbers of one HDF5 dataset as columns.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,16 @@ class Hdf5Dataset {
  public:
   /// Error, without the file's name: what the dataset is instead.
   static Result<Hdf5Dataset> open(hid_t file, const std::string& name);
+
+  /// What a dataset is by its form, readable or not.
+  struct Form {
+    bool numbers = false;          ///< integers or floats
+    int dimensions = 0;            ///< 0: one number
+    std::optional<double> single;  ///< that number
+    bool may_be_channels() const { return numbers && (dimensions == 1 || dimensions == 2); }
+  };
+  /// Of a dataset that cannot be opened: nothing.
+  static Form form(hid_t file, const std::string& name);
 
   /// As the file has it: the second dimension runs faster.
   const Shape& shape() const { return shape_; }

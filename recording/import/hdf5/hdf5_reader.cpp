@@ -84,6 +84,9 @@ struct FoundDataset {
   Hdf5Column about;  // what its columns share
   Shape shape;
   double number = 0.0;  // of a single one
+  bool may_be_channels = true;
+
+  bool is_readable() const { return about.trouble.empty(); }
 };
 
 FoundDataset describe(hid_t file, const std::string& path) {
@@ -92,7 +95,10 @@ FoundDataset describe(hid_t file, const std::string& path) {
   out.about.dataset = path;
   const Result<Hdf5Dataset> dataset = Hdf5Dataset::open(file, path);
   if (!dataset) {
+    const Hdf5Dataset::Form form = Hdf5Dataset::form(file, path);
     out.about.trouble = dataset.error().message;
+    out.may_be_channels = form.may_be_channels();
+    out.number = form.single.value_or(0.0);
     return out;
   }
   out.shape = dataset->shape();
@@ -133,27 +139,30 @@ void add_columns(const FoundDataset& found, std::uint64_t length, Hdf5Facts& to)
   }
 }
 
-// Columns of all datasets. Beside matrices, what has another length is no channel.
+// Columns of all datasets. Beside matrices, what has another length is no channel; beside columns,
+// what has no form of one, or too few numbers. A damaged one may have been a channel.
 void learn_columns(hid_t file, Hdf5Facts& to) {
   std::vector<FoundDataset> all;
   std::vector<Shape> shapes;
   for (const std::string& path : dataset_paths(file)) {
     all.push_back(describe(file, path));
-    if (all.back().about.trouble.empty()) shapes.push_back(all.back().shape);
+    if (all.back().is_readable()) shapes.push_back(all.back().shape);
   }
   const bool matrices =
       std::any_of(shapes.begin(), shapes.end(), [](const Shape& one) { return one.columns > 1; });
+  const bool recorded = std::any_of(shapes.begin(), shapes.end(),
+                                    [](const Shape& one) { return one.may_be_recorded(); });
   for (const FoundDataset& one : all) {
-    const bool readable = one.about.trouble.empty();
     if (to.columns.size() > kMaximumColumns) break;
-    if (matrices && readable && !one.shape.is_single()) {
+    if (matrices && one.is_readable() && !one.shape.is_single()) {
       add_columns(one, common_length(shapes), to);
       continue;
     }
     Hdf5Column& column = to.columns.emplace_back(one.about);
     column.size = one.shape.rows;
-    column.by_default = !matrices;
-    const double rate = matrices && readable ? rate_called(column.name, one.number) : 0.0;
+    const bool may_be = one.is_readable() ? one.shape.may_be_recorded() : one.may_be_channels;
+    column.by_default = !matrices && (may_be || !recorded);
+    const double rate = rate_called(column.name, one.number);
     if (rate > 0.0 && to.rate && !*to.rate) {
       to.rate = std::optional(rate);
       to.rate_from = "its " + column.name;

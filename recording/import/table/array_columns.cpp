@@ -9,7 +9,6 @@
 #include <map>
 
 #include "recording/import/table/names.h"
-#include "recording/import/table/options.h"
 
 namespace imunoise::recording {
 
@@ -26,9 +25,11 @@ std::vector<std::string> column_names(std::string_view array, std::uint64_t colu
 }
 
 std::uint64_t common_length(const std::vector<Shape>& shapes) {
+  const bool recorded = std::any_of(shapes.begin(), shapes.end(),
+                                    [](const Shape& one) { return one.may_be_recorded(); });
   std::map<std::uint64_t, std::uint64_t> columns;
   for (const Shape& one : shapes) {
-    if (one.longer() > 1) columns[one.longer()] += one.shorter();
+    if (recorded ? one.may_be_recorded() : one.longer() > 1) columns[one.longer()] += one.shorter();
   }
   const auto most =
       std::max_element(columns.begin(), columns.end(),

@@ -50,6 +50,48 @@ TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
   }
 }
 
+// Taking an effect out of a regression leaves what was never made with it; columns that are nothing
+// at some frequencies are nothing there to the others.
+TEST(Regression, LessAnEffectIsNeverHavingHadIt) {
+  const auto subject = subject_of(
+      {.samples = 2000, .replicates = 2, .seed = 5, .temperature = [](std::size_t k, double s) {
+         return std::sin(0.7 * s) + 0.2 * std::cos(11.0 * s + static_cast<double>(k));
+       }});
+  const FullModel model = *parse_full_model(
+      "WN(sigma2=1) + RW(gamma2=1e-4) + ramp + line(f=3) + step(replicate=2, t=7) + "
+      "witness(temperature, to=9, octaves=3) + witness(temperature, derivative, own) + own_powers",
+      subject->rate);
+  const auto made_without = [&](std::size_t left_out) {
+    Regression out(subject);
+    for (std::size_t e = 0; e < model.effects.size(); ++e) {
+      if (e != left_out) out = out.with(model.effects[e]);
+    }
+    return out;
+  };
+  const Regression all = made_without(model.effects.size());
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const Regression less = all.without(e);
+    const Regression never = made_without(e);
+    const EffectCoefficients found = less.under(model.noise);
+    const EffectCoefficients expected = never.under(model.noise);
+    ASSERT_EQ(found.value.size(), expected.value.size()) << print(model.effects[e]);
+    EXPECT_EQ((found.value - expected.value).norm(), 0.0) << print(model.effects[e]);
+    EXPECT_EQ((found.covariance - expected.covariance).norm(), 0.0) << print(model.effects[e]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ((less.residual(found.value)[k].power - never.residual(found.value)[k].power)
+                    .matrix()
+                    .norm(),
+                0.0)
+          << print(model.effects[e]) << " in " << k;
+      // What is left has the power that the products say.
+      const double squares = less.residual_cosines(found.value, k).squaredNorm();
+      const BandedPower left = less.residual(found.value)[k];
+      EXPECT_NEAR((left.count * left.power).sum(), squares, 1e-9 * squares)
+          << print(model.effects[e]) << " in " << k;
+    }
+  }
+}
+
 // The beginnings of recordings are those of shorter recordings, with the same effects in them.
 TEST(Regression, BeginningsAreShorterRecordings) {
   constexpr std::size_t kShort = 400;

@@ -136,7 +136,9 @@ std::optional<ErrorFall> error_fall(const Outcome& outcome) {
   const auto look = looked(made.recordings, made.rate_hz);
   if (!look) return std::nullopt;
   const study::PreparedChannel& prepared = look->prepared;
-  ErrorFall out;
+  const auto oracle = oracle_gain(outcome, made, nats_of(before));
+  if (!oracle) return std::nullopt;
+  ErrorFall out{.oracle = *oracle};
   const v1::EffectCandidate* const added = true_candidate(outcome);
   if (added == nullptr) return out;
   std::optional<v1::Rung> after;
@@ -145,8 +147,7 @@ std::optional<ErrorFall> error_fall(const Outcome& outcome) {
   } else {
     after = judged(prepared, before.model() + " + " + added->term());
   }
-  const auto oracle = oracle_gain(outcome, made, nats_of(before));
-  if (!after || after->heldout_nats_size() == 0 || !oracle) return std::nullopt;
+  if (!after || after->heldout_nats_size() == 0) return std::nullopt;
   out.offered = true;
   out.share = (nats_of(*after) - nats_of(before)) / *oracle;
   compare_views(before, *after, out);
@@ -161,6 +162,7 @@ std::optional<ErrorFall> error_fall(const Outcome& outcome) {
 
 void FallScore::add(const ErrorFall& fall) {
   enough.add(fall.enough());
+  if (fall.can_be_found()) found.add(fall.enough());
   if (!fall.offered) return;
   shares.push_back(fall.share);
   if (!fall.failing.empty()) at_floor.add(fall.at_floor);
@@ -171,6 +173,7 @@ void FallScore::add(const ErrorFall& fall) {
 
 void FallScore::add(const FallScore& other) {
   enough.add(other.enough);
+  found.add(other.found);
   at_floor.add(other.at_floor);
   as_clean.add(other.as_clean);
   risen.add(other.risen);
@@ -179,9 +182,10 @@ void FallScore::add(const FallScore& other) {
 }
 
 std::string describe(const Outcome& outcome, const ErrorFall& fall) {
-  if (!fall.offered) return outcome.describe() + ": the true effect is not offered";
   char share[64];
-  std::snprintf(share, sizeof share, ": falls by %.0f %%", 100.0 * fall.share);
+  std::snprintf(share, sizeof share, ": falls by %.0f %% of %.0f nats", 100.0 * fall.share,
+                fall.oracle);
+  if (!fall.offered) return outcome.describe() + share + ": the true effect is not offered";
   std::string out = outcome.describe() + share;
   if (!fall.failing.empty())
     out += ", " + fall.failing +

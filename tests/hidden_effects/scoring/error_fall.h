@@ -26,7 +26,8 @@ struct WrongTerm {
 /// How the error fell in one case.
 struct ErrorFall {
   bool offered = false;   ///< the true effect is among the candidates
-  double share = 0.0;     ///< of the fall of `unexplained` that an oracle sees
+  double oracle = 0.0;    ///< held-out nats that an oracle gains
+  double share = 0.0;     ///< of that
   std::string failing{};  ///< the view that failed most before; empty: none did (p ≥ 1e-3)
   bool at_floor = false;  ///< that view lies within its 95 % limit after it,
   bool as_clean = false;  ///< or no further off than of the same noise without the effect
@@ -34,6 +35,9 @@ struct ErrorFall {
   std::vector<WrongTerm> wrong{};
 
   bool enough() const { return offered && share >= 0.8; }
+  /// Whether a search could find it. The oracle's gain g scatters by √(2g), and a search needs
+  /// ln(30/5 %) = 6.4 nats and about 4 for what it must fit: 95 % of sets have them from here on.
+  bool can_be_found() const { return oracle >= 20.0; }
 };
 
 /// Adds the true effect of a diagnosed case, as the diagnosis offers it, and then wrong ones. The
@@ -48,6 +52,7 @@ std::optional<ErrorFall> error_fall(const Outcome& outcome);
 /// The goals of one family.
 struct FallScore {
   Share enough;    ///< at least 80 % of the oracle's fall; goal 95 %
+  Share found;     ///< the same of those that can be found
   Share at_floor;  ///< of the views that failed; goal 90 %
   Share as_clean;  ///< these, or no further off than without the effect
   Share risen;     ///< another view rose; goal 0, a limit is passed once in 20 by chance
