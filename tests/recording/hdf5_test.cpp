@@ -1,5 +1,6 @@
 // HDF5 files as other programs write them, and those that must be refused.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -236,11 +237,49 @@ TEST_F(Hdf5, WhatIsNoChannelIsLeftOut) {
     ASSERT_TRUE(got) << got.error().message << ", in a matrix: " << matrix;
     ASSERT_EQ(got->front().channels.size(), 2U) << matrix;
     EXPECT_EQ(got->front().channels[1].name, "gyro_y");
+    expect_parts(fmt::format("{}", fmt::join(got->front().preflight->recognised, "; ")),
+                 {"bias, covariance, rotation", "left out"});
     EXPECT_EQ(got->front().rate.value, 250.0);
     ImportOptions options;
     options.channels = {"covariance"};
     expect_parts(error_of(path("a.h5"), options), {"covariance: has 3 dimensions"});
   }
+}
+
+// A structured array of numpy's: each of its numbers is a channel, or the time; texts are not.
+TEST_F(Hdf5, RecordsHaveAChannelForEachNumber) {
+  struct Row {
+    double time = 0.0;
+    std::int16_t gyro_x = 0;
+    char state[4] = "ok";
+    float gyro_y = 0.0F;
+  };
+  std::vector<Row> rows(20);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time = static_cast<double>(i) / 50.0;
+    rows[i].gyro_x = static_cast<std::int16_t>(i * i);
+    rows[i].gyro_y = 0.5F * static_cast<float>(i);
+  }
+  {
+    Hdf5File file(path("a.h5"));
+    const Hdf5Handle record(H5Tcreate(H5T_COMPOUND, sizeof(Row)), H5Tclose);
+    const Hdf5Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(text.get(), sizeof rows[0].state);
+    H5Tinsert(record.get(), "time", HOFFSET(Row, time), H5T_NATIVE_DOUBLE);
+    H5Tinsert(record.get(), "gyro_x", HOFFSET(Row, gyro_x), H5T_NATIVE_INT16);
+    H5Tinsert(record.get(), "state", HOFFSET(Row, state), text.get());
+    H5Tinsert(record.get(), "gyro_y", HOFFSET(Row, gyro_y), H5T_NATIVE_FLOAT);
+    file.dataset("imu", rows, record.get(), record.get());
+  }
+  const auto got = import_one(path("a.h5"));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_NEAR(got->front().rate.value, 50.0, 1e-9);
+  const auto& channels = got->front().channels;
+  ASSERT_EQ(channels.size(), 2U);
+  EXPECT_EQ(channels[0].name, "imu.gyro_x");
+  EXPECT_EQ(channels[1].name, "imu.gyro_y");
+  EXPECT_EQ(std::get<std::vector<std::int16_t>>(*channels[0].samples)[7], 49);
+  EXPECT_EQ(std::get<std::vector<double>>(*channels[1].samples)[7], 3.5);
 }
 
 // Read in pieces of a million numbers, or of whole chunks.

@@ -26,6 +26,32 @@ hsize_t numbers_in_piece(hid_t dataset, int time, hsize_t count) {
   return whole * std::max<hsize_t>(1, kMany / whole);
 }
 
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+// Of records.
+std::vector<std::string> numbers_in(hid_t type) {
+  std::vector<std::string> out;
+  const int count = H5Tget_nmembers(type);
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<unsigned>(i);
+    const Hdf5Handle member(H5Tget_member_type(type, at), H5Tclose);
+    char* const name = H5Tget_member_name(type, at);
+    if (name != nullptr && member && is_number(member.get())) out.emplace_back(name);
+    H5free_memory(name);
+  }
+  return out;
+}
+
+// One member of records, as memory has it.
+Hdf5Handle record_of(const std::string& member, hid_t number) {
+  Hdf5Handle out(H5Tcreate(H5T_COMPOUND, H5Tget_size(number)), H5Tclose);
+  if (out) H5Tinsert(out.get(), member.c_str(), 0, number);
+  return out;
+}
+
 }  // namespace
 
 Hdf5Dataset::Form Hdf5Dataset::form(hid_t file, const std::string& name) {
@@ -35,9 +61,10 @@ Hdf5Dataset::Form Hdf5Dataset::form(hid_t file, const std::string& name) {
   const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
   const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
   if (!type || !space) return out;
-  const H5T_class_t kind = H5Tget_class(type.get());
-  out.numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
+  out.numbers = is_number(type.get());
   out.dimensions = H5Sget_simple_extent_ndims(space.get());
+  if (H5Tget_class(type.get()) == H5T_COMPOUND && out.dimensions == 1)
+    out.members = numbers_in(type.get());
   double number = 0.0;
   if (out.numbers && H5Sget_simple_extent_type(space.get()) == H5S_SCALAR &&
       H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) >= 0)
@@ -45,9 +72,20 @@ Hdf5Dataset::Form Hdf5Dataset::form(hid_t file, const std::string& name) {
   return out;
 }
 
-Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
+Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name,
+                                      const std::string& member) {
   Result<OpenDataset> opened = open_dataset(file, name, 2);
   if (!opened) return tl::make_unexpected(opened.error());
+  if (!member.empty()) {
+    const Hdf5Handle type(H5Dget_type(opened->id.get()), H5Tclose);
+    const int at = type ? H5Tget_member_index(type.get(), member.c_str()) : -1;
+    const Hdf5Handle number(at < 0 ? -1 : H5Tget_member_type(type.get(), static_cast<unsigned>(at)),
+                            H5Tclose);
+    if (!number) return fail(fmt::format("dataset {}: has no {}", name, member));
+    opened->type_class = H5Tget_class(number.get());
+    opened->has_sign = opened->type_class == H5T_INTEGER && H5Tget_sign(number.get()) == H5T_SGN_2;
+    opened->width = H5Tget_size(number.get());
+  }
   if (opened->type_class != H5T_INTEGER && opened->type_class != H5T_FLOAT) {
     return fail(
         fmt::format("dataset {}: holds no numbers (integers or floats); convert it, or choose "
@@ -60,8 +98,8 @@ Result<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& name) {
   const Kind kind = counts && opened->width == 2   ? Kind::kInt16
                     : counts && opened->width == 4 ? Kind::kInt32
                                                    : Kind::kOther;
-  return Hdf5Dataset(name, std::move(opened->id), {opened->size / opened->columns, opened->columns},
-                     kind);
+  return Hdf5Dataset(name, member, std::move(opened->id),
+                     {opened->size / opened->columns, opened->columns}, kind);
 }
 
 template <class Number>
@@ -77,6 +115,8 @@ Result<void> Hdf5Dataset::each_piece(
   const hsize_t count = across ? shape_.columns : shape_.rows;
   const Hdf5Handle space(H5Dget_space(id()), H5Sclose);
   if (!space) return trouble();
+  const Hdf5Handle record = member_.empty() ? Hdf5Handle() : record_of(member_, memory_type);
+  const hid_t memory = record ? record.get() : memory_type;
   const bool plane = H5Sget_simple_extent_ndims(space.get()) == 2;
   const hsize_t most = numbers_in_piece(id(), across && plane ? 1 : 0, count);
   std::vector<Number> piece;
@@ -89,7 +129,7 @@ Result<void> Hdf5Dataset::each_piece(
     if (!room ||
         H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr, extent.data(),
                             nullptr) < 0 ||
-        H5Dread(id(), memory_type, room.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
+        H5Dread(id(), memory, room.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
       return trouble();
     if (!take(piece)) return {};
   }

@@ -18,14 +18,17 @@ namespace imunoise::recording {
 /// byte order), stored in the file itself, and not larger than the file can hold.
 class Hdf5Dataset {
  public:
-  /// Error, without the file's name: what the dataset is instead.
-  static Result<Hdf5Dataset> open(hid_t file, const std::string& name);
+  /// `member`: of records (structured arrays), which numbers; else empty. Error, without the file's
+  /// name: what the dataset is instead.
+  static Result<Hdf5Dataset> open(hid_t file, const std::string& name,
+                                  const std::string& member = "");
 
   /// What a dataset is by its form, readable or not.
   struct Form {
-    bool numbers = false;          ///< integers or floats
-    int dimensions = 0;            ///< 0: one number
-    std::optional<double> single;  ///< that number
+    bool numbers = false;              ///< integers or floats
+    int dimensions = 0;                ///< 0: one number
+    std::optional<double> single;      ///< that number
+    std::vector<std::string> members;  ///< of records in one dimension: those that are numbers
     bool may_be_channels() const { return numbers && (dimensions == 1 || dimensions == 2); }
   };
   /// Of a dataset that cannot be opened: nothing.
@@ -45,8 +48,12 @@ class Hdf5Dataset {
  private:
   enum class Kind { kInt16, kInt32, kOther };
 
-  Hdf5Dataset(std::string name, Hdf5Handle dataset, Shape shape, Kind kind)
-      : name_(std::move(name)), dataset_(std::move(dataset)), shape_(shape), kind_(kind) {}
+  Hdf5Dataset(std::string name, std::string member, Hdf5Handle dataset, Shape shape, Kind kind)
+      : name_(std::move(name)),
+        member_(std::move(member)),
+        dataset_(std::move(dataset)),
+        shape_(shape),
+        kind_(kind) {}
   // Numbers of a column, or a row, as they are stored; `take` is given a piece of them.
   template <class Number>
   Result<void> each_piece(hid_t memory_type, std::uint64_t column, bool across,
@@ -55,6 +62,7 @@ class Hdf5Dataset {
   Result<bool> misses(double fill, std::uint64_t column, bool across) const;
 
   std::string name_;
+  std::string member_;
   Hdf5Handle dataset_;
   Shape shape_;
   Kind kind_;

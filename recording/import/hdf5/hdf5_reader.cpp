@@ -89,11 +89,12 @@ struct FoundDataset {
   bool is_readable() const { return about.trouble.empty(); }
 };
 
-FoundDataset describe(hid_t file, const std::string& path) {
+FoundDataset describe(hid_t file, const std::string& path, const std::string& member = "") {
   FoundDataset out;
-  out.about.name = name_of_path(path);
+  out.about.name = name_of_path(path) + (member.empty() ? "" : "." + member);
   out.about.dataset = path;
-  const Result<Hdf5Dataset> dataset = Hdf5Dataset::open(file, path);
+  out.about.member = member;
+  const Result<Hdf5Dataset> dataset = Hdf5Dataset::open(file, path, member);
   if (!dataset) {
     const Hdf5Dataset::Form form = Hdf5Dataset::form(file, path);
     out.about.trouble = dataset.error().message;
@@ -145,8 +146,13 @@ void learn_columns(hid_t file, Hdf5Facts& to) {
   std::vector<FoundDataset> all;
   std::vector<Shape> shapes;
   for (const std::string& path : dataset_paths(file)) {
-    all.push_back(describe(file, path));
-    if (all.back().is_readable()) shapes.push_back(all.back().shape);
+    const std::vector<std::string> members = Hdf5Dataset::form(file, path).members;
+    if (members.empty()) all.push_back(describe(file, path));
+    for (const std::string& member : members) all.push_back(describe(file, path, member));
+    if (all.size() > kMaximumColumns) break;
+  }
+  for (const FoundDataset& one : all) {
+    if (one.is_readable()) shapes.push_back(one.shape);
   }
   const bool matrices =
       std::any_of(shapes.begin(), shapes.end(), [](const Shape& one) { return one.columns > 1; });
@@ -191,7 +197,7 @@ Result<std::unique_ptr<Hdf5Source>> Hdf5Source::open(const std::filesystem::path
 Result<void> Hdf5Source::read(std::size_t column, const std::function<bool(Samples piece)>& take) {
   const QuietHdf5 quiet;
   const Hdf5Column& wanted = facts_.columns.at(column);
-  const auto opened = Hdf5Dataset::open(file_.get(), wanted.dataset);
+  const auto opened = Hdf5Dataset::open(file_.get(), wanted.dataset, wanted.member);
   if (!opened) return tl::make_unexpected(opened.error());
   return opened->read(wanted.place, wanted.across, take);
 }

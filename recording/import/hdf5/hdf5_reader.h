@@ -24,6 +24,7 @@ using Hdf5Attribute = Result<std::optional<Value>>;
 struct Hdf5Column {
   std::string name;         ///< "gyro_x"
   std::string dataset;      ///< its path in the file
+  std::string member;       ///< of records: which of their numbers
   std::uint64_t place = 0;  ///< of the column in the dataset
   bool across = false;      ///< time is the dataset's second dimension
   bool by_default = true;   ///< false beside matrices: another length, or no numbers

@@ -1,6 +1,6 @@
 #include "recording/import/hdf5/hdf5_table.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -96,6 +96,21 @@ Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::siz
   return column;
 }
 
+// What a file has beside channels, and nobody asked for. Times and rates are of use.
+std::string left_out(const std::vector<Hdf5Column>& columns) {
+  constexpr std::size_t kMostNames = 8;
+  std::vector<std::string> names;
+  for (const Hdf5Column& one : columns) {
+    if (!one.by_default && !is_time(one) && !(rate_called(one.name, 1.0) > 0.0))
+      names.push_back(one.name);
+  }
+  if (names.empty()) return "";
+  const std::size_t more = names.size() - std::min(names.size(), kMostNames);
+  names.resize(names.size() - more);
+  return fmt::format("{}{}: no channel by form or length, left out", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 }  // namespace
 
 Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
@@ -119,6 +134,8 @@ Result<Table> read_hdf5_table(const std::string& name, Hdf5Reader& reader,
     if (!time) return tl::make_unexpected(time.error());
     table.time = std::move(*time);
   }
+  if (std::string left = left_out(facts.columns); !left.empty() && options.channels.empty())
+    table.notes.push_back(std::move(left));
   table.row = [](std::size_t i) { return fmt::format("sample {}", i); };
   for (std::size_t i = 0; i < wanted->size(); ++i) {
     if (progress.stopped()) return fail(fmt::format("{}: the import was stopped", name));

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "core/support/counted.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/view/coefficient_words.h"
 
@@ -90,8 +91,8 @@ Document document(const v1::RecordingList& list, Digits digits) {
   section.title = list.root();
   section.summary = list.recordings().empty()
                         ? "This folder has no recordings; imunoise record makes one."
-                        : fmt::format("{} recordings, {} of them calibrated.",
-                                      list.recordings_size(), calibrated);
+                        : fmt::format("{}, {} of them calibrated.",
+                                      counted(list.recordings_size(), "recording"), calibrated);
   section.tables = {std::move(table)};
   if (Table noise = noise_table(list, digits); !noise.rows.empty())
     section.tables.push_back(std::move(noise));
