@@ -162,8 +162,8 @@ ParsedCommand test_command(CLI::App& program) {
 }
 
 ParsedCommand select_command(CLI::App& program) {
-  CLI::App* const select =
-      program.add_subcommand("select", "Choose the simplest model that predicts held-out data best");
+  CLI::App* const select = program.add_subcommand(
+      "select", "Choose the simplest model that predicts held-out data best");
   select->footer(kSelectExamples);
   const auto raw = std::make_shared<RawAnalysis>();
   const auto models = std::make_shared<std::vector<std::string>>();

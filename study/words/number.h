@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/support/counted.h"
+
 namespace imunoise::report {
 
 enum class Digits {

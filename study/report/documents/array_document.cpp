@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/support/counted.h"
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/cross_figure.h"
 #include "study/report/figures/virtual_sensor_figures.h"
 #include "study/report/view/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

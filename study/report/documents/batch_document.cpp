@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "core/support/counted.h"
 #include "study/report/documents/batch_documents.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "core/support/counted.h"
 #include "study/report/documents/array_tables.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/documents/diagnosis_words.h"
@@ -11,6 +10,7 @@
 #include "study/report/view/bias_instability.h"
 #include "study/report/view/coefficient_words.h"
 #include "study/report/view/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "core/support/counted.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/deviation_figure.h"
 #include "study/report/view/budget_view.h"
 #include "study/report/view/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/support/counted.h"
 #include "study/report/documents/diagnosis_words.h"
 #include "study/report/documents/effect_rows.h"
 #include "study/report/documents/inference_documents.h"
@@ -14,6 +13,7 @@
 #include "study/report/figures/interval_figure.h"
 #include "study/report/view/coefficient_words.h"
 #include "study/report/view/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

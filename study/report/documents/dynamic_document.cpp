@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "core/support/counted.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/covariate_figure.h"
 #include "study/report/view/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/support/counted.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include "core/support/counted.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/interval_figure.h"
 #include "study/report/view/verdict.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

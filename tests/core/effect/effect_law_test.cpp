@@ -205,9 +205,7 @@ TEST_P(SimulatedEffect, IsFoundAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, SimulatedEffect, testing::ValuesIn(simulated_terms()),
-                         [](const auto& one) {
-                           return one.param.substr(0, one.param.find('('));
-                         });
+                         [](const auto& one) { return one.param.substr(0, one.param.find('(')); });
 
 TEST(Effects, ASimulationSaysWhatItLacks) {
   const auto message = [](const char* text) {
