@@ -16,8 +16,8 @@ endif()
 if(CMAKE_UNITY_BUILD)
   # All sources of a room at once: half the time of eight by eight, most of which is headers and templates.
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
-  # Joined sources see each other's names; each by itself is held to these warnings. Locals that hide locals are
-  # hidden everywhere.
+  # Joined sources see each other's names; each by itself is held to these warnings. A local that hides
+  # a local does so in joined sources, too.
   target_compile_options(imunoise_flags INTERFACE
     -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local -Wno-subobject-linkage>)
   if(IMUNOISE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

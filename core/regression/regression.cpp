@@ -121,7 +121,7 @@ Regression Regression::without(std::size_t effect) const {
 
 Regression::Moments Regression::Moments::without(Index first, Index end) const {
   Moments out{bands, {}, {}};
-  std::vector<Index> kept{0};  // numbers, of which the response is the first
+  std::vector<Index> kept{0};  // the response, then the columns that stay
   for (std::size_t c = 0; c < places.size(); ++c) {
     if (places[c] >= first && places[c] < end) continue;
     kept.push_back(static_cast<Index>(c) + 1);

@@ -246,6 +246,21 @@ TEST_F(Hdf5, WhatIsNoChannelIsLeftOut) {
   }
 }
 
+// What was not written to its end may have been a channel: it is told, not left out.
+TEST_F(Hdf5, ADamagedDatasetBesideChannelsIsAnError) {
+  {
+    Hdf5File file(path("a.h5"));
+    file.dataset("gyro_x", counts_, H5T_STD_I16LE, H5T_NATIVE_INT16);
+    const hsize_t size = 20;
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle x(H5Dcreate2(file.id(), "gyro_y", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
+    ASSERT_TRUE(x);
+  }
+  expect_parts(error_of(path("a.h5"), at_rate(1)), {"a.h5: dataset gyro_y: claims 20 samples"});
+}
+
 // A structured array of numpy's: each of its numbers is a channel, or the time; texts are not.
 TEST_F(Hdf5, RecordsHaveAChannelForEachNumber) {
   struct Row {

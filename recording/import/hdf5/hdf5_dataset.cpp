@@ -61,6 +61,7 @@ Hdf5Dataset::Form Hdf5Dataset::form(hid_t file, const std::string& name) {
   const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
   const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
   if (!type || !space) return out;
+  out.known = true;
   out.numbers = is_number(type.get());
   out.dimensions = H5Sget_simple_extent_ndims(space.get());
   if (H5Tget_class(type.get()) == H5T_COMPOUND && out.dimensions == 1)

@@ -25,13 +25,16 @@ class Hdf5Dataset {
 
   /// What a dataset is by its form, readable or not.
   struct Form {
+    bool known = false;                ///< false: it cannot be opened
     bool numbers = false;              ///< integers or floats
     int dimensions = 0;                ///< 0: one number
     std::optional<double> single;      ///< that number
     std::vector<std::string> members;  ///< of records in one dimension: those that are numbers
-    bool may_be_channels() const { return numbers && (dimensions == 1 || dimensions == 2); }
+    /// A damaged one may have been.
+    bool may_be_channels() const {
+      return !known || (numbers && (dimensions == 1 || dimensions == 2));
+    }
   };
-  /// Of a dataset that cannot be opened: nothing.
   static Form form(hid_t file, const std::string& name);
 
   /// As the file has it: the second dimension runs faster.

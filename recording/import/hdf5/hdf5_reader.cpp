@@ -156,12 +156,12 @@ void learn_columns(hid_t file, Hdf5Facts& to) {
   }
   const bool matrices =
       std::any_of(shapes.begin(), shapes.end(), [](const Shape& one) { return one.columns > 1; });
-  const bool recorded = std::any_of(shapes.begin(), shapes.end(),
-                                    [](const Shape& one) { return one.may_be_recorded(); });
+  const std::uint64_t length = common_length(shapes);
+  const bool recorded = length >= kMinimumSamples;
   for (const FoundDataset& one : all) {
     if (to.columns.size() > kMaximumColumns) break;
     if (matrices && one.is_readable() && !one.shape.is_single()) {
-      add_columns(one, common_length(shapes), to);
+      add_columns(one, length, to);
       continue;
     }
     Hdf5Column& column = to.columns.emplace_back(one.about);

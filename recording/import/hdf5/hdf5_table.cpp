@@ -96,7 +96,7 @@ Result<Column> read_column(const std::string& file, Hdf5Reader& reader, std::siz
   return column;
 }
 
-// What a file has beside channels, and nobody asked for. Times and rates are of use.
+// Names what a file has beside channels, times and rates.
 std::string left_out(const std::vector<Hdf5Column>& columns) {
   constexpr std::size_t kMostNames = 8;
   std::vector<std::string> names;
@@ -107,7 +107,7 @@ std::string left_out(const std::vector<Hdf5Column>& columns) {
   if (names.empty()) return "";
   const std::size_t more = names.size() - std::min(names.size(), kMostNames);
   names.resize(names.size() - more);
-  return fmt::format("{}{}: no channel by form or length, left out", fmt::join(names, ", "),
+  return fmt::format("{}{}: not the form or length of a channel: left out", fmt::join(names, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 

@@ -84,9 +84,9 @@ class DeviceRecovery {
     if (!sealed) return tl::make_unexpected(sealed.error());
     if (sealed->damage) record(damaged_segment(where_, number, *sealed));
     if (!sealed->entry) return {};
-    out_.repaired.push_back(fmt::format("{}: in chunk {} now, {}", where_.file(name),
-                                        sealed->entry->file(),
-                                        counted(sealed->entry->samples(), "sample")));
+    out_.repaired.push_back(fmt::format("{}: moved {} to chunk {}", where_.file(name),
+                                        counted(sealed->entry->samples(), "sample"),
+                                        sealed->entry->file()));
     add(number, std::move(*sealed->entry), *sealed->chunk);
     return {};
   }

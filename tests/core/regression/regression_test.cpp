@@ -24,12 +24,17 @@ TEST(Lag, AStepIsFollowedExponentially) {
     EXPECT_NEAR(y(t), 1.0 - std::exp(-static_cast<double>(t) / 7.0), 1e-12);
 }
 
-// Samples and transforms of what is left come on two ways.
-TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
-  const auto subject = subject_of(
-      {.samples = 1000, .replicates = 2, .seed = 3, .temperature = [](std::size_t k, double s) {
+// Two replicates beside a temperature that swings slowly and fast.
+std::shared_ptr<const Subject> with_waves_of_temperature(std::size_t samples) {
+  return subject_of(
+      {.samples = samples, .replicates = 2, .seed = 3, .temperature = [](std::size_t k, double s) {
          return std::sin(0.7 * s) + 0.2 * std::cos(11.0 * s + static_cast<double>(k));
        }});
+}
+
+// Samples and transforms of what is left come on two ways.
+TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
+  const auto subject = with_waves_of_temperature(1000);
   const FullModel model = *parse_full_model(
       "WN + ramp + warm_up(tau=3) + line(f=3, harmonics=2) + step(replicate=2, t=7) + "
       "witness(temperature) + witness(temperature, lag=2) + witness(temperature, quadratic) + "
@@ -53,10 +58,7 @@ TEST(Regression, WhatIsLeftIsTheSameInTimeAndInFrequency) {
 // Taking an effect out of a regression leaves what was never made with it; columns that are nothing
 // at some frequencies are nothing there to the others.
 TEST(Regression, LessAnEffectIsNeverHavingHadIt) {
-  const auto subject = subject_of(
-      {.samples = 2000, .replicates = 2, .seed = 5, .temperature = [](std::size_t k, double s) {
-         return std::sin(0.7 * s) + 0.2 * std::cos(11.0 * s + static_cast<double>(k));
-       }});
+  const auto subject = with_waves_of_temperature(2000);
   const FullModel model = *parse_full_model(
       "WN(sigma2=1) + RW(gamma2=1e-4) + ramp + line(f=3) + step(replicate=2, t=7) + "
       "witness(temperature, to=9, octaves=3) + witness(temperature, derivative, own) + own_powers",
