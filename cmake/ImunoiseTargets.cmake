@@ -20,12 +20,6 @@ if(CMAKE_UNITY_BUILD)
   # a local does so in joined sources, too.
   target_compile_options(imunoise_flags INTERFACE
     -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local -Wno-subobject-linkage>)
-  if(IMUNOISE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC follows values through code that sanitizers added, and warns of what is not there; the dev build judges.
-    target_compile_options(imunoise_flags INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized
-      -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-use-after-free
-      -Wno-free-nonheap-object -Wno-dangling-pointer -Wno-nonnull)
-  endif()
 endif()
 if(IMUNOISE_WERROR)
   target_compile_options(imunoise_flags INTERFACE -Werror)
@@ -35,6 +29,10 @@ if(IMUNOISE_SANITIZE)
     -fsanitize=${IMUNOISE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(imunoise_flags INTERFACE -fsanitize=${IMUNOISE_SANITIZE})
   target_compile_definitions(imunoise_flags INTERFACE IMUNOISE_SANITIZED)
+  # Sanitizers make compiling twice as slow, most of it optimisation. It pays where numbers are worked out, somewhat
+  # where a fuzzer runs, nowhere else.
+  target_compile_options(imunoise_flags INTERFACE
+    "$<IF:$<OR:$<BOOL:$<TARGET_PROPERTY:IMUNOISE_MATRICES>>,$<BOOL:$<TARGET_PROPERTY:IMUNOISE_PARSES>>>,-O2,-O0>")
 endif()
 if(IMUNOISE_SANITIZE MATCHES "address")
   # Eigen allocates in another way where it sees AddressSanitizer; matrices pass between rooms built with
@@ -55,8 +53,10 @@ function(imunoise_room name)
   add_library(imunoise_${name} STATIC ${ROOM_SOURCES})
   add_library(imunoise::${name} ALIAS imunoise_${name})
   target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
-  if(name MATCHES "^core_(wavelet|spectrum|estimate|inference|array|faults|dynamic|effect|effects|regression|search|diagnosis)$")
-    set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_MATRICES ON)  # and no bytes from outside
+  if(name MATCHES "^(recording|drivers)_|^core_(support|model|effect)$|^study_(batch|cache|calibration_file|file)$|^daemon_(access|config)$")
+    set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_PARSES ON)  # bytes from outside
+  elseif(name MATCHES "^(core|hidden_effects)_")
+    set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_MATRICES ON)
   endif()
 endfunction()
 

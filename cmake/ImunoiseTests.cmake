@@ -28,7 +28,9 @@ function(imunoise_test_program program)
     set(PROGRAM_LABEL fast)
   endif()
   if(PROGRAM_LABEL STREQUAL "fast")
-    target_compile_options(test_${program} PRIVATE -O1)  # optimising takes longer than it saves
+    if(NOT IMUNOISE_SANITIZE)
+      target_compile_options(test_${program} PRIVATE -O1)  # optimising takes longer than it saves
+    endif()
   else()  # built when asked for; sanitizers see the fast tests only
     set(time_limit 86400)
     set_target_properties(test_${program} PROPERTIES EXCLUDE_FROM_ALL TRUE)

@@ -75,7 +75,9 @@ std::vector<typename Prefix::Total> squared_coefficients(const Prefix& prefix, c
   const std::size_t segments = (blocks + kSegmentBlocks - 1) / kSegmentBlocks;
 
   std::vector<std::size_t> far_lags;
+  std::size_t near_reach = 0;
   for (const std::int64_t m : scales) {
+    near_reach = std::min(kNearReach, std::max(near_reach, static_cast<std::size_t>(2 * m)));
     for (const std::size_t lag : {static_cast<std::size_t>(m), static_cast<std::size_t>(2 * m)}) {
       if (lag > kNearReach) far_lags.push_back(lag);
     }
@@ -85,7 +87,7 @@ std::vector<typename Prefix::Total> squared_coefficients(const Prefix& prefix, c
 
   std::vector<std::vector<Total>> parts(segments, std::vector<Total>(scales.size()));
   for_each_index(segments, [&](std::size_t segment) {
-    PrefixWindow<Prefix> near(prefix, 0, kNearReach);
+    PrefixWindow<Prefix> near(prefix, 0, near_reach);
     std::vector<PrefixWindow<Prefix>> far;
     far.reserve(far_lags.size());
     for (const std::size_t lag : far_lags) far.emplace_back(prefix, lag, 0);

@@ -9,6 +9,7 @@
 #include "recording/store/recorder/recorder.h"
 #include "tests/cli/program.h"
 #include "tests/recording/store/samples.h"
+#include "tests/support/figures_alone.h"
 #include "tests/support/golden.h"
 
 namespace imunoise {
@@ -191,6 +192,7 @@ TEST_F(Cli, RefusesWithTheWayOut) {
 }
 
 TEST_F(Cli, RealRecordingsAsThePeerMeasuresThem) {
+  FIGURES_ALONE();
   IMUNOISE_NEEDS("data/adis16405/replicate1_gyro.h5");
   IMUNOISE_NEEDS("golden/wv_real.json");
   const std::string files = testing::shared("data/adis16405").string() + "/replicate?_gyro.h5";

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "tests/cli/program.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -201,6 +202,7 @@ std::string on_terminal(const std::filesystem::path& folder, std::vector<std::st
 }
 
 TEST_F(PlainFiles, ProgressMovesOnATerminal) {
+  FIGURES_ALONE();
   int status = -1;
   std::string shown;
   std::chrono::duration<double> took{};

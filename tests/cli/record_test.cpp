@@ -21,6 +21,15 @@ class Record : public testing::Program {
         "--unit rad/s --channel gyro_x --out run.h5");
     ASSERT_EQ(done.status, 0) << done.errors;
   }
+  // Records run.h5 at its own pace until samples are stored, then runs `script`; $child is the
+  // recorder.
+  Outcome recorded_until(const std::string& script) const {
+    const std::string journal = (folder_ / "monday/replicate-1/replay/000001.journal").string();
+    return run(
+        "record monday --device 'replay file=run.h5 speed=1' --json & child=$!; for i in $(seq "
+        "400); do test -s '" +
+        journal + "' && break; sleep 0.05; done; " + script + "; wait $child");
+  }
   json json_of(const std::string& arguments) const {
     const Outcome done = run(arguments + " --json");
     EXPECT_EQ(done.status, 0) << done.errors;
@@ -81,9 +90,7 @@ TEST_F(Record, EndsWhenItsTimeIsOver) {
 }
 
 TEST_F(Record, ASignalEndsItInGoodOrder) {
-  const Outcome done = run(
-      "record monday --device 'replay file=run.h5 speed=1' --json & child=$!; sleep 0.7; kill -INT "
-      "$child; wait $child");
+  const Outcome done = recorded_until("kill -INT $child");
   EXPECT_EQ(done.status, 0) << done.errors;
   const json report = json::parse(done.out);
   EXPECT_EQ(report["streams"][0]["stored"], report["streams"][0]["received"]);
@@ -91,10 +98,8 @@ TEST_F(Record, ASignalEndsItInGoodOrder) {
 }
 
 TEST_F(Record, ALostTerminalEndsItInGoodOrder) {
-  const std::string recorded =
-      "record monday --device 'replay file=run.h5 speed=1' --json & child=$!; sleep 0.5; kill "
-      "-USR1 $child; kill -USR2 $child; sleep 0.2; kill -HUP $child; wait $child";
-  const Outcome done = run(recorded);
+  const Outcome done =
+      recorded_until("kill -USR1 $child; kill -USR2 $child; sleep 0.2; kill -HUP $child");
   EXPECT_EQ(done.status, 0) << done.errors;
   const json report = json::parse(done.out);
   EXPECT_EQ(report["streams"][0]["stored"], report["streams"][0]["received"]);

@@ -9,6 +9,7 @@
 
 #include "core/model/model.h"
 #include "core/model/model_sampler.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise::acquire {
 namespace {
@@ -62,6 +63,7 @@ std::vector<v1::Disturbance> watch(const std::string& model, double hours, std::
 
 // Eight hours of each: at ten robust standard deviations chance alone raises none.
 TEST(Stillness, NoiseIsNoDisturbance) {
+  FIGURES_ALONE();
   for (const char* const model :
        {"WN(sigma2=1e-6)", "RW(gamma2=1e-12)", "WN(sigma2=1e-6) + RW(gamma2=1e-9)",
         "WN(sigma2=1e-6) + AR1(sigma2=1e-8, phi=0.999)", "AR1(sigma2=1e-8, phi=0.99)",
@@ -73,6 +75,7 @@ TEST(Stillness, NoiseIsNoDisturbance) {
 }
 
 TEST(Stillness, CoarseCountsAreNoDisturbance) {
+  FIGURES_ALONE();
   for (const double sigma2 : {1e-4, 0.04, 0.2, 4.0}) {  // counts squared
     const auto seen = watch(
         "WN(sigma2=" + std::to_string(sigma2) + ")", 8.0, 12, [](std::size_t) { return 7.3; },

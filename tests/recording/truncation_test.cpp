@@ -1,5 +1,6 @@
-// Files of every format that end too soon, at each of their bytes: an error that names the file,
-// or the beginning of what the whole one holds.
+// Files of every format that end too soon: an error that names the file, or the beginning of what
+// the whole one holds. The trial (truncation_trial) cuts at each byte; here it is each of the first
+// and last ones, and some between.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,6 +22,27 @@ struct Cuts {
   std::size_t doubt = 0;  // last samples that may be wrong: the last number of a text may go on
   std::size_t most = 0;   // bytes of the file that are cut; 0: all
 };
+
+#ifdef IMUNOISE_EVERY_BYTE
+constexpr bool kEveryByte = true;
+#else
+constexpr bool kEveryByte = false;
+#endif
+constexpr std::size_t kDense = 400;   // bytes at either end of a file that are all cut at
+constexpr std::size_t kSparse = 200;  // cuts between them
+
+// The lengths to cut a file of `size` bytes to.
+std::vector<std::size_t> lengths(const Cuts& cuts, std::size_t size) {
+  const std::size_t end = cuts.most > 0 ? std::min(cuts.most, size) : size;
+  const std::size_t strides = end / cuts.step / kSparse + 1;
+  std::vector<std::size_t> out;
+  for (std::size_t length = 0; length < end;) {
+    out.push_back(length);
+    const bool dense = kEveryByte || length < kDense || length + kDense > size;
+    length += cuts.step * (dense ? 1 : strides);
+  }
+  return out;
+}
 
 class Truncation : public FileTest {
  protected:
@@ -45,8 +67,7 @@ class Truncation : public FileTest {
     EXPECT_TRUE(whole) << whole.error().message;
     if (!whole) return 0;
     std::size_t readable = 0;
-    const std::size_t end = cuts.most > 0 ? std::min(cuts.most, bytes.size()) : bytes.size();
-    for (std::size_t length = 0; length < end; length += cuts.step) {
+    for (const std::size_t length : lengths(cuts, bytes.size())) {
       SCOPED_TRACE(fmt::format("{} of {} bytes of {}", length, bytes.size(), name));
       const auto file = write(name, std::string_view(bytes).substr(0, length));
       const auto got = import_one(file, options);

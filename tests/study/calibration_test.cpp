@@ -11,6 +11,7 @@
 #include "study/report/json.h"
 #include "study/report/view/verdict.h"
 #include "tests/study/simulated_recording.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise::study {
 namespace {
@@ -113,6 +114,7 @@ TEST_F(Calibrated, AModelIsChosenWhereNoneIsNamed) {
 }
 
 TEST_F(Calibrated, ChannelsOfOneQuantityAreAnArrayWhenThatIsAsked) {
+  FIGURES_ALONE();
   CalibrateOptions options;
   options.models = {"WN + RW"};
   options.diagnose = false;

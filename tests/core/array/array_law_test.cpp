@@ -14,6 +14,7 @@
 #include "core/wavelet/moment_covariance.h"
 #include "core/wavelet/wavelet_variance.h"
 #include "tests/core/array/simulated_array.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -211,6 +212,7 @@ TEST(FitArray, PowersArePositiveSemidefiniteWhenTheMomentsAreNot) {
 }
 
 TEST(Dependence, HoldsItsSizeAndSeesWhatIsShared) {
+  FIGURES_ALONE();
   constexpr std::uint64_t kSeed = 20261121;
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
   const Model written = parse_array_model("RW + WN", Hertz{1.0}).value();
@@ -301,6 +303,7 @@ TEST(VirtualSensor, TakesWhatASingularMatrixAllows) {
 // Under a wrong model independent sensors seem to share noise. The misfit of each says that such a
 // verdict means nothing; under the right one it is silent.
 TEST(SensorMisfit, SaysWhereAVerdictOfSharedNoiseMeansNothing) {
+  FIGURES_ALONE();
   const Model right = parse_array_model("AR1 + WN", Hertz{1.0}).value();
   ArrayModel truth = expand(right, {3, {}});
   for (Latent& latent : truth.latents) {

@@ -9,6 +9,7 @@
 #include "core/array/array_inference.h"
 #include "core/estimate/whittle.h"
 #include "tests/core/array/simulated_array.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -128,6 +129,7 @@ TEST(ArrayWhittle, OfOneSensorIsThatOfASignal) {
 }
 
 TEST(ArrayWhittle, KeepsMatricesPositiveSemidefinite) {
+  FIGURES_ALONE();
   ArrayModel wanted = model_of("RW[corr] + WN", {2, {}});
   wanted.latents[0].power << 1.0, 1.0, 1.0, 1.0;  // one walk in both
   const CrossPower bands = testing::powers_of(simulate(wanted, kSamples, 6, 0));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -75,6 +76,7 @@ void expect_same(Climbed one, Climbed other) {
 }
 
 TEST(Climb, AddsWhatLooksAtEverythingAdd) {
+  FIGURES_ALONE();
   const FittedModel start = fitted(subject_of(three_effects()));
   const Climbed all = looked(start);
   EXPECT_EQ(all.causes.size(), 4U) << testing::PrintToString(all.causes);
@@ -84,6 +86,7 @@ TEST(Climb, AddsWhatLooksAtEverythingAdd) {
 
 // What shows in a quarter of each replicate is proven on the whole; the rest is found there.
 TEST(Climb, ByTheBeginningsOfTheReplicates) {
+  FIGURES_ALONE();
   const FittedModel start = fitted(subject_of(three_effects()));
   expect_same(climbed(start, 8192), looked(start));
 }

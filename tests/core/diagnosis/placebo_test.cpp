@@ -9,6 +9,7 @@
 
 #include "core/diagnosis/candidates.h"
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -30,6 +31,7 @@ MadeSubject swinging(double differs, std::uint64_t seed, std::size_t shorter = 0
 }
 
 TEST(Placebo, ACourseThatAllReplicatesShareCountsOnce) {
+  FIGURES_ALONE();
   for (const std::size_t shorter : {0U, 700U}) {
     const Diagnosis diagnosis = diagnose(fitted(subject_of(swinging(0.0, 8700, shorter))));
     ASSERT_FALSE(diagnosis.effects.empty());

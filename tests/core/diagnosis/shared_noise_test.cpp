@@ -8,6 +8,7 @@
 
 #include "core/diagnosis/diagnose.h"
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -69,6 +70,7 @@ Diagnosis feels_a_share(double share) {
 }
 
 TEST(Diagnose, ASmallShareOfAMotionMayLeakFromAnotherAxis) {
+  FIGURES_ALONE();
   const auto may_leak = [](const Diagnosis& diagnosis) {
     const std::vector<std::string>& with = diagnosis.effects.at(0).confused_with;
     return diagnosis.effects[0].tried.cause == "cross_axis" ||
@@ -79,6 +81,7 @@ TEST(Diagnose, ASmallShareOfAMotionMayLeakFromAnotherAxis) {
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
+  FIGURES_ALONE();
   const Diagnosis diagnosis = beside_another(1.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "common_vibration");
@@ -116,6 +119,7 @@ Diagnosis on_a_rocking_bench(Hertz rate, double frequency, double angle, const c
 // The accelerometer sees gravity turn, beneath noise of its own: alone it shows less than the
 // gyroscope's spectrum does.
 TEST(Diagnose, NoiseThatTheAccelerometerSeesTurnIsTilt) {
+  FIGURES_ALONE();
   const Diagnosis diagnosis = on_a_rocking_bench(
       Hertz{10.0}, 0.04, 5e-3, "WN(sigma2=1) + RW(gamma2=1e-6)", "WN(sigma2=150)", 16'384, 31);
   ASSERT_FALSE(diagnosis.effects.empty());
@@ -186,18 +190,21 @@ TEST(Diagnose, AWaveThatBeatsIsNoResonanceForSure) {
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourDoesNotFeelIsItsOwn) {
+  FIGURES_ALONE();
   const Diagnosis diagnosis = beside_another(0.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourHardlyFeelsIsItsOwn) {
+  FIGURES_ALONE();
   const Diagnosis diagnosis = beside_another(0.02, 0.0, 10.0);
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "gauss_markov");
 }
 
 TEST(Diagnose, ALeakBesideNoiseOfItsOwnMakesNoVibrationOfIt) {
+  FIGURES_ALONE();
   const Diagnosis diagnosis = beside_another(0.0, 0.1);
   for (const RankedTerm& one : diagnosis.effects) EXPECT_TRUE(one.tried.shared_with.empty());
   const auto markov =

@@ -8,6 +8,7 @@
 #include "core/effects/known_effects.h"
 #include "core/regression/current.h"
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -44,6 +45,7 @@ TEST(Modulated, ExplainsReplicatesOfOtherTemperatures) {
 // A course as slow as this could be power that wanders by itself, which bursts explain, too. In
 // this Against that alone, this seed has 40 nats left.
 TEST(Modulated, ComesBeforeWhatExplainsLessOfASlowCourse) {
+  FIGURES_ALONE();
   constexpr std::uint64_t kSeed = 36;
   constexpr double kPeriods[] = {700.0, 500.0, 900.0, 650.0};  // s; a replicate has 655
   constexpr double kSwings[] = {8.0, -5.0, 10.0, 3.0};         // K

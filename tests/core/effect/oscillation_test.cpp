@@ -15,6 +15,7 @@
 #include "core/search/search_view.h"
 #include "core/support/random.h"
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -49,6 +50,7 @@ TEST(Oscillation, IsFoundAndTakenOut) {
 
 // A frequency that roams over two fifths of all: its skirts lie outside what stands out.
 TEST(Oscillation, AWideOneKeepsItsAmplitude) {
+  FIGURES_ALONE();
   for (std::uint64_t seed = 53; seed < 56; ++seed) {
     const auto model =
         parse_full_model("WN + oscillation(from=3, to=22, amplitude=2)", Hertz{50.0});
@@ -67,6 +69,7 @@ TEST(Oscillation, AWideOneKeepsItsAmplitude) {
 
 // Eight recordings without a tone: noise seems one in more than 2 of them with a chance of 0.6 %.
 TEST(Oscillation, WhereThereIsNoneItsAmplitudeIsBounded) {
+  FIGURES_ALONE();
   int seen = 0;
   for (std::uint64_t seed = 400; seed < 408; ++seed) {
     const FittedModel fit = fitted(subject_of({.samples = 4096, .replicates = 2, .seed = seed}),
@@ -130,6 +133,7 @@ TEST(Oscillation, AnotherSensorMayShowIt) {
 
 // A resonance at the same place is never called an oscillation: ten seeds.
 TEST(Oscillation, NoiseThatRingsIsNone) {
+  FIGURES_ALONE();
   for (std::uint64_t seed = 200; seed < 210; ++seed) {
     const Diagnosis diagnosis = diagnose(fitted(
         subject_of({.model = "WN(sigma2=1) + RW(gamma2=1e-5) + RES(sigma2=0.05, r=0.95, omega=1)",

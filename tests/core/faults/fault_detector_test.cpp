@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "tests/core/faults/faulty_array.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -60,6 +61,7 @@ TEST(FaultDetector, NamesTheSensorThatSteps) {
 }
 
 TEST(FaultDetector, NamesTheSensorThatGrowsNoisy) {
+  FIGURES_ALONE();
   const ArrayModel model = coloured_model();
   const FaultDetector designed = detector_of(model);
   int right = 0;
@@ -91,6 +93,7 @@ TEST(FaultDetector, NamesTheSensorThatGrowsNoisy) {
 }
 
 TEST(FaultDetector, NamesTheSensorThatSticksAndGoesOnWithTheOthers) {
+  FIGURES_ALONE();
   const ArrayModel model = coloured_model();
   constexpr double kStep = 0.1;  // of the converter
   FaultOptions options;
@@ -161,6 +164,7 @@ TEST(FaultDetector, MotionOfAllSensorsIsNoFault) {
 }
 
 TEST(FaultDetector, NoFaultBeginsAfterItsAlarm) {
+  FIGURES_ALONE();
   const ArrayModel model = coloured_model();
   const FaultDetector designed = detector_of(model, 30.0);  // false alarms, to see many
   int alarms = 0;

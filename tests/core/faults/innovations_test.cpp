@@ -7,6 +7,7 @@
 #include "core/faults/clusters.h"
 #include "core/support/distributions.h"
 #include "tests/core/faults/faulty_array.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -33,6 +34,7 @@ struct Case {
 
 // At blocks of 1, 8 and 64 samples: unit covariance, nothing left at lags 1 to 8.
 TEST(Innovations, AreWhiteForEveryProcess) {
+  FIGURES_ALONE();
   constexpr std::size_t kSamples = 1 << 18;
   std::printf("seed %llu\n", static_cast<unsigned long long>(kInnovationsSeed));
   const std::vector<Case> cases = {

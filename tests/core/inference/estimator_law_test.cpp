@@ -8,6 +8,7 @@
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 #include "tests/core/inference/simulated_sets.h"
+#include "tests/support/figures_alone.h"
 #include "tests/support/golden.h"
 
 namespace imunoise {
@@ -177,6 +178,7 @@ TEST(Mugmwm, LeavesGivenParametersAlone) {
 }
 
 TEST(Mugmwm, LargerModelsAreNeverWorse) {
+  FIGURES_ALONE();
   constexpr std::uint64_t kSeed = 4100;
   constexpr std::size_t kSets = 100;
   const std::vector<std::string> names = {"WN",          "WN+RW",         "AR1+WN",

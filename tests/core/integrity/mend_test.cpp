@@ -10,6 +10,7 @@
 
 #include "core/model/model.h"
 #include "core/wavelet/wavelet_variance.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -81,6 +82,7 @@ void cut_off_at(std::vector<double>& x, double limit) {
 }
 
 TEST(Mend, SamplesThatRepeat) {
+  FIGURES_ALONE();
   for (const char* const model : {"WN(sigma2=1)", "WN(sigma2=1) + RW(gamma2=0.01)",
                                   "WN(sigma2=0.2) + AR1(phi=0.9, sigma2=0.2)"})
     expect_mended(model, repeat_some);

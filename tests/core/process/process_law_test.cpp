@@ -10,6 +10,7 @@
 #include "core/wavelet/moment_covariance.h"
 #include "core/wavelet/wavelet_variance.h"
 #include "tests/core/process/process_examples.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -64,6 +65,7 @@ TEST(ProcessLaws, JacobianIsTheDerivative) {
 
 // ν(m) = ∫ |H|² S df, |H(f)|² = sin⁴(πfm) / (m² sin²(πf)).
 TEST(ProcessLaws, VarianceIsTheSpectrumSeenThroughTheWavelet) {
+  FIGURES_ALONE();
   for (const Process& process : process_examples()) {
     if (deterministic(process)) continue;
     for (const double m : {1.0, 3.0, 16.0}) {

@@ -14,6 +14,9 @@ struct Case {
   std::vector<drivers::OptionText> live;
   std::vector<drivers::OptionText> replayed;
   bool times = false;  // the capture keeps the host's times, to the microsecond
+  // Messages of a device that has just come back, before its driver knows it again: on a busy
+  // machine some are in the wire that were no samples yet.
+  std::size_t strangers = 0;
   friend void PrintTo(const Case& shown, std::ostream* out) { *out << shown.name; }
 };
 
@@ -59,8 +62,14 @@ TEST_P(WireOf, IsReplayedToTheSameSamples) {
     const auto& expected = live->rows(s);
     ASSERT_GT(expected.size(), 0U);
     ASSERT_TRUE(again->read_rows(expected.size(), s)) << again->failure();
+    std::size_t skipped = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const ReadRow& row = again->rows(s)[i];
+      while (skipped < GetParam().strangers &&
+             again->rows(s)[i + skipped].counter != expected[i].counter) {
+        ++skipped;
+        ASSERT_TRUE(again->read_rows(expected.size() + skipped, s)) << again->failure();
+      }
+      const ReadRow& row = again->rows(s)[i + skipped];
       ASSERT_EQ(row.numbers, expected[i].numbers) << i;
       ASSERT_EQ(row.counter, expected[i].counter) << i;
       ASSERT_EQ(row.device_time_ns, expected[i].device_time_ns) << i;
@@ -76,28 +85,33 @@ TEST_P(WireOf, IsReplayedToTheSameSamples) {
 
 INSTANTIATE_TEST_SUITE_P(
     Wire, WireOf,
-    ::testing::Values(
-        Case{"Mti", "xsens", "xbus", {{"rate", "200"}}, {}},
-        Case{"MtiWithBitErrors",
-             "xsens",
-             "xbus",
-             {{"fault", "bit_error(sample=40)"},
-              {"fault", "loss(sample=90, bytes=3)"},
-              {"fault", "stall(sample=150, count=7)"}},
-             {}},
-        Case{"MtiUnplugged", "xsens", "xbus", {{"fault", "unplug(sample=100, count=20)"}}, {}},
-        Case{"Can", "can", "candump", {{"rate", "100"}}, {{"preset", "mti600"}}, true},
-        Case{"CanWithLosses",
-             "can",
-             "candump",
-             {{"fault", "loss(sample=200)"}},
-             {{"preset", "mti600"}},
-             true},
-        Case{"Adis16405",
-             "adis16405",
-             "adis16405",
-             {{"rate", "819.2"}, {"speed", "0"}},
-             {{"rate", "819.2"}}}),
+    ::testing::Values(Case{"Mti", "xsens", "xbus", {{"rate", "200"}}, {}},
+                      Case{"MtiWithBitErrors",
+                           "xsens",
+                           "xbus",
+                           {{"fault", "bit_error(sample=40)"},
+                            {"fault", "loss(sample=90, bytes=3)"},
+                            {"fault", "stall(sample=150, count=7)"}},
+                           {}},
+                      Case{.name = "MtiUnplugged",
+                           .device = "xsens",
+                           .format = "xbus",
+                           .live = {{"fault", "unplug(sample=100, count=20)"}},
+                           .replayed = {},
+                           .strangers = 5},
+                      Case{
+                          "Can", "can", "candump", {{"rate", "100"}}, {{"preset", "mti600"}}, true},
+                      Case{"CanWithLosses",
+                           "can",
+                           "candump",
+                           {{"fault", "loss(sample=200)"}},
+                           {{"preset", "mti600"}},
+                           true},
+                      Case{"Adis16405",
+                           "adis16405",
+                           "adis16405",
+                           {{"rate", "819.2"}, {"speed", "0"}},
+                           {{"rate", "819.2"}}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(Capture, KeepsTheWiresPace) {
