@@ -29,8 +29,8 @@ if(IMUNOISE_SANITIZE)
     -fsanitize=${IMUNOISE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(imunoise_flags INTERFACE -fsanitize=${IMUNOISE_SANITIZE})
   target_compile_definitions(imunoise_flags INTERFACE IMUNOISE_SANITIZED)
-  # Sanitizers make compiling twice as slow, most of it optimisation. It pays where numbers are worked out, somewhat
-  # where a fuzzer runs, nowhere else.
+  # With sanitizers, optimising takes more time than all other compiling. It pays where numbers are worked out or
+  # fuzzers run, nowhere else.
   target_compile_options(imunoise_flags INTERFACE
     "$<IF:$<OR:$<BOOL:$<TARGET_PROPERTY:IMUNOISE_MATRICES>>,$<BOOL:$<TARGET_PROPERTY:IMUNOISE_PARSES>>>,-O2,-O0>")
 endif()
@@ -53,9 +53,9 @@ function(imunoise_room name)
   add_library(imunoise_${name} STATIC ${ROOM_SOURCES})
   add_library(imunoise::${name} ALIAS imunoise_${name})
   target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
-  if(name MATCHES "^(recording|drivers)_|^core_(support|model|effect)$|^study_(batch|cache|calibration_file|file)$|^daemon_(access|config)$")
+  if(name MATCHES "^(recording|drivers)_|^core_(support|process|model|effect|integrity|stillness)$|^study_(batch|cache|calibration_file|file)$|^daemon_(access|config)$")
     set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_PARSES ON)  # bytes from outside
-  elseif(name MATCHES "^(core|hidden_effects)_")
+  elseif(name MATCHES "^core_")
     set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_MATRICES ON)
   endif()
 endfunction()

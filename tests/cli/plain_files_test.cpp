@@ -11,7 +11,6 @@
 #include <set>
 
 #include "tests/cli/program.h"
-#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -202,7 +201,6 @@ std::string on_terminal(const std::filesystem::path& folder, std::vector<std::st
 }
 
 TEST_F(PlainFiles, ProgressMovesOnATerminal) {
-  FIGURES_ALONE();
   int status = -1;
   std::string shown;
   std::chrono::duration<double> took{};

@@ -11,7 +11,6 @@
 #include "study/report/json.h"
 #include "study/report/view/verdict.h"
 #include "tests/study/simulated_recording.h"
-#include "tests/support/figures_alone.h"
 
 namespace imunoise::study {
 namespace {
@@ -114,7 +113,6 @@ TEST_F(Calibrated, AModelIsChosenWhereNoneIsNamed) {
 }
 
 TEST_F(Calibrated, ChannelsOfOneQuantityAreAnArrayWhenThatIsAsked) {
-  FIGURES_ALONE();
   CalibrateOptions options;
   options.models = {"WN + RW"};
   options.diagnose = false;

@@ -86,7 +86,6 @@ TEST(Climb, AddsWhatLooksAtEverythingAdd) {
 
 // What shows in a quarter of each replicate is proven on the whole; the rest is found there.
 TEST(Climb, ByTheBeginningsOfTheReplicates) {
-  FIGURES_ALONE();
   const FittedModel start = fitted(subject_of(three_effects()));
   expect_same(climbed(start, 8192), looked(start));
 }
