@@ -24,6 +24,9 @@ function(imunoise_test_program program)
     IMUNOISE_DRIVER_FOLDER="${PROJECT_BINARY_DIR}/lib/imunoise/drivers"
     IMUNOISE_CMAKE="${CMAKE_COMMAND}")
   set(time_limit 900)  # s
+  if(IMUNOISE_SANITIZE)
+    set(time_limit 1800)
+  endif()
   if(NOT PROGRAM_LABEL)
     set(PROGRAM_LABEL fast)
   endif()

@@ -1,5 +1,6 @@
 #include "recording/hdf5/memory_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
@@ -9,7 +10,9 @@
 namespace imunoise::recording {
 namespace {
 
-constexpr std::size_t kIncrement = std::size_t{4} << 20U;  // bytes by which a file in memory grows
+// Bytes by which a file in memory grows. HDF5 clears them each time: a chunk of a short replicate
+// has a few thousand.
+constexpr std::size_t kIncrement = std::size_t{64} << 10U;
 
 // The name is not looked up on any disk, but HDF5 takes two open files in memory of one name for
 // one file: it refuses to make the second, and opens the first instead of it.
@@ -37,7 +40,8 @@ Hdf5Handle memory_access() {
 // result.)
 struct NewMemoryFile::Memory {
   void* bytes = nullptr;
-  std::size_t size = 0;
+  std::size_t size = 0;      // that HDF5 asked for
+  std::size_t capacity = 0;  // doubles: a long file moves seldom
 
   ~Memory() { std::free(bytes); }
 
@@ -46,8 +50,15 @@ struct NewMemoryFile::Memory {
     return std::memcpy(to, from, size);
   }
   static void* resize(void* bytes, std::size_t size, H5FD_file_image_op_t, void* self) {
-    static_cast<Memory*>(self)->size = size;
-    return std::realloc(bytes, size);
+    auto& memory = *static_cast<Memory*>(self);
+    if (size > memory.capacity) {
+      const std::size_t capacity = std::max(size, 2 * memory.capacity);
+      bytes = std::realloc(bytes, capacity);
+      if (bytes == nullptr) return nullptr;
+      memory.capacity = capacity;
+    }
+    memory.size = size;
+    return bytes;
   }
   static herr_t release(void* bytes, H5FD_file_image_op_t operation, void* self) {
     if (operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
