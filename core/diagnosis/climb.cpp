@@ -87,6 +87,11 @@ void Climb::leave_behind(const TriedTerm& taken) {
   });
 }
 
+void Climb::refute(const Suggestion& one) {
+  refuted_.push_back(found_by(one));
+  std::erase_if(leads_, [&](const Lead& lead) { return lead.found == refuted_.back(); });
+}
+
 const Climb::Lead* Climb::lead_to(const Suggestion& one) const {
   const std::string found = found_by(one);
   const auto at = std::find_if(leads_.begin(), leads_.end(),
@@ -104,16 +109,17 @@ std::optional<RankedTerm> Climb::best_of(const Look& look, std::vector<TriedTerm
     RankedTerm out = ranked(std::move(one), look.searches);
     out.heldout = held_out(out.tried.fitted);
     if (proven(out, look.heldout)) return out;
-    refuted_.push_back(found_by(out.tried.suggestion));
+    refute(out.tried.suggestion);
   }
   return std::nullopt;
 }
 
 std::vector<TriedTerm> Climb::tried(const Look& look, const Suggestions& wanted,
-                                    const Progress& progress) const {
+                                    const Progress& progress, bool again) const {
   std::vector<TriedTerm> out = try_all(look.current, wanted, progress);
   test_placebos(out, look.current, look.least(levels_), Placebos::kSigns, progress);
-  name_shared_noise(out, look.searches, levels_.term, progress);
+  name_shared_noise(out, look.searches, levels_.term, again ? std::vector<std::string>{} : refuted_,
+                    progress);
   return out;
 }
 
@@ -175,24 +181,24 @@ std::optional<RankedTerm> Climb::by_everything(Look look, const Progress& progre
   Suggestions all = search_all(look.current, progress.part(0.0, 0.5));
   searches_ = look.searches = static_cast<double>(all.size());
   const auto refuted = [&](const Suggestion& one) { return contains(refuted_, found_by(one)); };
-  std::stable_sort(all.begin(), all.end(), [&](const Suggestion& a, const Suggestion& b) {
-    if (refuted(a) != refuted(b)) return refuted(b);
+  std::stable_sort(all.begin(), all.end(), [](const Suggestion& a, const Suggestion& b) {
     return promised(a) > promised(b);
   });
   // Those that promise most, with the couplings that noise may be shared by.
-  const auto few =
-      std::stable_partition(all.begin() + static_cast<std::ptrdiff_t>(std::min(kFew, all.size())),
-                            all.end(), is_coupling);
-  const Suggestions later(few, all.end());
-  all.erase(few, all.end());
-  std::vector<TriedTerm> found = tried(look, all, progress.part(0.5, 0.7));
+  Suggestions first;
+  Suggestions later;
+  for (Suggestion& one : all) {
+    const bool now = !refuted(one) && (first.size() < kFew || is_coupling(one));
+    (now ? first : later).push_back(std::move(one));
+  }
+  std::vector<TriedTerm> found = tried(look, first, progress.part(0.5, 0.7));
   leads_.clear();
   for (const TriedTerm& one : found) {
     if (one.log_p < look.least(levels_)) follow(one);
   }
   std::optional<RankedTerm> best = best_of(look, std::move(found));
   if (!best && !progress.stopped())
-    best = best_of(look, tried(look, later, progress.part(0.7, 0.9)));
+    best = best_of(look, tried(look, later, progress.part(0.7, 0.9), true));
   for (const Suggestion& one : later) {
     if (promised(one) > -look.least(levels_) && !refuted(one))
       leads_.push_back({found_by(one), effect_of(one), promised(one)});

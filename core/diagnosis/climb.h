@@ -44,18 +44,20 @@ class Climb {
   std::optional<RankedTerm> by_beginnings(Look look, const Progress& progress);
   std::optional<RankedTerm> by_leads(Look look, const Progress& progress);
   std::optional<RankedTerm> by_everything(Look look, const Progress& progress);
+  /// `again`: what was refuted, too, is sought beside a coupling.
   std::vector<TriedTerm> tried(const Look& look, const Suggestions& wanted,
-                               const Progress& progress) const;
+                               const Progress& progress, bool again = false) const;
   std::optional<RankedTerm> best_of(const Look& look, std::vector<TriedTerm> tried);
   const Lead* lead_to(const Suggestion& one) const;  ///< null: none
   void follow(const TriedTerm& one);
   void leave_behind(const TriedTerm& taken);
+  void refute(const Suggestion& one);
 
   Levels levels_;
   Eigen::Index beginning_;  ///< samples; 0: what is missing does not show there
   double searches_ = 0.0;   ///< of the last look at everything
   std::vector<Lead> leads_;
-  std::vector<std::string> refuted_;  ///< promised much, and proved nothing
+  std::vector<std::string> refuted_;  ///< promised much, and proved nothing: asked last
 };
 
 }  // namespace imunoise

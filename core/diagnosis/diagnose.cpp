@@ -114,7 +114,7 @@ Diagnosis diagnose(const FittedModel& model, double false_alarm, const Progress&
   const auto searched = static_cast<double>(sought.size());
   std::vector<TriedTerm> tried = try_all(current, sought, progress.part(0.4, 0.75));
   test_placebos(tried, current, std::log(level / searched), Placebos::kAll, progress);
-  name_shared_noise(tried, searched, level, progress);
+  name_shared_noise(tried, searched, level, {}, progress);
   if (progress.stopped()) return {};
   Diagnosis out;
   out.searches = searched;

@@ -116,7 +116,7 @@ void join(TriedTerm& noise, const Suggestion& coupling, FittedModel both, double
 // What of a motion another sensor does not show, because its own noise hides it there, is noise
 // beside the coupling.
 void add_hidden_part(std::vector<TriedTerm>& tried, const std::vector<Coupling>& vibrations,
-                     double level) {
+                     double level, const std::vector<std::string>& refuted) {
   constexpr double kMisfits = 1e-3;
   // Nothing but noise with a coupling may be better.
   const auto best = std::find_if(tried.begin(), tried.end(),
@@ -125,11 +125,14 @@ void add_hidden_part(std::vector<TriedTerm>& tried, const std::vector<Coupling>&
   const TriedTerm& coupling = *best;
   if (!(misfit_of(coupling.fitted).spectrum.p_value < kMisfits)) return;
   const Current with = current_of(coupling.fitted.regression, coupling.fitted.fit);
-  const Suggestions all = search_noise(with);
+  Suggestions all = search_noise(with);
+  const double least = std::log(level / static_cast<double>(all.size()));
+  std::erase_if(all, [&](const Suggestion& one) {
+    return std::find(refuted.begin(), refuted.end(), one.cause) != refuted.end();
+  });
   std::vector<TriedTerm> noises = try_all(with, all);
   std::erase_if(noises, [](const TriedTerm& one) { return !cause_info(one.cause).by_spectrum; });
-  if (noises.empty() || !(noises.front().log_p < std::log(level / static_cast<double>(all.size()))))
-    return;
+  if (noises.empty() || !(noises.front().log_p < least)) return;
   TriedTerm& noise = noises.front();
   FittedModel both = std::move(noise.fitted);
   join(noise, coupling.suggestion, std::move(both), coupling.likelihood_gain, coupling.log_p);
@@ -139,7 +142,7 @@ void add_hidden_part(std::vector<TriedTerm>& tried, const std::vector<Coupling>&
 }  // namespace
 
 void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double level,
-                       const Progress& progress) {
+                       const std::vector<std::string>& refuted, const Progress& progress) {
   const double surely_there = std::log(level / searches);
   const double surely_shared = std::log(level / (kMostNoises * kMostCouplings));
   const std::vector<Coupling> vibrations = motions(tried);
@@ -157,7 +160,7 @@ void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double le
     join(*one, *shared.with, fit_with(with, *shared.with), shared.gain, shared.log_p);
   }
   best_first(tried);
-  if (!progress.stopped()) add_hidden_part(tried, motions(tried), level);
+  if (!progress.stopped()) add_hidden_part(tried, motions(tried), level, refuted);
   best_first(tried);
 }
 

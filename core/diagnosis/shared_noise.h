@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/diagnosis/candidates.h"
@@ -16,8 +17,9 @@ namespace imunoise {
 /// are then one more term, with the evidence of both.
 ///
 /// `tried`: best first, and so they are again. `searches`: how many found them. `level`:
-/// false-alarm probability. Stopped, it names nothing more.
+/// false-alarm probability. `refuted`: causes of noise that is not sought beside a coupling.
+/// Stopped, it names nothing more.
 void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double level,
-                       const Progress& progress = {});
+                       const std::vector<std::string>& refuted = {}, const Progress& progress = {});
 
 }  // namespace imunoise
