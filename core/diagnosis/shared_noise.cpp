@@ -104,7 +104,7 @@ void join(TriedTerm& noise, const Suggestion& coupling, FittedModel both, double
   change.start = both.fit.model.noise;
   change.shared = term;
   noise.fitted = std::move(both);
-  noise.cause = coupling.coupling == MotionCoupling::kTurning ? "tilt" : "common_vibration";
+  noise.cause = coupling.cause;
   noise.shared_with = term.witness;
   if (coupling.coupling != MotionCoupling::kTurning && may_leak(noise.fitted))
     noise.could_be.push_back("cross_axis");
