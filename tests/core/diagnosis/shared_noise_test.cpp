@@ -25,19 +25,19 @@ Diagnosis diagnosed_beside(const std::vector<Series>& gyro, NamedChannel other,
   return diagnose(fitted(std::make_shared<const Subject>(make_subject(replicates, {other}))));
 }
 
-// A gyroscope beside another one, which is noisier. Of a Markov process that both feel, or only the
+// A gyroscope beside another one, which is noisier. Of a `motion` that both feel, or only the
 // first; or of one of its own, and the neighbour leaks into it.
-Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
-  constexpr Hertz kRate{50.0};
+Diagnosis beside_another(double felt, double leaked, double strength = 1.0,
+                         const char* motion = "AR1(phi=0.9, sigma2=0.04)", Hertz rate = {50.0}) {
   constexpr std::size_t kSamples = 16'384;
   constexpr std::uint32_t kReplicates = 4;
   const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
-    return simulate(*parse_model(model, kRate), kSamples, seed, k);
+    return simulate(*parse_model(model, rate), kSamples, seed, k);
   };
   std::vector<Series> own;
   std::vector<Series> other;
   for (std::uint32_t k = 0; k < kReplicates; ++k) {
-    const Series shaking = made("AR1(phi=0.9, sigma2=0.04)", 21, k);
+    const Series shaking = made(motion, 21, k);
     own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 22, k));
     other.push_back(made("WN(sigma2=9) + RW(gamma2=1e-5)", 23, k));
     for (std::size_t t = 0; t < kSamples; ++t) {
@@ -45,7 +45,7 @@ Diagnosis beside_another(double felt, double leaked, double strength = 1.0) {
       other[k][t] += felt * strength * shaking[t];
     }
   }
-  return diagnosed_beside(own, {"gyro_y", {}}, other, Quantity::kAngularRate, kRate);
+  return diagnosed_beside(own, {"gyro_y", {}}, other, Quantity::kAngularRate, rate);
 }
 
 // A gyroscope that turns, and its neighbour, which feels a share of this: the turning leaks, the
@@ -85,6 +85,14 @@ TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
   const Diagnosis diagnosis = beside_another(1.0, 0.0);
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "common_vibration");
+  EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
+}
+
+// The neighbour's noise hides what is faster than 0.1 Hz.
+TEST(Diagnose, SlowNoiseThatTheNeighbourFeelsTooIsNoVibration) {
+  const Diagnosis diagnosis = beside_another(1.0, 0.0, 1.0, "AR1(phi=0.9995, sigma2=2e-4)", {10.0});
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "tilt");
   EXPECT_EQ(diagnosis.effects[0].tried.shared_with, "gyro_y");
 }
 
