@@ -98,7 +98,7 @@ std::optional<HeldOut> held_out(const FittedModel& fitted) {
   const auto place = static_cast<std::size_t>(own_noise - effects.begin());
   const Regression shared = needed ? all : all.without(place);
   const std::size_t count = all.subject().replicates();
-  HeldOut out{std::vector<double>(count), 0};
+  HeldOut out{std::vector<double>(count), std::vector<Eigen::Index>(count), 0};
   for (const SharedVector& one : subject.samples)
     out.scores += static_cast<Eigen::Index>(scales_of(one).size());
   for_each_index(count, [&](std::size_t k) {
@@ -109,6 +109,7 @@ std::optional<HeldOut> held_out(const FittedModel& fitted) {
     const JointFit fit = joint_fit(shared.of(others), fitted.fit.model.noise, {}, Begin::kNear);
     const Model& noise = fit.model.noise;
     const Regression one = all.of({k});
+    out.samples[k] = all.subject().length(k);
     const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;
     // What the replicate itself gave: a coefficient costs a nat.
     const auto& own_nats = all.subject().own_nats;

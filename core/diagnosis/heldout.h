@@ -11,6 +11,7 @@ namespace imunoise {
 struct HeldOut {
   /// Of a replicate each, or of a block of a single one; less what does not depend on the model.
   std::vector<double> nats;
+  std::vector<Eigen::Index> samples;  ///< of each of these
   /// Averaging times × replicates: how many scores of the wavelet variance there are.
   Eigen::Index scores = 0;
 

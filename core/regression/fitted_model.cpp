@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/regression/current.h"
+#include "core/regression/uncertain_shape.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
@@ -57,16 +58,17 @@ std::vector<ReportedNumber> coefficient_numbers(const FittedEffect& effect) {
           ? student_quantile(0.975, std::max(1.0, effect.noise_dof)) / interval_reach()
           : 1.0;
   const std::string unit = unit_of(effect.term(), effect.subject());
+  const Eigen::ArrayXd growth = growth_by_shape(effect);
+  const Eigen::Index first = regression.first(effect.number);
   std::vector<ReportedNumber> out;
-  for (Eigen::Index i = regression.first(effect.number); i < regression.first(effect.number + 1);
-       ++i) {
+  for (Eigen::Index i = first; i < regression.first(effect.number + 1); ++i) {
     const CoefficientName& name = regression.coefficients()[static_cast<std::size_t>(i)];
     const std::string label = name.replicate == CoefficientName::kAll
                                   ? name.name
                                   : fmt::format("{} in replicate {}", name.name,
                                                 place_of(regression.subject(), name.replicate));
-    out.push_back(
-        with_error({label, found.value(i), unit}, stretch * std::sqrt(found.covariance(i, i))));
+    const double error = stretch * growth(i - first) * std::sqrt(found.covariance(i, i));
+    out.push_back(with_error({label, found.value(i), unit}, error));
   }
   return out;
 }

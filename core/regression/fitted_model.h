@@ -35,7 +35,7 @@ struct FittedEffect {
 
 /// What a fit found of an effect: coefficients, amplitudes, heights, with their intervals.
 std::vector<ReportedNumber> fitted_numbers(const FittedEffect& effect);
-/// Its coefficients, with their errors.
+/// Its coefficients, with their errors; a time constant is uncertain, too.
 std::vector<ReportedNumber> coefficient_numbers(const FittedEffect& effect);
 
 /// Unit of the coefficient that a fit of a term finds.

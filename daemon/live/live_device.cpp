@@ -113,7 +113,7 @@ LiveDevice::LiveDevice(const v1::RecordedDevice& device)
   }
 }
 
-void LiveDevice::take(const recording::Block& block) {
+void LiveDevice::take(const recording::Block& block, Steady::time_point now) {
   Stream& to = streams_[block.stream];
   const recording::Rows& rows = block.rows;
   const std::uint64_t refused = recording::refused_rows(rows.refused);
@@ -136,6 +136,7 @@ void LiveDevice::take(const recording::Block& block) {
   to.now_ns = rows.host_time.back();
   to.samples += rows.size();
   to.rate.take(to.now_ns, to.samples);
+  to.heard = now;
 }
 
 // How many are missing follows from the time stamps.
@@ -163,13 +164,25 @@ void LiveDevice::take_channel(const recording::Rows& rows, const v1::RecordedStr
   }
 }
 
-v1::LiveStream LiveDevice::describe(const v1::RecordedStream& stream, const Stream& of) {
+// For how many seconds no samples have come; 0: they come, or need not.
+double LiveDevice::silence(const v1::RecordedStream& stream, const Stream& of,
+                           Steady::time_point now) {
+  constexpr double kLeast = 3.0;     // s: more than a device or its bridge keeps back
+  constexpr double kSamples = 20.0;  // of a slow stream
+  if (!of.begin_ns || !(stream.rate_hz() > 0.0)) return 0.0;
+  const double out = std::chrono::duration<double>(now - of.heard).count();
+  return out > std::max(kLeast, kSamples / stream.rate_hz()) ? out : 0.0;
+}
+
+v1::LiveStream LiveDevice::describe(const v1::RecordedStream& stream, const Stream& of,
+                                    Steady::time_point now) {
+  const double silent_s = silence(stream, of, now);
   v1::LiveStream out;
   out.set_stream(stream.name());
   out.set_nominal_hz(stream.rate_hz());
-  if (const auto rate = of.rate.hz()) out.set_rate_hz(*rate);
+  if (const auto rate = of.rate.hz()) out.set_rate_hz(silent_s > 0.0 ? 0.0 : *rate);
   out.set_samples(of.samples);
-  out.set_missing(of.missing);
+  out.set_missing(of.missing + static_cast<std::uint64_t>(silent_s * stream.rate_hz()));
   out.set_gaps(of.gaps);
   out.set_refused(of.refused);
   if (!of.warmths.empty() && of.warmths.front().newest)
@@ -188,7 +201,7 @@ v1::LiveChannel LiveDevice::describe(const v1::RecordedStream& stream, const Cha
   return out;
 }
 
-void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
+void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of, Steady::time_point now,
                       std::vector<v1::LiveWarning>& to) {
   const auto add = [&](v1::LiveConcern concern, const std::string& channel, std::int64_t since,
                        const std::string& sentence) {
@@ -202,6 +215,8 @@ void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
   const auto name = [&](std::size_t index) -> const std::string& {
     return stream.channels(static_cast<int>(index)).name();
   };
+  if (const double seconds = silence(stream, of, now); seconds > 0.0)
+    add(v1::silent, "", of.now_ns, fmt::format("no samples for {:.0f} s", seconds));
   if (const auto since = of.lost.since(of.now_ns)) {
     add(v1::lost_samples, "", *since,
         fmt::format("samples were rejected or are missing, {} in the last minutes",
@@ -227,7 +242,7 @@ void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of,
   }
 }
 
-v1::LiveDevice LiveDevice::state() const {
+v1::LiveDevice LiveDevice::state(Steady::time_point now) const {
   v1::LiveDevice out;
   out.set_device(device_.name());
   for (std::size_t s = 0; s < streams_.size(); ++s) {
@@ -236,7 +251,7 @@ v1::LiveDevice LiveDevice::state() const {
     out.set_samples(out.samples() + of.samples);
     out.set_refused(out.refused() + of.refused);
     out.set_gaps(out.gaps() + of.gaps);
-    *out.add_streams() = describe(stream, of);
+    *out.add_streams() = describe(stream, of, now);
     if (!of.begin_ns) continue;
     out.set_last_sample_ns(std::max(out.last_sample_ns(), of.now_ns));
     const double elapsed = static_cast<double>(of.now_ns - *of.begin_ns) * 1e-9;
@@ -244,7 +259,7 @@ v1::LiveDevice LiveDevice::state() const {
     for (const Channel& channel : of.channels) *out.add_channels() = describe(stream, channel);
   }
   out.set_outlook(outlook(out));
-  for (v1::LiveWarning& one : warnings()) *out.add_warnings() = std::move(one);
+  for (v1::LiveWarning& one : warnings(now)) *out.add_warnings() = std::move(one);
   if (v1::LiveWarning past = past_warning(); past.since_ns() != 0)
     *out.mutable_past_warning() = std::move(past);
   if (pictured_) {
@@ -296,10 +311,10 @@ Result<v1::SampleRanges> LiveDevice::samples(const v1::GetLiveSamplesRequest& re
   return fail(fmt::format("stream '{}': device '{}' has none", request.stream(), name()));
 }
 
-std::vector<v1::LiveWarning> LiveDevice::warnings() const {
+std::vector<v1::LiveWarning> LiveDevice::warnings(Steady::time_point now) const {
   std::vector<v1::LiveWarning> out;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (streams_[s].begin_ns) warn(device_.streams(static_cast<int>(s)), streams_[s], out);
+    if (streams_[s].begin_ns) warn(device_.streams(static_cast<int>(s)), streams_[s], now, out);
   }
   return out;
 }

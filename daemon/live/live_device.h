@@ -11,6 +11,7 @@
 #include "daemon/live/live_variance.h"
 #include "daemon/live/recent_rate.h"
 #include "daemon/live/sample_rings.h"
+#include "daemon/live/trouble.h"
 #include "imunoise/v1/live.pb.h"
 #include "imunoise/v1/service.pb.h"
 #include "recording/store/stream/channel_units.h"
@@ -25,10 +26,10 @@ class LiveDevice {
   explicit LiveDevice(const v1::RecordedDevice& device);
 
   /// Samples as they are recorded: check_block() accepted them.
-  void take(const recording::Block& block);
-  v1::LiveDevice state() const;
+  void take(const recording::Block& block, Steady::time_point now = Steady::now());
+  v1::LiveDevice state(Steady::time_point now = Steady::now()) const;
   /// What state() warns of.
-  std::vector<v1::LiveWarning> warnings() const;
+  std::vector<v1::LiveWarning> warnings(Steady::time_point now = Steady::now()) const;
   /// The latest samples of a stream (empty: the first), as SampleRings gives them. Error: also a
   /// stream that it has not.
   Result<v1::SampleRanges> samples(const v1::GetLiveSamplesRequest& request) const;
@@ -60,6 +61,7 @@ class LiveDevice {
     std::uint64_t missing = 0;
     std::optional<std::int64_t> begin_ns;
     std::int64_t now_ns = 0;
+    Steady::time_point heard;  // when the newest samples came
     Concern lost;
   };
   // What a picture of the device shows.
@@ -70,9 +72,11 @@ class LiveDevice {
   static std::optional<Pictured> pictured_of(const v1::RecordedDevice& device);
   void take_channel(const recording::Rows& rows, const v1::RecordedStream& stream, Channel& to);
   static void take_gaps(const recording::Rows& rows, double rate_hz, Stream& to);
-  static v1::LiveStream describe(const v1::RecordedStream& stream, const Stream& of);
+  static double silence(const v1::RecordedStream& stream, const Stream& of, Steady::time_point now);
+  static v1::LiveStream describe(const v1::RecordedStream& stream, const Stream& of,
+                                 Steady::time_point now);
   static v1::LiveChannel describe(const v1::RecordedStream& stream, const Channel& channel);
-  static void warn(const v1::RecordedStream& stream, const Stream& of,
+  static void warn(const v1::RecordedStream& stream, const Stream& of, Steady::time_point now,
                    std::vector<v1::LiveWarning>& to);
 
   v1::LiveWarning past_warning() const;

@@ -9,6 +9,7 @@
 #include "core/diagnosis/views/run_off.h"
 #include "core/effects/couplings.h"
 #include "core/inference/normal_scores.h"
+#include "core/search/wave_scores.h"
 #include "study/analysis/effect_parameters.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/noise_budget.h"
@@ -138,6 +139,18 @@ std::string integral_unit(Quantity quantity) {
   return unit.empty() ? "s" : fmt::format("{}·s", unit);
 }
 
+bool is_wave(const EffectTerm& term) {
+  return term.effect->name == "line" || term.effect->name == "wander";
+}
+
+// Hz: slower waves are not sought.
+double slowest_wave(const Subject& subject) {
+  double shortest = INFINITY;
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
+    shortest = std::min(shortest, static_cast<double>(subject.length(k)));
+  return kFewestPeriods * subject.rate.value / shortest;
+}
+
 }  // namespace
 
 std::string printed(const AddedTerm& added) {
@@ -170,6 +183,7 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
     if (term != nullptr && term->effect->witness) limit.set_witness(term->witness);
     const bool anywhere = term != nullptr && term->effect->anywhere;
     if (!anywhere) limit.set_term(printed(from.added));
+    if (term != nullptr && is_wave(*term)) limit.set_lowest_hz(slowest_wave(subject));
   }
 }
 
@@ -203,7 +217,8 @@ void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport&
   const std::string_view left = *verdict == DiagnosisVerdict::kNone
                                     ? "no further effect is missing that these data could show"
                                     : "a misfit remains that no known effect explains";
-  to.set_summary(fmt::format("{} Once that is in the model, {}.", to.summary(), left));
+  to.set_summary(fmt::format("{} Once {} in the model, {}.", to.summary(),
+                             to.findings_size() > 1 ? "all of these are" : "that is", left));
 }
 
 v1::Rung rung_of(const EvaluatedModel& evaluated, const Step& step, double first,
@@ -217,6 +232,8 @@ v1::Rung rung_of(const EvaluatedModel& evaluated, const Step& step, double first
   out.set_training_error(training_error(trial, evaluated.left));
   if (evaluated.heldout) {
     for (const double nats : evaluated.heldout->nats) out.add_heldout_nats(nats);
+    for (const Eigen::Index samples : evaluated.heldout->samples)
+      out.add_heldout_samples(static_cast<std::uint64_t>(samples));
     out.set_heldout_scores(static_cast<std::uint32_t>(evaluated.heldout->scores));
   }
   out.set_promised_nats(promised_nats(evaluated.misfit));

@@ -27,33 +27,59 @@ double held_out_nats(const v1::Rung& rung) {
   return std::accumulate(rung.heldout_nats().begin(), rung.heldout_nats().end(), 0.0);
 }
 
-// Nats of each replicate by which one rung lies above another; empty where they cannot be paired.
-std::vector<double> gained(const v1::Rung& above, const v1::Rung& below) {
-  std::vector<double> out;
-  if (above.heldout_nats_size() != below.heldout_nats_size()) return out;
-  for (int k = 0; k < above.heldout_nats_size(); ++k)
-    out.push_back(above.heldout_nats(k) - below.heldout_nats(k));
+// Nats that a replicate gains, and its share of all samples.
+struct Gain {
+  double nats;
+  double share;
+};
+
+// Of each replicate by which one rung lies above another; empty where they cannot be paired.
+std::vector<Gain> gained(const v1::Rung& above, const v1::Rung& below) {
+  std::vector<Gain> out;
+  const int count = above.heldout_nats_size();
+  if (count != below.heldout_nats_size()) return out;
+  const bool alike = above.heldout_samples_size() != count;  // old files do not say
+  const auto samples = [&](int k) {
+    return alike ? 1.0 : static_cast<double>(above.heldout_samples(k));
+  };
+  double all = 0.0;
+  for (int k = 0; k < count; ++k) all += samples(k);
+  for (int k = 0; k < count; ++k)
+    out.push_back({above.heldout_nats(k) - below.heldout_nats(k), samples(k) / all});
   return out;
 }
 
-// Half of the 95 % interval of a sum over replicates.
-double reach_of_sum(const std::vector<double>& each) {
+double sum(const std::vector<Gain>& each) {
+  double out = 0.0;
+  for (const Gain& one : each) out += one.nats;
+  return out;
+}
+
+// Half of the 95 % interval of a sum over replicates. Each contributes by its length: the scatter
+// is that about its share of the sum (ratio estimator: Cochran 1977, Sampling Techniques, 6.13).
+double reach_of_sum(const std::vector<Gain>& each) {
   const auto n = static_cast<double>(each.size());
-  const double mean = std::accumulate(each.begin(), each.end(), 0.0) / n;
+  const double all = sum(each);
   double squares = 0.0;
-  for (const double one : each) squares += (one - mean) * (one - mean);
+  for (const Gain& one : each)
+    squares += (one.nats - one.share * all) * (one.nats - one.share * all);
   return student_quantile(0.975, n - 1.0) * std::sqrt(n * squares / (n - 1.0));
 }
 
 // A gain that one replicate has nearly alone says nothing about the next recording: no spread over
-// replicates is its interval.
-bool in_one_replicate(const std::vector<double>& each) {
-  constexpr double kNearlyAll = 0.8;     // the others gain as their noise is estimated better
+// replicates is its interval. The others then gain less than a fifth of what, by their length, they
+// would if all were alike (as their noise is estimated better).
+bool in_one_replicate(const std::vector<Gain>& each) {
+  constexpr double kLittle = 0.2;
   constexpr double kWorthTelling = 5.0;  // nats
+  if (each.size() < 3) return false;
   double all = 0.0;
-  for (const double one : each) all += std::abs(one);
-  return each.size() > 2 && all > kWorthTelling &&
-         *std::max_element(each.begin(), each.end()) > kNearlyAll * all;
+  for (const Gain& one : each) all += std::abs(one.nats);
+  const Gain most = *std::max_element(each.begin(), each.end(),
+                                      [](const Gain& a, const Gain& b) { return a.nats < b.nats; });
+  const auto n = static_cast<double>(each.size());
+  return all > kWorthTelling &&
+         all - most.nats < kLittle * all * (1.0 - most.share) * n / (n - 1.0);
 }
 
 std::string integral_name(const std::string& unit) {
@@ -144,11 +170,10 @@ void tell(const Placed& at, const Placed& best, double promised, bool forecast) 
   to.clear_unexplained_lower();
   to.clear_unexplained_upper();
   to.clear_single_replicate_nats();
-  const std::vector<double> below = gained(*best.rung, to);
+  const std::vector<Gain> below = gained(*best.rung, to);
   if (at.parent != nullptr) {
-    const std::vector<double> step = gained(to, *at.parent);
-    if (in_one_replicate(step))
-      to.set_single_replicate_nats(std::accumulate(step.begin(), step.end(), 0.0));
+    const std::vector<Gain> step = gained(to, *at.parent);
+    if (in_one_replicate(step)) to.set_single_replicate_nats(sum(step));
   }
   if (!as_good && below.size() > 1 && !in_one_replicate(below)) {
     const double reach = reach_of_sum(below);

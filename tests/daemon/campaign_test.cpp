@@ -130,6 +130,19 @@ TEST_F(CampaignRun, LeavesAtOnceWhenNothingIsRecorded) {
   EXPECT_EQ(tasks_.size(), 3U);
 }
 
+TEST_F(CampaignRun, WaitsWhileAnotherProcessRecordsIntoItsFolder) {
+  ASSERT_TRUE(recording::make_folders(files(), campaign_.folder()));
+  auto other = files().lock(campaign_.folder());
+  ASSERT_TRUE(other);
+  when_told_ = [&](const v1::CampaignStatus& status) {
+    EXPECT_TRUE(tasks_.empty());
+    if (status.phase() == v1::held_up) other->reset();
+  };
+  run(kBegin);
+  EXPECT_TRUE(was_told("another process is recording into it"));
+  EXPECT_EQ(tasks_.size(), 3U);
+}
+
 TEST_F(CampaignRun, AFinishedOneDoesNotRecordAgain) {
   run(kBegin);
   tasks_.clear();

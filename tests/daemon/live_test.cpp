@@ -232,6 +232,23 @@ TEST(LiveDevice, EnoughIsAFactorOfTwo) {
   }
 }
 
+// A device that died is not shown as it was when it lived.
+TEST(LiveDevice, TellsThatNoSamplesCome) {
+  using std::chrono::seconds;
+  LiveDevice live(device());
+  Source source;
+  const Steady::time_point begin{seconds(1000)};
+  live.take(source.block(2'000), begin);
+  EXPECT_FALSE(warns(live.state(begin + seconds(2)), v1::silent));
+  const v1::LiveDevice state = live.state(begin + seconds(41));
+  ASSERT_TRUE(warns(state, v1::silent)) << state.DebugString();
+  EXPECT_EQ(state.warnings(0).sentence(), "imu: no samples for 41 s");
+  EXPECT_EQ(state.streams(0).rate_hz(), 0.0);
+  EXPECT_EQ(state.streams(0).missing(), 4'100U);
+  live.take(source.block(100), begin + seconds(42));
+  EXPECT_FALSE(warns(live.state(begin + seconds(43)), v1::silent));
+}
+
 TEST(LiveDevice, WarnsOfWhatCanStillBeMended) {
   LiveDevice live(device());
   Source source(3.0 / 3600.0);

@@ -47,6 +47,34 @@ TEST(Unexplained, IsOneAtTheBestModelAndCountsNatsBelowIt) {
   EXPECT_NE(first.consequence().find("2.50 times"), std::string::npos) << first.consequence();
 }
 
+// A replicate of twice the length loses twice as much: no scatter, whatever the lengths.
+TEST(Unexplained, LongerReplicatesCountMore) {
+  const std::vector<std::uint64_t> lengths = {60'000, 40'000, 20'000, 80'000};
+  v1::DiagnosisReport report = ladder({rung({-30, -20, -10, -40}), rung({0, 0, 0, 0})});
+  for (v1::Rung& one : *report.mutable_ladder())
+    one.mutable_heldout_samples()->Add(lengths.begin(), lengths.end());
+  tell_unexplained(report, 1);
+  const v1::Rung& first = report.ladder(0);
+  EXPECT_DOUBLE_EQ(first.unexplained(), 1.0 + 2.0 * 100.0 / kScores);
+  EXPECT_NEAR(first.unexplained_lower(), first.unexplained(), 1e-9);
+  EXPECT_NEAR(first.unexplained_upper(), first.unexplained(), 1e-9);
+  EXPECT_FALSE(report.ladder(1).has_single_replicate_nats());
+}
+
+// Nine tenths of the gain in nine tenths of the samples say nothing of one replicate.
+TEST(Unexplained, ALongReplicateIsNotAlone) {
+  const auto single = [](const std::vector<std::uint64_t>& lengths) {
+    v1::DiagnosisReport report = ladder({rung({-90, -4, -3, -3}), rung({0, 0, 0, 0})});
+    for (v1::Rung& one : *report.mutable_ladder())
+      one.mutable_heldout_samples()->Add(lengths.begin(), lengths.end());
+    tell_unexplained(report, 1);
+    return report.ladder(1).has_single_replicate_nats();
+  };
+  EXPECT_FALSE(single({90'000, 4'000, 3'000, 3'000}));
+  EXPECT_TRUE(single({25'000, 25'000, 25'000, 25'000}));
+  EXPECT_TRUE(single({}));
+}
+
 TEST(Unexplained, AWorseRungLiesAboveTheFloorAgain) {
   v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}), rung({5, 5, 5, 5}), rung({4, 5, 4, 5})});
   tell_unexplained(report, std::nullopt);

@@ -1,4 +1,5 @@
 // The frame around the rooms, and the states in which there is no room yet.
+import { duration } from "./parts/numbers";
 import { Empty, Loading } from "./parts/states";
 import { SignIn } from "./parts/sign_in";
 import { ArrayRoom } from "./rooms/arrays/array_room";
@@ -50,7 +51,7 @@ function Recording() {
   if (!knownHere.value) return null;
   const now = [...(campaigns.value?.values() ?? [])].find((one) => one.recording);
   if (!now) return null;
-  const left = now.left_s === undefined ? "" : ` · ${Math.ceil(now.left_s / 60)} min left`;
+  const left = now.left_s === undefined ? "" : ` · ${duration(now.left_s)} left`;
   return <span class="recording"><span class="dot" aria-hidden="true" />{now.campaign?.name} · {now.recording}{left}</span>;
 }
 

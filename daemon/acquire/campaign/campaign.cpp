@@ -130,8 +130,7 @@ class Run {
       task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
     }
-    if (auto done = recording::make_folders(with_.files, campaign_.folder()); !done)
-      return hold_up(done.error().message);
+    if (auto done = take_folder(); !done) return hold_up(done.error().message);
     last_ = task.folder;
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
     follow_clock();
@@ -145,6 +144,17 @@ class Run {
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
     add_news(describe(*note));
+  }
+
+  // The campaign's folder, from the first replicate to the end of the run: another daemon would add
+  // its replicates to the recording that this one has begun.
+  Result<void> take_folder() {
+    if (auto done = recording::make_folders(with_.files, campaign_.folder()); !done) return done;
+    if (own_folder_) return {};
+    auto lock = with_.files.lock(campaign_.folder());
+    if (!lock) return tl::make_unexpected(lock.error());
+    own_folder_ = std::move(*lock);
+    return {};
   }
 
   // What the last replicate left in journals, because the disk took no chunk, becomes chunks.
@@ -240,6 +250,7 @@ class Run {
   std::filesystem::path last_;      // where this process recorded last
   std::filesystem::path recorded_;  // whose replicate it closed last
   std::string unfinished_;          // why the last replicate may have stayed open
+  std::unique_ptr<recording::FolderLock> own_folder_;
   std::filesystem::path folder_of_next_;
   std::chrono::seconds pause_ = kFirstPause;
   std::string news_;  // what the next status tells of the step before it

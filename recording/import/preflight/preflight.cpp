@@ -123,13 +123,14 @@ class Judge {
 
   Result<void> check_readable() {
     if (table_.unreadable == 0) return {};
-    find(Severity::kLeftOut, fmt::format("{} rows cannot be read: left out; the first is {}",
-                                         table_.unreadable, table_.first_unreadable));
+    find(Severity::kLeftOut,
+         fmt::format("{} cannot be read: left out; the first is {}",
+                     counted(table_.unreadable, "row"), table_.first_unreadable));
     if (2 * table_.unreadable <= rows_) return {};
     return fail(
-        fmt::format("{}: {} rows cannot be read; the first is {}; give names and rows the same "
+        fmt::format("{}: {} cannot be read; the first is {}; give names and rows the same "
                     "columns, or leave columns out with --channel",
-                    file_, table_.unreadable, table_.first_unreadable));
+                    file_, counted(table_.unreadable, "row"), table_.first_unreadable));
   }
 
   // All that are wrong are told at once.
@@ -233,18 +234,18 @@ class Judge {
     for (const Leap& leap : pace.leaps) {
       cuts_.add(leap.at, leap.at);
       const bool back = leap.seconds < 0.0;
+      const auto lost = static_cast<std::uint64_t>(
+          std::max(1.0, std::min(1e15, std::round(leap.seconds / pace.period))));
       if (!back) {
         ++out_.gaps;
-        out_.lost += static_cast<std::uint64_t>(
-            std::max(1.0, std::min(1e15, std::round(leap.seconds / pace.period))));
+        out_.lost += lost;
       }
       if (told++ >= kTold) continue;
       find(Severity::kLeftOut,
            back ? fmt::format("time goes backwards by {:.6g} s at {:.6g} s ({}): cut there",
                               -leap.seconds, clock_->at(leap.at - 1), row(leap.at))
-                : fmt::format("gap of {:.6g} s at {:.6g} s ({}), about {:.0f} samples: cut there",
-                              leap.seconds, clock_->at(leap.at - 1), row(leap.at),
-                              std::max(1.0, std::round(leap.seconds / pace.period))));
+                : fmt::format("gap of {:.6g} s at {:.6g} s ({}), about {}: cut there", leap.seconds,
+                              clock_->at(leap.at - 1), row(leap.at), counted(lost, "sample")));
     }
     if (told > kTold)
       find(Severity::kLeftOut, fmt::format("{} more gaps: cut there", told - kTold));
@@ -331,17 +332,18 @@ class Judge {
       const double end = time_of(std::min(one.end, rows_ - 1));
       if (out) {
         find(Severity::kLeftOut,
-             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} of its "
+             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} times its "
                          "usual scatter): left out",
                          begin, end, one.channel, one.size));
       } else if (one.several) {
-        find(Severity::kDoubt, fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} of its "
-                                           "usual scatter): used, as it was asked for",
-                                           begin, end, one.channel, one.size));
+        find(Severity::kDoubt,
+             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} times its "
+                         "usual scatter): used, as it was asked for",
+                         begin, end, one.channel, one.size));
       } else {
         find(Severity::kDoubt,
              fmt::format(
-                 "{} changes from {:.6g} to {:.6g} s, by {:.2g} of its usual scatter, and no "
+                 "{} changes from {:.6g} to {:.6g} s, by {:.2g} times its usual scatter, and no "
                  "other channel does: used; --exclude {:.6g}..{:.6g} leaves it out",
                  one.channel, begin, end, one.size, begin, end));
       }

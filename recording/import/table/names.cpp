@@ -172,7 +172,8 @@ const Stem* stem_of(std::string_view text) {
   return found == kStems.end() ? nullptr : found;
 }
 
-// Units that stand behind an axis, or a sensor: "gyro_x_rad_s", "acc_z_g", "gyro_rad_s".
+// Units that stand behind an axis, or a sensor: "gyro_x_rad_s", "acc_z_g", "gyro_rad_s",
+// "gx_dps".
 struct UnitWords {
   std::string_view first;
   std::string_view second;
@@ -192,6 +193,13 @@ constexpr std::array kUnitWords = {UnitWords{"rad", "s", Quantity::kAngularRate,
 
 bool is_axis(char c) { return (c >= 'x' && c <= 'z') || (c >= '0' && c <= '3'); }
 
+// "gx", "accy": a sensor and its axis in one word.
+bool is_axis_of(std::string_view word, Quantity quantity) {
+  if (word.size() < 2 || !is_axis(word.back())) return false;
+  const Stem* const sensor = stem_of(word.substr(0, word.size() - 1));
+  return sensor != nullptr && sensor->quantity == quantity;
+}
+
 // Takes the words of a unit off the end of a name that has an axis, or a sensor of that kind,
 // before them.
 const UnitWords* take_unit(std::vector<std::string>& words) {
@@ -203,7 +211,9 @@ const UnitWords* take_unit(std::vector<std::string>& words) {
     const Stem* const sensor = stem_of(before);
     const bool axis = before.size() == 1 && is_axis(before.front());
     if (axis && words.size() < count + 2) continue;
-    if (!axis && (sensor == nullptr || sensor->whole || sensor->quantity != one.quantity)) continue;
+    if (!axis && !is_axis_of(before, one.quantity) &&
+        (sensor == nullptr || sensor->whole || sensor->quantity != one.quantity))
+      continue;
     words.resize(words.size() - count);
     return &one;
   }

@@ -100,11 +100,13 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
   std::vector<bool> chosen(offers.size(), false);
   std::vector<std::string> named = wanted;
   if (options.beside) named.insert(named.end(), options.witnesses.begin(), options.witnesses.end());
-  for (const std::string& name : named) {
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const std::string& name = named[i];
     const std::vector<std::size_t> found = called(name, offers);
     if (found.empty()) {
-      return fail(fmt::format("{}: no channel '{}' (it has: {}); choose with --channel{}", file,
-                              name, listed(offers), nearest_of(name, offers)));
+      const std::string_view option = i < wanted.size() ? "--channel" : "--witness";
+      return fail(fmt::format("{}: no channel '{}' (it has: {}); choose with {}{}", file, name,
+                              listed(offers), option, nearest_of(name, offers)));
     }
     for (const std::size_t index : found) {
       if (!chosen[index]) out.push_back(index);

@@ -99,18 +99,20 @@ struct Kept {
   std::optional<ReportedNumber> size{};
 };
 
-// The last model, each of whose noise terms is one rung's only.
+// The last model, each of whose terms is one rung's only.
 class LastModel {
  public:
   explicit LastModel(const FittedModel& model)
-      : model_(model), taken_(model.fit.model.noise.terms.size(), false) {}
+      : model_(model),
+        effects_taken_(model.regression.effects().size(), false),
+        noise_taken_(model.fit.model.noise.terms.size(), false) {}
 
   /// Of what one rung added. The size is that of an effect, else of noise.
   Kept kept(const std::string& added) {
     Kept out;
     std::optional<ReportedNumber> of_noise;
     for (const std::string& part : parts_of(added)) {
-      const auto effect = effect_of(part);
+      const auto effect = take_effect(part);
       const auto noise = effect ? std::nullopt : take_noise(part);
       if (!effect && !noise) continue;  // it was dropped later
       out.term += fmt::format("{}{}", out.term.empty() ? "" : " + ", part);
@@ -122,10 +124,12 @@ class LastModel {
   }
 
  private:
-  std::optional<std::size_t> effect_of(const std::string& part) const {
+  std::optional<std::size_t> take_effect(const std::string& part) {
     const std::vector<EffectTerm>& effects = model_.regression.effects();
     for (std::size_t e = 0; e < effects.size(); ++e) {
-      if (print(effects[e]) == part) return e;
+      if (effects_taken_[e] || print(effects[e]) != part) continue;
+      effects_taken_[e] = true;
+      return e;
     }
     return std::nullopt;
   }
@@ -133,15 +137,16 @@ class LastModel {
   std::optional<std::size_t> take_noise(const std::string& part) {
     const std::vector<Term>& terms = model_.fit.model.noise.terms;
     for (std::size_t t = terms.size(); t-- > 0;) {
-      if (taken_[t] || printed_alone(terms[t]) != part) continue;
-      taken_[t] = true;
+      if (noise_taken_[t] || printed_alone(terms[t]) != part) continue;
+      noise_taken_[t] = true;
       return t;
     }
     return std::nullopt;
   }
 
   const FittedModel& model_;
-  std::vector<bool> taken_;
+  std::vector<bool> effects_taken_;
+  std::vector<bool> noise_taken_;
 };
 
 std::string sentence_of(const v1::LadderFinding& found) {

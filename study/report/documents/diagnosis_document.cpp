@@ -185,8 +185,10 @@ Table limit_table(const v1::DiagnosisReport& report, Digits digits) {
     const std::string effect =
         one.witness().empty() ? one.effect() : fmt::format("{} ({})", one.effect(), one.witness());
     const std::string unit = one.unit() == "1" ? "" : " " + one.unit();
-    const std::string of =
+    std::string of =
         one.term().empty() ? one.parameter() : fmt::format("{}, {}", one.parameter(), one.term());
+    if (one.has_lowest_hz())
+      of += fmt::format(", above {} Hz", number(one.lowest_hz(), 2, Digits::kPlain));
     out.rows.push_back({effect, number(one.value(), 2, digits) + unit, of});
   }
   return out;

@@ -109,7 +109,7 @@ std::vector<OddFile> odd_layouts() {
     OddFile& one = list.good(
         "a row that cannot be read", "left out: cut there",
         odd_table("t,x\n", [](int i) { return i == 200 ? "2.00,abc" : t(i) + "," + x(i); }),
-        "1 rows cannot be read");
+        "1 row cannot be read");
     one.stretches = 2;
     one.used = kOddRows - 1;
   }

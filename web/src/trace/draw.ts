@@ -1,5 +1,5 @@
 // A trace on a canvas. The colours are those of the figures.
-import type { Extent, Trace } from "./ranges";
+import { type Extent, stretchesOf, type Trace } from "./ranges";
 import { tickLabels, ticks, timeLabel, timeTicks } from "./ticks";
 
 export interface Frame {
@@ -81,14 +81,14 @@ export function draw(canvas: HTMLCanvasElement, trace: Trace, frame: Frame): voi
   const places = trace.time.map(x);
   const beyond = places.findIndex((place) => place > right);
   const last = beyond < 0 ? places.length : beyond + 1;
-  const gaps = new Set(trace.gaps);
+  const first = Math.max(0, places.findIndex((place) => place >= kLeft) - 1);
   to.strokeStyle = to.fillStyle = colour(canvas, "--model");
   to.lineWidth = 1.2;
   to.lineJoin = "round";
   // Stretches without a gap: what lies between the least and the greatest of each range.
-  for (let begin = Math.max(0, places.findIndex((place) => place >= kLeft) - 1); begin < last;) {
-    let end = begin + 1;
-    while (end < last && !gaps.has(end)) ++end;
+  for (const [from, until] of stretchesOf(trace)) {
+    const [begin, end] = [Math.max(from, first), Math.min(until, last)];
+    if (begin >= end) continue;
     to.beginPath();
     for (let k = begin; k < end; ++k) to.lineTo(places[k]!, y(trace.upper[k]!));
     to.stroke();
@@ -100,7 +100,6 @@ export function draw(canvas: HTMLCanvasElement, trace: Trace, frame: Frame): voi
     to.beginPath();
     for (let k = begin; k < end; ++k) to.lineTo(places[k]!, y(trace.lower[k]!));
     to.stroke();
-    begin = end;
   }
   to.restore();
 }

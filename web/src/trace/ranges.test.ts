@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { SampleRanges } from "../api/schema";
-import { extend, extentOf, rangeSize, steadyAxis, tracesOf } from "./ranges";
+import { extend, extentOf, latestOf, rangeSize, steadyAxis, stretchesOf, tracesOf } from "./ranges";
 
 const news = (from: number, count: number, more: Partial<SampleRanges> = {}): SampleRanges => ({
   stream: "imu", begin_ns: "0", replicate: 1, samples_each: 4, length_s: 0,
@@ -27,6 +27,20 @@ test("what does not follow replaces what there was", () => {
   expect(extend(first, news(0, 3, { replicate: 2 }), 8).traces[0]?.time.length).toBe(3);
   expect(extend(first, news(6, 2, { samples_each: 16 }), 8).traces[0]?.time.length).toBe(2);
   expect(extend(first, news(6, 0), 8).traces[0]?.time.length).toBe(6);
+});
+
+test("the newest value of a range of many samples is its middle", () => {
+  const [trace] = tracesOf(news(0, 6, { channels: [{ channel: "t", units: "K", lower: [1, 2, 3, 4, 5, 6], upper: [2, 3, 4, 5, 6, 8] }] }));
+  expect(latestOf(trace!)).toBeCloseTo(7 - 273.15);
+  expect(latestOf({ ...trace!, time: [], lower: [], upper: [] })).toBeUndefined();
+});
+
+test("nothing is drawn over a gap, even if it lies within a range", () => {
+  const [trace] = tracesOf(news(0, 6));
+  expect(stretchesOf(trace!)).toEqual([[0, 6]]);
+  expect(stretchesOf({ ...trace!, gaps: [2] })).toEqual([[0, 2], [2, 6]]);
+  expect(stretchesOf({ ...trace!, time: [0, 0.04, 0.08, 13.8, 13.84, 13.88], gaps: [2] })).toEqual([[0, 2], [2, 3], [3, 6]]);
+  expect(stretchesOf({ ...trace!, time: [] })).toEqual([]);
 });
 
 test("ranges are as large as the screen needs", () => {

@@ -65,6 +65,29 @@ export function rangeSize(seconds: number, rate: number, most: number): number {
   return each;
 }
 
+/** The newest value: where a range has many samples, the middle between its least and its greatest. */
+export function latestOf(trace: Trace): number | undefined {
+  const last = trace.time.length - 1;
+  return last < 0 ? undefined : (trace.lower[last]! + trace.upper[last]!) / 2;
+}
+
+/** Where nothing is missing between ranges: the first place of each stretch, and that after its last. */
+export function stretchesOf(trace: Trace): [number, number][] {
+  const { time } = trace;
+  const steps = time.slice(1).map((one, k) => one - time[k]!);
+  const usual = [...steps].sort((a, b) => a - b)[steps.length >> 1] ?? 0;
+  const gaps = new Set(trace.gaps);
+  const out: [number, number][] = [];
+  let begin = 0;
+  for (let k = 1; k <= time.length; ++k) {
+    // A range that a gap lies in is longer than others.
+    if (k < time.length && !gaps.has(k) && steps[k - 1]! <= 1.5 * usual) continue;
+    out.push([begin, k]);
+    begin = k;
+  }
+  return time.length > 0 ? out : [];
+}
+
 export interface Extent {
   readonly low: number;
   readonly high: number;

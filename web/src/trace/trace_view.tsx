@@ -4,7 +4,7 @@ import { useSize } from "../figure/size";
 import { number } from "../parts/numbers";
 import { useDark } from "../parts/dark";
 import { draw } from "./draw";
-import { type Extent, extentOf, steadyAxis, type Trace } from "./ranges";
+import { type Extent, extentOf, latestOf, steadyAxis, type Trace } from "./ranges";
 
 const unitOf = (trace: Trace): string => (trace.unit ? ` ${trace.unit}` : "");
 
@@ -13,7 +13,7 @@ export function sentence(trace: Trace): string {
   const extent = extentOf(trace);
   if (!extent) return `${trace.channel}: no samples yet`;
   const missing = trace.gaps.length ? `; samples are missing in ${trace.gaps.length === 1 ? "one place" : `${trace.gaps.length} places`}` : "";
-  return `${trace.channel}: from ${number(extent.low)} to ${number(extent.high)}${unitOf(trace)}; the latest is ${number(trace.upper.at(-1))}${unitOf(trace)}${missing}`;
+  return `${trace.channel}: from ${number(extent.low)} to ${number(extent.high)}${unitOf(trace)}; the latest is ${number(latestOf(trace))}${unitOf(trace)}${missing}`;
 }
 
 interface Props {
@@ -40,7 +40,7 @@ export function TraceView({ trace, from, until, times, chosen = null }: Props) {
     if (extent) axis.current = steadyAxis(axis.current, extent);
     draw(canvas.current, trace, { width, height: tall, from, until, axis: axis.current ?? { low: -1, high: 1 }, times, chosen });
   }, [trace, from, until, times, width, tall, dark, chosen]);
-  const latest = trace.upper.at(-1);
+  const latest = latestOf(trace);
   return (
     <figure class="trace">
       <figcaption><strong>{trace.channel}</strong> <span class="soft">{number(latest)}{unitOf(trace)}</span></figcaption>
@@ -59,7 +59,7 @@ export const TraceTable = ({ traces }: { traces: readonly Trace[] }) => (
     <tbody>
       {traces.map((one) => {
         const extent = extentOf(one);
-        return <tr key={one.channel}><th scope="row">{one.channel}</th><td>{number(extent?.low)}</td><td>{number(extent?.high)}</td><td>{number(one.upper.at(-1))}</td><td>{one.unit}</td></tr>;
+        return <tr key={one.channel}><th scope="row">{one.channel}</th><td>{number(extent?.low)}</td><td>{number(extent?.high)}</td><td>{number(latestOf(one))}</td><td>{one.unit}</td></tr>;
       })}
     </tbody>
   </table>

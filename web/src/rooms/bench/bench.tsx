@@ -2,6 +2,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { post } from "../../api/client";
 import type { CampaignState, LiveDevice, LiveReplicate } from "../../api/schema";
+import { focus } from "../../parts/focus";
 import { duration } from "../../parts/numbers";
 import { Empty, Loading, Trouble } from "../../parts/states";
 import { campaigns, listCampaigns, live, mayChange, rejected } from "../../state";
@@ -15,19 +16,24 @@ const phases: Record<string, string> = {
 
 function Stop({ state, replicate, onDone }: { state: CampaignState; replicate: LiveReplicate | undefined; onDone: (problem: string) => void }) {
   const [asking, ask] = useState(false);
+  const [asked, note] = useState(false); // the button takes the focus back
   const name = state.campaign?.name ?? "";
   const stop = (): void => {
     ask(false);
     post("/v1/campaigns/{campaign}/stop", { campaign: name }, { recording: state.recording })
       .then(() => onDone(""), (error: Error) => onDone(error.message));
   };
-  if (!asking) return <button type="button" disabled={!mayChange.value} onClick={() => (state.recording ? ask(true) : stop())}>Stop</button>;
+  const begin = (): void => {
+    note(true);
+    ask(true);
+  };
+  if (!asking) return <button type="button" ref={asked ? focus : null} disabled={!mayChange.value} onClick={() => (state.recording ? begin() : stop())}>Stop</button>;
   const elapsed = Math.max(0, ...(replicate?.devices.map((one) => one.elapsed_s) ?? []));
   return (
-    <div class="ask" role="alertdialog" aria-label="Stop the recording?">
+    <div class="ask" role="alertdialog" aria-label="Stop the recording?" onKeyDown={(event) => { if (event.key === "Escape") ask(false); }}>
       <span>This ends recording {state.recording}. Replicate {replicate?.replicate ?? state.status?.replicate} is cut after {duration(elapsed)}; replicates before it stay.</span>
       <button type="button" class="main" onClick={stop}>Stop it</button>
-      <button type="button" onClick={() => ask(false)}>Go on</button>
+      <button type="button" ref={focus} onClick={() => ask(false)}>Go on</button>
     </div>
   );
 }

@@ -1,6 +1,7 @@
 // The model's terms with their values; terms by hand, under the names that people know.
 import { useState } from "preact/hooks";
 import type { Coefficient, FittedEffect, Rung, Term } from "../../api/schema";
+import { focus } from "../../parts/focus";
 import { withUnit } from "../../parts/numbers";
 import { brief, split, without } from "./model";
 import type { StudyStore } from "./study_store";
@@ -47,20 +48,25 @@ function Chip({ text, term, effect, datasheet, still, onRemove }: {
 function AddTerm({ store, still }: { store: StudyStore; still: boolean }) {
   const [open, show] = useState(false);
   const [term, type] = useState("");
+  const [used, use] = useState(false); // the button takes the focus back
   const add = (event: Event): void => {
     event.preventDefault();
     show(false);
     void store.add(term.trim());
     type("");
   };
-  if (!open) return <button type="button" disabled={still} onClick={() => show(true)}>+ add a term</button>;
+  const cancel = (): void => {
+    show(false);
+    store.preview.value = "";
+  };
+  if (!open) return <button type="button" ref={used ? focus : null} disabled={still} onClick={() => { use(true); show(true); }}>+ add a term</button>;
   return (
-    <form class="inline" onSubmit={add}>
-      <label>term <input value={term} list="terms" required placeholder="QN, line(f=7.12)" onInput={(event) => type(event.currentTarget.value)} /></label>
+    <form class="inline" onSubmit={add} onKeyDown={(event) => { if (event.key === "Escape") cancel(); }}>
+      <label>term <input ref={focus} value={term} list="terms" required placeholder="line(f=7.12)" onInput={(event) => type(event.currentTarget.value)} /></label>
       <datalist id="terms">{byHand.map((one) => <option key={one.term} value={one.term}>{one.words}</option>)}</datalist>
       <button type="button" disabled={still || !term.trim()} onClick={() => void store.foresee(term.trim())}>Preview</button>
       <button type="submit" class="main" disabled={still}>Add</button>
-      <button type="button" onClick={() => { show(false); store.preview.value = ""; }}>Cancel</button>
+      <button type="button" onClick={cancel}>Cancel</button>
     </form>
   );
 }
