@@ -25,6 +25,15 @@ std::string unit_of(const Witness& witness) {
   return witness.unit.empty() ? std::string(si_symbol(witness.quantity)) : witness.unit;
 }
 
+std::string in_brackets(const std::string& unit) {
+  return unit.find('/') == std::string::npos || unit.front() == '(' ? unit : "(" + unit + ")";
+}
+
+std::string per(const std::string& above, const std::string& below) {
+  if (below == above) return "1";
+  return below == "1" ? above : above + "/" + in_brackets(below);
+}
+
 const Witness* Subject::find(const std::string& name) const {
   const auto called = std::find_if(witnesses.begin(), witnesses.end(),
                                    [&](const Witness& one) { return one.name == name; });

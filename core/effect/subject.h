@@ -37,6 +37,10 @@ struct VarianceCourse {
 
 /// Unit of a witness's samples; "1" where they have none.
 std::string unit_of(const Witness& witness);
+/// A unit in brackets where it is a quotient: "(rad/s)".
+std::string in_brackets(const std::string& unit);
+/// Unit of a quotient: "rad/s/K", "rad/s/(m/s²)", "1/K"; "1" where both are the same.
+std::string per(const std::string& above, const std::string& below);
 
 /// What one term's search found in the samples themselves and its text cannot hold, such as the
 /// times of jumps.

@@ -21,8 +21,7 @@ VarianceCourse modulated_course(const EffectTerm& term, const Subject& subject) 
 }
 
 std::string modulated_unit(const EffectTerm& term, const Subject& subject) {
-  const std::string below = unit_of(*subject.find(term.witness));
-  return below == "1" ? below : "1/" + below;
+  return per("1", unit_of(*subject.find(term.witness)));
 }
 
 void simulate_modulated(const EffectTerm& term, const SimulatedReplicate& at,

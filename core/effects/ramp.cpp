@@ -31,6 +31,8 @@ void simulate_ramp(const EffectTerm& term, const SimulatedReplicate& at, Eigen::
 }
 
 std::string ramp_unit(const EffectTerm&, const Subject& subject) {
+  if (subject.quantity == Quantity::kAngularRate) return "rad/s²";
+  if (subject.quantity == Quantity::kAcceleration) return "m/s³";
   return std::string(si_symbol(subject.quantity)) + "/s";
 }
 

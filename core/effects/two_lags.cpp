@@ -49,10 +49,7 @@ void simulate_two_lags(const EffectTerm& term, const SimulatedReplicate& at,
 }
 
 std::string two_lags_unit(const EffectTerm& term, const Subject& subject) {
-  const std::string above(si_symbol(subject.quantity));
-  const std::string below = unit_of(*subject.find(term.witness));
-  if (below == above) return "1";
-  return below == "1" ? above : above + "/" + below;
+  return per(std::string(si_symbol(subject.quantity)), unit_of(*subject.find(term.witness)));
 }
 
 // The best pair of lags, where it explains clearly more than the best single one.

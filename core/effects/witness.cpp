@@ -141,11 +141,9 @@ void simulate_witness(const EffectTerm& term, const SimulatedReplicate& at,
 
 std::string witness_unit(const EffectTerm& term, const Subject& subject) {
   std::string below = unit_of(*subject.find(term.witness));
-  if (is_on(term, kWitnessQuadratic)) below += "²";
+  if (is_on(term, kWitnessQuadratic)) below = in_brackets(below) + "²";
   if (is_on(term, kWitnessDerivative)) below = "(" + below + "/s)";
-  const std::string above(si_symbol(subject.quantity));
-  if (below == above) return "1";
-  return below == "1" ? above : above + "/" + below;
+  return per(std::string(si_symbol(subject.quantity)), below);
 }
 
 // A coefficient an octave takes the place of one for all, where it is clearly better.

@@ -87,12 +87,29 @@ std::string integral_name(const std::string& unit) {
   return unit == "m/s" ? "velocity" : "value";
 }
 
-// "1.2 % off in the spectrum: ".
+// Of one view: "1.2 % off in the spectrum: ".
+std::string size_in(const v1::ErrorView& view) {
+  const std::string number = fmt::format("{:.2g}", view.value());
+  if (view.view() == "averaging_times") return number + " % off in the Allan deviation: ";
+  if (view.view() == "single_waves") return "A wave " + number + " dB over the noise: ";
+  if (view.view() == "noise_over_time") return number + " % off in the power over time: ";
+  if (view.view() == "distribution") return "Excess kurtosis " + number + ": ";
+  if (view.view() == "witnesses") return "A witness explains " + number + " %: ";
+  if (view.view() == "replicates") return number + " % off between replicates: ";
+  return number + " % off in the spectrum: ";
+}
+
+// By the spectrum, or by the view that chance explains least where the spectrum shows nothing.
 std::string size_of(const v1::Rung& rung) {
+  const v1::ErrorView* spectrum = nullptr;
+  const v1::ErrorView* surest = nullptr;
   for (const v1::ErrorView& one : rung.views()) {
-    if (one.view() == "spectrum") return fmt::format("{:.2g} % off in the spectrum: ", one.value());
+    if (one.view() == "spectrum") spectrum = &one;
+    if (surest == nullptr || one.p() < surest->p()) surest = &one;
   }
-  return "";
+  if (spectrum == nullptr) return "";
+  const bool elsewhere = spectrum->p() >= kSignificant && surest->p() < kSignificant;
+  return size_in(elsewhere ? *surest : *spectrum);
 }
 
 // What a model says of the integrated error, against what the best says of it: where they differ

@@ -91,6 +91,28 @@ TEST(Unexplained, SizeAndSignificanceAreToldApart) {
   EXPECT_NE(words.find("of no consequence"), std::string::npos) << words;
 }
 
+// A wave that the spectrum's half octaves do not show is not "1 % off in the spectrum".
+TEST(Unexplained, TheSizeIsThatOfTheViewThatFails) {
+  v1::Rung first = rung({0, 0, 0, 0}, 1.001);
+  const auto add = [&first](const char* view, double value, double p) {
+    v1::ErrorView& to = *first.add_views();
+    to.set_view(view);
+    to.set_value(value);
+    to.set_p(p);
+  };
+  add("averaging_times", 2.0, 0.3);
+  add("spectrum", 1.4, 0.6);
+  add("single_waves", 16.5, 1e-9);
+  const auto words = [&] {
+    v1::DiagnosisReport report = ladder({first, rung({20, 20, 20, 20}, 1.0)});
+    tell_unexplained(report, 1);
+    return report.ladder(0).consequence();
+  };
+  EXPECT_TRUE(words().starts_with("A wave 16 dB over the noise: 80 nats short")) << words();
+  first.mutable_views(1)->set_p(0.01);
+  EXPECT_TRUE(words().starts_with("1.4 % off in the spectrum: 80 nats short")) << words();
+}
+
 TEST(Unexplained, AModelThatPredictsTooLittleIsOfConsequence) {
   v1::DiagnosisReport report = ladder({rung({0, 0, 0, 0}), rung({500, 500, 500, 500})});
   report.mutable_ladder(0)->mutable_drift(0)->set_predicted(0.05);

@@ -23,6 +23,8 @@ std::string percent_more(double ratio) {
                      ratio >= 1.0 ? "more" : "less");
 }
 
+std::string plain(double value) { return report::number(value, 3, report::Digits::kPlain); }
+
 std::string in_how_many(int found, int all) {
   if (all == 1) return "";
   return found == all ? fmt::format(", in all {} replicates", all)
@@ -106,9 +108,9 @@ void add_bands(const std::vector<BandMisfit>& bands, v1::DiagnosisReport& to) {
     const double until = at(place.end - 1).to;
     v1::Misfit& misfit =
         add(to, "frequency", worst.sigma,
-            fmt::format("At {:.3g} to {:.3g} Hz (periods of {:.3g} to {:.3g} s) the recording has "
+            fmt::format("At {:.3g} to {:.3g} Hz (periods of {} to {} s) the recording has "
                         "{} power than the model ({:.1f} sigma){}.",
-                        from, until, 1.0 / until, 1.0 / from, percent_more(worst.ratio),
+                        from, until, plain(1.0 / until), plain(1.0 / from), percent_more(worst.ratio),
                         std::abs(worst.sigma),
                         in_how_many(worst.replicates, to.compared_before().replicates_size())));
     misfit.set_from(from);

@@ -81,7 +81,7 @@ export function stretchesOf(trace: Trace): [number, number][] {
   let begin = 0;
   for (let k = 1; k <= time.length; ++k) {
     // A range that a gap lies in is longer than others.
-    if (k < time.length && !gaps.has(k) && steps[k - 1]! <= 1.5 * usual) continue;
+    if (k < time.length && !gaps.has(k) && steps[k - 1]! <= 2.5 * usual) continue;
     out.push([begin, k]);
     begin = k;
   }

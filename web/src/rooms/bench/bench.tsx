@@ -94,7 +94,7 @@ function Campaign({ state }: { state: CampaignState }) {
       {problem && <Trouble sentence={problem} onClose={() => tell("")} />}
       {replicate
         ? <Devices replicate={replicate} />
-        : <p class="soft">{(state.campaign?.devices ?? []).map((one) => one.name).join(", ")}: {state.campaign?.replicates} replicates of {duration(state.campaign?.length_s ?? 0)}.</p>}
+        : <p class="soft">{(state.campaign?.devices ?? []).map((one) => one.name).join(", ")}: {state.campaign?.replicates} {state.campaign?.replicates === 1 ? "replicate" : "replicates"} of {duration(state.campaign?.length_s ?? 0)}.</p>}
     </section>
   );
 }

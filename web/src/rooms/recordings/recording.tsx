@@ -9,6 +9,7 @@ import { Empty, Loading, Skeleton } from "../../parts/states";
 import { kLeft, kRight } from "../../trace/draw";
 import { tracesOf } from "../../trace/ranges";
 import { TraceTable, TraceView } from "../../trace/trace_view";
+import { shortfalls, summary } from "./replicate_words";
 import { afterKey, type Part, whole, within, zoomed } from "./zoom";
 
 interface At {
@@ -64,7 +65,7 @@ function Samples({ at }: { at: At }) {
   return (
     <>
       <div class="zoom">
-        <span class="soft" role="status">{number(seen.from, 4)} to {number(seen.until, 4)} s of {duration(length)} · {words}{ranges.gaps.length > 0 && <span class="alarm"> · missing in {ranges.gaps.length} places</span>}</span>
+        <span class="soft" role="status">{number(seen.from, 4)} to {number(seen.until, 4)} s of {duration(length)} · {words}{ranges.gaps.length > 0 && <span class="alarm"> · missing in {ranges.gaps.length === 1 ? "one place" : `${ranges.gaps.length} places`}</span>}</span>
         <span class="fill" />
         <button type="button" onClick={() => see(zoomed(seen, 0.5, 0.5 * (seen.from + seen.until), length))}>Closer</button>
         <button type="button" onClick={() => see(zoomed(seen, 2, 0.5 * (seen.from + seen.until), length))}>Farther</button>
@@ -130,7 +131,8 @@ export function Recording({ campaign, folder }: { campaign: string; folder: stri
     <div class="list">
       {back}
       <h1>{folder}</h1>
-      <p class="soft">{campaign} · {answer.closed ? "complete" : "not closed: while it records, its latest samples are on the bench"}</p>
+      <p class="soft">{campaign} · {answer.closed ? summary(answer.replicates) : "not closed: while it records, its latest samples are on the bench"}</p>
+      {shortfalls(answer.replicates).length > 0 && <ul class="alarm">{shortfalls(answer.replicates).map((one) => <li key={one}>{one}</li>)}</ul>}
       {calibrated && <NoiseValues manifest={answer} campaign={campaign} folder={folder} />}
       <Choices manifest={answer} campaign={campaign} folder={folder} />
     </div>
