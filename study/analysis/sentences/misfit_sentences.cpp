@@ -110,8 +110,8 @@ void add_bands(const std::vector<BandMisfit>& bands, v1::DiagnosisReport& to) {
         add(to, "frequency", worst.sigma,
             fmt::format("At {:.3g} to {:.3g} Hz (periods of {} to {} s) the recording has "
                         "{} power than the model ({:.1f} sigma){}.",
-                        from, until, plain(1.0 / until), plain(1.0 / from), percent_more(worst.ratio),
-                        std::abs(worst.sigma),
+                        from, until, plain(1.0 / until), plain(1.0 / from),
+                        percent_more(worst.ratio), std::abs(worst.sigma),
                         in_how_many(worst.replicates, to.compared_before().replicates_size())));
     misfit.set_from(from);
     misfit.set_to(until);
