@@ -56,7 +56,8 @@ double sum(const std::vector<Gain>& each) {
 }
 
 // Half of the 95 % interval of a sum over replicates. Each contributes by its length: the scatter
-// is that about its share of the sum (ratio estimator: Cochran 1977, Sampling Techniques, chapter 6).
+// is that about its share of the sum (ratio estimator: Cochran 1977, Sampling Techniques, chapter
+// 6).
 double reach_of_sum(const std::vector<Gain>& each) {
   const auto n = static_cast<double>(each.size());
   const double all = sum(each);
