@@ -140,6 +140,8 @@ TEST_F(CampaignRun, WaitsWhileAnotherProcessRecordsIntoItsFolder) {
   };
   run(kBegin);
   EXPECT_TRUE(was_told("another process is recording into it"));
+  ASSERT_GE(phases().size(), 2U);
+  EXPECT_EQ(phases()[1], v1::held_up) << "it does not say that it records";
   EXPECT_EQ(tasks_.size(), 3U);
 }
 

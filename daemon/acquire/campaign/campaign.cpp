@@ -42,6 +42,12 @@ class Run {
       const auto state = newest_ ? std::optional(newest_->state) : std::nullopt;
       if (mode_ == RunMode::kOnce && !memory_.once_since) memory_.once_since = only_start(now);
       const Step step = next_step(campaign_, state, memory_, now);
+      if (step.phase == v1::recording) {
+        if (auto done = take_folder(); !done) {
+          hold_up(done.error().message);
+          continue;
+        }
+      }
       if (step.new_recording) folder_of_next_ = folder_at(now);
       if (worth_telling(step.phase)) tell(step, std::exchange(news_, {}));
       if (step.phase == v1::finished) return;
@@ -130,7 +136,6 @@ class Run {
       task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
     }
-    if (auto done = take_folder(); !done) return hold_up(done.error().message);
     last_ = task.folder;
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
     follow_clock();

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/effect/subject.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/cross_power.h"
 
@@ -68,15 +69,15 @@ Result<Eigen::MatrixXd> values_of(const Written& written, const std::vector<Seri
   return out;
 }
 
-// "m/s²/(K)"; nothing where both are bare numbers.
+// "m/s²/K"; nothing where it is a bare number.
 std::string unit_over(const Series& response, const Written& written,
                       const std::vector<Series>& channels) {
   const std::string above(si_symbol(response.replicates.front().quantity()));
   if (written.channels.empty()) return above + "/s";
   const auto found = find(channels, written.channels.front());
   const std::string below(si_symbol((*found)->replicates.front().quantity()));
-  if (below != "1") return fmt::format("{}/({})", above, below);
-  return above == "1" ? "" : above;
+  const std::string unit = per(above, below);
+  return unit == "1" ? "" : unit;
 }
 
 }  // namespace

@@ -84,13 +84,14 @@ export function draw(canvas: HTMLCanvasElement, trace: Trace, frame: Frame): voi
   const first = Math.max(0, places.findIndex((place) => place >= kLeft) - 1);
   to.strokeStyle = to.fillStyle = colour(canvas, "--model");
   to.lineWidth = 1.2;
-  to.lineJoin = "round";
+  to.lineJoin = to.lineCap = "round";
   // Stretches without a gap: what lies between the least and the greatest of each range.
   for (const [from, until] of stretchesOf(trace)) {
     const [begin, end] = [Math.max(from, first), Math.min(until, last)];
     if (begin >= end) continue;
     to.beginPath();
     for (let k = begin; k < end; ++k) to.lineTo(places[k]!, y(trace.upper[k]!));
+    if (end === begin + 1) to.lineTo(places[begin]!, y(trace.lower[begin]!)); // a range between two gaps
     to.stroke();
     for (let k = end - 1; k >= begin; --k) to.lineTo(places[k]!, y(trace.lower[k]!));
     to.closePath();

@@ -7,7 +7,7 @@ export function rateWords(stream: LiveStream): string {
   const nominal = stream.nominal_hz > 0 ? `${number(stream.nominal_hz, 4)} Hz` : "";
   if (stream.rate_hz === undefined) return nominal || "–";
   // As many digits each time: text that changes its width jumps.
-  return nominal ? `${stream.rate_hz.toPrecision(4)} of ${nominal}` : `${number(stream.rate_hz, 4)} Hz`;
+  return nominal ? `${stream.rate_hz === 0 ? "0" : stream.rate_hz.toPrecision(4)} of ${nominal}` : `${number(stream.rate_hz, 4)} Hz`;
 }
 
 /** A rate that is more than a fiftieth off. */
