@@ -12,6 +12,7 @@ test("a recording with interrupted replicates is not called complete", () => {
   expect(summary([note(1, "complete"), note(2, "complete")])).toBe("all 2 replicates are complete");
   expect(summary([note(1, "open")])).toBe("its replicate is not complete");
   expect(shortfalls(notes)).toEqual(["replicate 1: interrupted: it was away for a while"]);
+  expect(shortfalls([note(2, "open")])).toEqual([]);
 });
 
 test("a device that is missing is named, in complete replicates, too", () => {
