@@ -184,6 +184,13 @@ std::string signed_sigma(double value, Digits style) {
   return (value >= 0.0 ? "+" : "") + fixed(value, std::abs(value) < 99.95 ? 1 : 0, style);
 }
 
+std::string stretch(double from, double until) {
+  const double length = until - from;
+  const int decimals =
+      length > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(length))), 0, 9) : 3;
+  return fmt::format("{:.{}f} to {:.{}f}", from, decimals, until, decimals);
+}
+
 std::string p_value(double value, Digits style) {
   return value < 1e-4 ? "< 0.0001" : number(value, 2, style);
 }

@@ -37,6 +37,10 @@ std::string duration(double seconds);
 std::string day(std::int64_t ns);
 std::string minute(std::int64_t ns);
 
+/// Two times, with as many decimals as tell the ends of a part that long: "120 to 240", "0.25 to
+/// 0.50".
+std::string stretch(double from, double until);
+
 /// A p-value: two digits; "< 0.0001" below that.
 std::string p_value(double value, Digits style);
 

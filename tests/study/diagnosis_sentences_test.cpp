@@ -137,6 +137,30 @@ TEST(Ladder, TheHeadlineNamesAllThatItFoundWithAmplitudes) {
   EXPECT_GT(quantum.upper(), std::sqrt(0.3) / 50.0);
 }
 
+// The Allan deviation of a scale stands at half of the averaging time of its wavelet.
+TEST(Views, AnAllanDeviationStandsAtItsOwnAveragingTime) {
+  DiagnoseOptions options;
+  options.model = "WN";
+  const auto report =
+      diagnose_series(three_of("WN(sigma2=1) + RW(gamma2=1e-3)", 0.0, 7.0), 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  const v1::NoiseBudget& budget = report->before();
+  const v1::ErrorView& view = report->ladder(0).views(0);
+  ASSERT_EQ(view.view(), "averaging_times");
+  int found = 0;
+  for (int i = 0; i < budget.scales_size(); ++i) {
+    if (std::abs(2.0 * view.from() - budget.scales_s(i)) > 1e-9) continue;
+    ++found;
+    const double deviation = std::sqrt(budget.measured(i) / budget.model(i)) - 1.0;
+    EXPECT_NE(view.sentence().find(fmt::format("{:.0f} %", 100.0 * deviation)), std::string::npos)
+        << view.sentence() << " " << deviation;
+    EXPECT_NE(view.sentence().find(fmt::format("{:.3g} s", 0.5 * budget.scales_s(i))),
+              std::string::npos)
+        << view.sentence();
+  }
+  EXPECT_EQ(found, 1) << view.sentence();
+}
+
 // The findings of a ladder that added these, each of a known cause, and ended with this model.
 v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string>& added) {
   FullModel start = *parse_full_model(model, kFifty);

@@ -54,6 +54,14 @@ TEST(Number, Times) {
   EXPECT_EQ(duration(86400.0 * 3), "3 d");
 }
 
+// A part shorter than a second does not go "from 0 to 0 s".
+TEST(Number, StretchesHaveTheDecimalsThatTellTheirEndsApart) {
+  EXPECT_EQ(stretch(120.0, 240.0), "120 to 240");
+  EXPECT_EQ(stretch(0.0, 0.25), "0.00 to 0.25");
+  EXPECT_EQ(stretch(10.24, 12.8), "10.2 to 12.8");
+  EXPECT_EQ(stretch(2.0, 2.0), "2.000 to 2.000");
+}
+
 TEST(Number, SharesCountsAndResiduals) {
   EXPECT_EQ(percent(0.372), "37 %");
   EXPECT_EQ(percent(0.001), "< 1 %");

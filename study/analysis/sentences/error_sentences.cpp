@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "study/words/number.h"
+
 namespace imunoise::study {
 namespace {
 
@@ -30,8 +32,9 @@ std::string worst_words(const ErrorView& from, const std::vector<std::string>& r
     return fmt::format("The strongest wave, at {:.4g} Hz, is {:.1f} dB over the noise", at.from,
                        from.value);
   if (from.view == "noise_over_time")
-    return fmt::format("Worst in {} from {:.0f} to {:.0f} s: {} power than in the rest",
-                       replicates[at.replicate], at.from, at.to, more(at.deviation));
+    return fmt::format("Worst in {} from {} s: {} power than in the rest",
+                       replicates[at.replicate], report::stretch(at.from, at.to),
+                       more(at.deviation));
   if (from.view == "distribution")
     return fmt::format("The tails are {} than normal ones: excess kurtosis {:.2g}",
                        at.deviation < 0.0 ? "lighter" : "heavier", at.deviation);
@@ -45,6 +48,10 @@ std::string worst_words(const ErrorView& from, const std::vector<std::string>& r
 v1::ErrorView message_of(const ErrorView& from, const Subject& subject,
                          const std::vector<std::string>& replicates) {
   ErrorView placed = from;
+  if (from.view == "averaging_times") {  // an Allan deviation's is half of its wavelet's
+    placed.worst.from *= 0.5;
+    placed.worst.to *= 0.5;
+  }
   if (from.view == "noise_over_time") {
     placed.worst.from += subject.begins(from.worst.replicate);
     placed.worst.to += subject.begins(from.worst.replicate);

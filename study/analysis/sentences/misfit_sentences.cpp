@@ -87,7 +87,7 @@ void add_scales(v1::DiagnosisReport& to) {
                       : fmt::format("averaging times of {:.3g} to {:.3g} s", from, until);
     v1::Misfit& misfit = add(
         to, "scale", sigma(place.worst),
-        fmt::format("At {} the recording has {} variance than the model "
+        fmt::format("At {} the recording has {} wavelet variance than the model "
                     "({:.1f} sigma){}.",
                     where, percent_more(budget.measured(place.worst) / budget.model(place.worst)),
                     std::abs(sigma(place.worst)),
@@ -136,9 +136,10 @@ void add_stretches(v1::DiagnosisReport& to, double side) {
                          counted(stretches, "stretch"), counted(replicates.size(), "replicate"));
   v1::Misfit& misfit =
       add(to, "time", worst->sigma(),
-          fmt::format("{}: from {:.0f} to {:.0f} s the noise has {} variance than in the rest "
+          fmt::format("{}: from {} s the noise has {} variance than in the rest "
                       "({:.1f} sigma).{}",
-                      worst->replicate(), worst->from(), worst->to(), percent_more(worst->ratio()),
+                      worst->replicate(), report::stretch(worst->from(), worst->to()),
+                      percent_more(worst->ratio()),
                       std::abs(worst->sigma()), others));
   misfit.set_from(worst->from());
   misfit.set_to(worst->to());
@@ -181,8 +182,8 @@ void add_replicates(v1::DiagnosisReport& to, double side) {
   const double seconds = worst.replicate->scales_s(worst.scale);
   v1::Misfit& misfit = add(
       to, "replicate", worst.sigma,
-      fmt::format("{}: at an averaging time of {:.3g} s it has {} variance than the model ({:.1f} "
-                  "sigma).{}",
+      fmt::format("{}: at an averaging time of {:.3g} s it has {} wavelet variance than the "
+                  "model ({:.1f} sigma).{}",
                   worst.replicate->name(), seconds,
                   percent_more(worst.replicate->measured(worst.scale) / budget.model(worst.scale)),
                   std::abs(worst.sigma), others));

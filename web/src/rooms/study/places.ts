@@ -1,5 +1,5 @@
 // The sentence that explains a place of a figure.
-import type { Study } from "../../api/schema";
+import type { Misfit, Study } from "../../api/schema";
 import type { Place } from "../../figure/figure";
 import { number } from "../../parts/numbers";
 import type { View } from "./views";
@@ -24,15 +24,21 @@ const about: Record<View, string> = {
   replicates: "Each replicate against the model, in standard deviations: orange is more, blue is less.",
 };
 
+// Allan deviations stand at half of the averaging time of a wavelet.
+function said(one: Misfit, view: View, variance: boolean): string {
+  if (view !== "averaging_times" || variance || one.from === undefined || one.to === undefined) return one.sentence;
+  const [from, to] = [number(one.from / 2), number(one.to / 2)];
+  return `${one.sentence} In Allan deviation: at ${from === to ? from : `${from} to ${to}`} s.`;
+}
+
 /** Under the cursor the failure there, else how the point deviates; without a cursor the worst of the view. */
 export function placeSentence(study: Study, view: View, at: Place | null, variance: boolean): string {
   const here = (study.diagnosis?.misfits ?? []).filter((one) => kinds[view]?.includes(one.kind))
     .sort((one, other) => Math.abs(other.sigma) - Math.abs(one.sigma));
-  if (!at) return here[0]?.sentence ?? about[view];
-  // Allan deviations stand at half of the averaging time of a wavelet.
+  if (!at) return here[0] ? said(here[0], view, variance) : about[view];
   const x = view === "averaging_times" && !variance ? 2 * at.x : at.x;
   const failure = here.find((one) => one.from !== undefined && one.to !== undefined && one.from <= x * 1.001 && x <= one.to * 1.001);
-  if (failure) return failure.sentence;
+  if (failure) return said(failure, view, variance);
   const deviation = at.sigma === undefined ? "" : `, ${number(at.sigma, 2)} standard deviations from the model`;
   return `At ${number(at.x)} ${units[view] ?? ""}: ${number(at.y)}${deviation}.`;
 }
