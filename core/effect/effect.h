@@ -100,6 +100,7 @@ struct Effect {
   std::vector<EffectParameter> parameters{};
   std::string_view coefficient{};  ///< name of what a fit estimates: "slope"
   bool anywhere = false;  ///< a search tries all its places alike: a limit of detection names none
+  double fewest_periods = 0.0;  ///< of a wave: one with fewer in a replicate is not sought
   std::vector<Cause> causes{};
 
   /// What is wrong with a term beyond the bounds of its parameters; empty where nothing is.

@@ -1,11 +1,13 @@
 #include "core/effect/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>
 #include <numbers>
 
+#include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/roots_of_unity.h"
 #include "core/support/parallel.h"
 
@@ -179,14 +181,29 @@ Shape half_waves(Index length, int count, Index after) {
     const double phase = omega(k) * (static_cast<double>(after) + 0.5);
     return {std::cos(phase), -std::sin(phase)};
   };
+  const auto at_end = [](Index k) { return k % 2 == 0 ? -1.0 : 1.0; };
+  const auto moving = [=](Index n) { return std::clamp<Index>(length - after, 0, n); };
   return {[=](const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
+            const Index n = moving(to.size());
+            Eigen::VectorXd head = to.head(n);
             for (Index k = 0; k < count; ++k) {
               const Eigen::Vector2d parts = coefficients(k) * turned(k);
-              add_wave(omega(k), parts.x(), parts.y(), to);
+              add_wave(omega(k), parts.x(), parts.y(), head);
+              to.tail(to.size() - n).array() += coefficients(k) * at_end(k);
             }
+            to.head(n) = head;
           },
           [=](Index n) {
             Eigen::MatrixXd out(n - 1, count);
+            if (moving(n) < n) {
+              for (Index k = 0; k < count; ++k) {
+                Eigen::VectorXd column = Eigen::VectorXd::Constant(n, at_end(k));
+                for (Index t = 0; t < moving(n); ++t)
+                  column(t) = std::cos(omega(k) * (static_cast<double>(t + after) + 0.5));
+                out.col(k) = cosine_transform(column);
+              }
+              return out;
+            }
             Eigen::MatrixXd pair(n - 1, 2);
             for (Index k = 0; k < count; ++k) {
               wave_cosines(n, omega(k), pair);

@@ -24,6 +24,7 @@ Shape step(Eigen::Index at);
 Shape waves(double frequency, int harmonics);
 
 /// cos(πk(t + after + ½)/length) for k = 1 … count, a column each; `after` and `length` in samples.
+/// From `length` on they stay as they are; the cosines are then not in closed form.
 Shape half_waves(Eigen::Index length, int count, Eigen::Index after);
 
 }  // namespace imunoise

@@ -1,10 +1,12 @@
 // common_course: a smooth course of any form, the same in every replicate.
 //
-// Half waves cos(πk(t + ½)/T), k = 1 .. terms, T the longest recording in samples: over a whole
-// recording these are the slowest functions of the cosine transform.
+// Half waves cos(πk(t + ½)/T), k = 1 .. terms, T the second longest recording in samples: over a
+// whole recording these are the slowest functions of the cosine transform. What lies beyond T is in
+// one recording alone, which shows no more what is common: the course stays as it is.
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "core/effect/columns.h"
@@ -23,17 +25,21 @@ enum CommonCourseParameter : std::size_t { kCourseTerms, kCourseAmplitude };
 
 constexpr int kMostHalfWaves = 12;
 
-// Samples of the longest recording, from its first to the last that is left of it.
-Index longest_recording(const Subject& subject) {
-  Index out = 0;
-  for (std::size_t k = 0; k < subject.replicates(); ++k)
-    out = std::max(out, subject.parts[k].first + subject.length(k));
-  return out;
+// Samples that two recordings have, each from its first to the last that is left of it; those of
+// the recording where there is one only.
+Index common_length(const Subject& subject) {
+  std::vector<Index> lengths(subject.parts.back().recorded + 1, 0);
+  for (std::size_t k = 0; k < subject.replicates(); ++k) {
+    Index& one = lengths[subject.parts[k].recorded];
+    one = std::max(one, subject.parts[k].first + subject.length(k));
+  }
+  std::sort(lengths.begin(), lengths.end(), std::greater<>());
+  return lengths.size() > 1 ? lengths[1] : lengths[0];
 }
 
 ShapeFrom course_shape(const EffectTerm& term, const Subject& subject) {
-  return [longest = longest_recording(subject), count = static_cast<int>(term[kCourseTerms])](
-             Index first) { return half_waves(longest, count, first); };
+  return [length = common_length(subject), count = static_cast<int>(term[kCourseTerms])](
+             Index first) { return half_waves(length, count, first); };
 }
 
 Regressors course_regressors(const EffectTerm& term, const Subject& subject) {
@@ -70,14 +76,14 @@ struct CommonGain {
 CommonGain best_common_gain(const SearchView& view) {
   const Subject& subject = view.subject();
   const auto others = static_cast<double>(subject.replicates() - 1);
-  const auto longest = static_cast<double>(longest_recording(subject));
+  const auto length = static_cast<double>(common_length(subject));
   CommonGain best;
   double shared = 0.0;
   double apart = 0.0;
   for (int k = 1; k <= kMostHalfWaves; ++k) {
-    const double step = std::numbers::pi * k / longest;
-    const Eigen::VectorXd whitened = view.slow().whitened(
-        view.over_time([&](double t) { return std::cos(step * (t * subject.rate.value + 0.5)); }));
+    const double step = std::numbers::pi * k / length;
+    const Eigen::VectorXd whitened = view.slow().whitened(view.over_time(
+        [&](double t) { return std::cos(step * std::min(t * subject.rate.value + 0.5, length)); }));
     const double together = view.slow().gain(whitened, false);
     shared += together;
     apart += view.slow().gain(whitened, true) - together;
@@ -101,7 +107,7 @@ Suggestions search_common_course(const SearchView& view) {
            .search = {.log_places = std::log(kMostHalfWaves - 1.0)}}};
 }
 
-// Root mean square of the course over the longest recording, less what noise adds.
+// Root mean square of the course over what two recordings have, less what noise adds.
 std::vector<ReportedNumber> course_numbers(const FittedEffect& effect) {
   const Regression& regression = effect.model.regression;
   const Index first = regression.first(effect.number);
@@ -122,7 +128,8 @@ const Effect& common_course() {
       .name = "common_course",
       .title = "course common to all replicates",
       .meaning =
-          "Adds a smooth course that is the same in every replicate, from its first sample on.",
+          "Adds a smooth course that is the same in every replicate, from its first sample on; "
+          "beyond the second longest it stays as it is.",
       .parameters = {{.name = "terms",
                       .meaning = "number of half waves that make the course",
                       .form = ParameterForm::kWholeNumber,

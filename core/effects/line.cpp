@@ -55,6 +55,7 @@ void add_line(const EffectTerm& term, const Subject& subject, std::size_t,
 }
 
 constexpr double kDrawnPhase = -1.0;
+constexpr double kSlowestMachine = 0.02;  // Hz; a building does not sway as slowly either
 
 // The multiple h has the amplitude of the fundamental over h. Phases are those of sines at the
 // first sample: drawn, or h times the given one.
@@ -161,6 +162,7 @@ Suggestion best_wave(const Current& current) {
         0.5 * static_cast<double>(subject.length(k)) / noise_level(current, k, peak.at);
   // A wave's score turns by π T/√3 rad per Hz: the spread of time within a replicate.
   out.search.path = 0.5 * std::numbers::pi / std::sqrt(3.0) * static_cast<double>(longest);
+  if (hertz < kSlowestMachine) out.cause = "slow_cycle";
   if (is_mains(hertz, rate, rate / static_cast<double>(longest))) out.cause = "mains_alias";
   return out;
 }
@@ -245,12 +247,22 @@ const Effect& line() {
                       .truth = true}},
       .coefficient = "amplitude",
       .anywhere = true,
+      .fewest_periods = kFewestPeriods,
       .causes = {{.id = "line",
                   .title = "sine wave",
                   .physics = "A fan, a pump or a building vibrates at one frequency.",
                   .record_next = "the same with fans and pumps off, one after the other",
                   .looks_like = {"resonance", "harmonics", "mains_alias"},
                   .family = "line"},
+                 {.id = "slow_cycle",
+                  .title = "slow cycle",
+                  .physics = "A thermostat switches a heater, an air conditioning or an oven at "
+                             "regular intervals, and the sensor feels it.",
+                  .record_next = "the same with the temperature recorded, or with heating and air "
+                                 "conditioning off",
+                  .looks_like = {"line", "temperature", "random_walk"},
+                  .family = "line",
+                  .slow = true},
                  {.id = "harmonics",
                   .title = "sine wave and its multiples",
                   .physics = "A rotating machine shakes the bench at its speed and at multiples of "

@@ -2,11 +2,9 @@
 
 #include "core/effects/own_powers.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "core/effect/columns.h"
+#include "core/effects/own_ratios.h"
 #include "core/search/search_view.h"
 #include "core/search/shape_spread.h"
 #include "core/support/parallel.h"
@@ -53,52 +51,8 @@ void simulate_own_powers(const EffectTerm& term, const SimulatedReplicate& at,
   samples *= std::exp(0.5 * term[kOwnPowersSpread] * at.random.normal());
 }
 
-// Mean logarithm of a replicate's powers over those of all.
-double log_ratio(const Model& own, const Model& all) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t t = 0; t < all.terms.size(); ++t) {
-    const double one = values(own.terms[t].process)[0];
-    const double common = values(all.terms[t].process)[0];
-    if (!(one > 0.0 && common > 0.0)) continue;
-    sum += std::log(one / common);
-    ++count;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
-// The shapes of each replicate's noise.
-void add_shapes(const JointFit& fit, std::vector<ReportedNumber>& out) {
-  for (std::size_t k = 0; k < fit.own_noise.size(); ++k) {
-    for (const Term& term : fit.own_noise[k].terms) {
-      const std::vector<ParameterInfo> infos = parameters(term.process);
-      const std::vector<double> own = values(term.process);
-      for (std::size_t p = 1; p < own.size(); ++p) {
-        if (term.given[p]) continue;
-        out.push_back(
-            {fmt::format("{} of {} in replicate {}", infos[p].name, info(term.process).name, k + 1),
-             own[p], infos[p].dimension == Dimension::kSeconds ? "s" : "1"});
-      }
-    }
-  }
-}
-
 std::vector<ReportedNumber> own_powers_numbers(const FittedEffect& effect) {
-  const JointFit& fit = effect.model.fit;
-  const auto replicates = static_cast<Eigen::Index>(fit.own_noise.size());
-  Eigen::ArrayXd ratios(replicates);
-  for (Eigen::Index k = 0; k < replicates; ++k)
-    ratios(k) = log_ratio(fit.own_noise[static_cast<std::size_t>(k)], fit.model.noise);
-  std::vector<ReportedNumber> out;
-  if (replicates > 1) {
-    const double dof = static_cast<double>(replicates - 1);
-    const double spread = std::sqrt((ratios - ratios.mean()).square().sum() / dof);
-    out.push_back(with_log_error({"spread", spread, "1"}, 1.0 / std::sqrt(2.0 * dof)));
-  }
-  for (Eigen::Index k = 0; k < replicates; ++k)
-    out.push_back({fmt::format("power ratio of replicate {}", k + 1), std::exp(ratios(k)), "1"});
-  if (with_shapes(effect.term())) add_shapes(fit, out);
-  return out;
+  return own_ratios(effect, with_shapes(effect.term()));
 }
 
 // What could differ between replicates: powers, and with them shapes.

@@ -28,7 +28,8 @@ using Index = Eigen::Index;
 enum WanderParameter : std::size_t { kWanderFrom, kWanderTo, kWanderAmplitude };
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr Index kShortestPiece = 256;                         // samples
+constexpr Index kShortestPiece = 256;     // samples
+constexpr double kFewestWandering = 8.0;  // periods: of fewer, none is seen to move
 constexpr std::array<double, 3> kWidths{0.003, 0.015, 0.08};  // of the frequency, to either side
 
 // Into how many pieces replicates may be cut. A single replicate of one piece would hold a line.
@@ -191,7 +192,7 @@ BestBand best_band(const std::vector<WavePieces>& pieces, double width) {
   const auto shortest = std::min_element(
       pieces.begin(), pieces.end(),
       [](const WavePieces& a, const WavePieces& b) { return a.length < b.length; });
-  const double lowest = kFewestPeriods / static_cast<double>(shortest->length);
+  const double lowest = kFewestWandering / static_cast<double>(shortest->length);
   for (double f = lowest / (1.0 - width); f * (1.0 + width) < 0.5; f *= 1.0 + width, ++tried) {
     BestBand one{.frequency = f, .within = std::max(width * f, 4.0 * shortest->frequency(1))};
     for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -13,8 +13,8 @@ struct Stretch {
   Eigen::Index length;
 };
 
-/// A wave of fewer periods than this in a stretch is a trend like any other.
-inline constexpr double kFewestPeriods = 8.0;
+/// A wave of fewer periods than this in the shortest replicate is a trend like any other.
+inline constexpr double kFewestPeriods = 3.0;
 
 /// The shortest quick_length() ≥ n.
 Eigen::Index padded_length(Eigen::Index n);

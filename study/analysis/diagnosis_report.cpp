@@ -9,7 +9,6 @@
 #include "core/diagnosis/views/run_off.h"
 #include "core/effects/couplings.h"
 #include "core/inference/normal_scores.h"
-#include "core/search/wave_scores.h"
 #include "study/analysis/effect_parameters.h"
 #include "study/analysis/less_effects.h"
 #include "study/analysis/noise_budget.h"
@@ -139,16 +138,12 @@ std::string integral_unit(Quantity quantity) {
   return unit.empty() ? "s" : fmt::format("{}·s", unit);
 }
 
-bool is_wave(const EffectTerm& term) {
-  return term.effect->name == "line" || term.effect->name == "wander";
-}
-
 // Hz: slower waves are not sought.
-double slowest_wave(const Subject& subject) {
+double slowest_wave(const Effect& effect, const Subject& subject) {
   double shortest = INFINITY;
   for (std::size_t k = 0; k < subject.replicates(); ++k)
     shortest = std::min(shortest, static_cast<double>(subject.length(k)));
-  return kFewestPeriods * subject.rate.value / shortest;
+  return effect.fewest_periods * subject.rate.value / shortest;
 }
 
 }  // namespace
@@ -183,7 +178,8 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
     if (term != nullptr && term->effect->witness) limit.set_witness(term->witness);
     const bool anywhere = term != nullptr && term->effect->anywhere;
     if (!anywhere) limit.set_term(printed(from.added));
-    if (term != nullptr && is_wave(*term)) limit.set_lowest_hz(slowest_wave(subject));
+    if (term != nullptr && term->effect->fewest_periods > 0.0)
+      limit.set_lowest_hz(slowest_wave(*term->effect, subject));
   }
 }
 

@@ -101,5 +101,13 @@ TEST(TerminalTable, CellsContinueBelowThemselves) {
             "  y                     z\n");
 }
 
+TEST(TerminalTable, WordsThatAreTooLongAreCutWhereTheyHaveJoints) {
+  EXPECT_EQ(terminal_table({"effect", "b"}, {{"replicate_change", "a_word_of_twenty_four_x"}},
+                           {34, false, true}),
+            "  effect          b\n"
+            "  replicate_      a_word_of_\n"
+            "  change          twenty_four_x\n");
+}
+
 }  // namespace
 }  // namespace imunoise::report

@@ -28,6 +28,15 @@ void shrink(std::vector<std::size_t>& widths, std::size_t room) {
   }
 }
 
+// The first part of a word longer than `room` columns: to the last mark after which names and terms
+// are cut, "heavy_" of "heavy_tails(dof=9)", unless it would be short.
+std::string first_part(const std::string& word, std::size_t room) {
+  std::string out = shorten(word, room, "");
+  const auto mark = out.find_last_of("_(,/=");
+  if (mark != std::string::npos && 3 * mark > out.size()) out.resize(mark + 1);
+  return out;
+}
+
 // Words in lines of at most `room` columns; a word longer than a line is cut into lines.
 std::vector<std::string> broken(std::string_view text, std::size_t room) {
   std::vector<std::string> out;
@@ -43,7 +52,7 @@ std::vector<std::string> broken(std::string_view text, std::size_t room) {
     if (word.empty()) continue;
     if (!line.empty() && display_width(line) + 1 + display_width(word) > room) end_line();
     while (display_width(word) > room) {
-      out.push_back(shorten(word, room, ""));
+      out.push_back(first_part(word, room));
       word.erase(0, out.back().size());
     }
     line += (line.empty() ? "" : " ") + word;

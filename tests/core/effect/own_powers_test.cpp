@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "core/diagnosis/candidates.h"
 #include "core/search/search_view.h"
@@ -74,6 +75,64 @@ TEST(OwnPowers, SpectraOfTheirOwnHideNothingThatAllReplicatesMiss) {
 TEST(OwnPowers, EqualReplicatesGetNoSpectraOfTheirOwn) {
   const Diagnosis diagnosis = diagnose(fitted(averaged({1.2, 1.2, 1.2, 1.2}, 55), "MA(1) + RW"));
   for (const RankedTerm& one : diagnosis.effects) EXPECT_NE(one.tried.cause, "replicate_bandwidth");
+}
+
+// Four replicates of white noise and a walk: where a power is not that of the others.
+std::shared_ptr<const Subject> own(const std::vector<double>& white,
+                                   const std::vector<double>& walk, std::uint64_t seed) {
+  constexpr std::size_t kSamples = 2048;
+  std::vector<std::vector<double>> noise;
+  for (std::uint32_t k = 0; k < white.size(); ++k) {
+    const Model model{{Term(WhiteNoise{white[k]}), Term(RandomWalk{1e-2 * walk[k]})}};
+    noise.push_back(simulate(model, kSamples, seed, k));
+  }
+  return subject_of({.model = "WN(sigma2=1e-9)",
+                     .samples = kSamples,
+                     .replicates = white.size(),
+                     .seed = seed + 1000,
+                     .added = [&](std::size_t k, double seconds) {
+                       return noise[k][static_cast<std::size_t>(std::lround(seconds * 50.0))];
+                     }});
+}
+
+std::map<std::string, ReportedNumber> ratios_of(const std::shared_ptr<const Subject>& subject,
+                                                const std::string& model) {
+  const FittedModel with = fitted(subject, model);
+  std::map<std::string, ReportedNumber> out;
+  for (const ReportedNumber& one : fitted_numbers({with, 0})) out[one.name] = one;
+  return out;
+}
+
+// 95 % intervals of the ratio of one replicate hold it: of 100, 95 ± 3.2 × 2.2 at least.
+TEST(OwnPowers, TheRatioOfAReplicateHasItsInterval) {
+  int held = 0;
+  double width = 0.0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const ReportedNumber ratio = ratios_of(own({1, 1, 1, 1}, {1, 1, 1, 1}, 5700 + seed),
+                                           "WN + RW + own_powers")["power ratio of replicate 1"];
+    ASSERT_TRUE(ratio.lower && ratio.upper);
+    held += *ratio.lower <= 1.0 && 1.0 <= *ratio.upper ? 1 : 0;
+    width += std::log(*ratio.upper / *ratio.lower) / 100.0;
+  }
+  EXPECT_GE(held, 88);
+  // The power of 2048 samples, three quarters of whose error it has on its own: √(2/2048 · ¾).
+  EXPECT_NEAR(width, 2.0 * 1.96 * std::sqrt(2.0 / 2048.0 * 0.75), 0.01 * width);
+}
+
+TEST(OwnPowers, AProcessThatDiffersAloneIsNamed) {
+  auto found = ratios_of(own({1, 1, 1, 1}, {1, 1, 9, 1}, 58), "WN + RW + own_powers");
+  EXPECT_EQ(found.count("spread of RW"), 1U);
+  ASSERT_EQ(found.count("power ratio of RW in replicate 3"), 1U);
+  EXPECT_GT(found["power ratio of RW in replicate 3"].lower, 1.0);
+  EXPECT_EQ(found.count("power ratio of replicate 3"), 0U);
+  EXPECT_NEAR(found["power ratio of WN in replicate 3"].value, 1.0, 0.15);
+}
+
+TEST(OwnPowers, PowersThatGrowTogetherAreOneRatio) {
+  auto found = ratios_of(own({1, 1, 1.5, 1}, {1, 1, 1.5, 1}, 59), "WN + RW + own_powers");
+  EXPECT_EQ(found.size(), 5U);  // the spread, and a ratio a replicate
+  EXPECT_EQ(found.count("spread"), 1U);
+  EXPECT_GT(found["power ratio of replicate 3"].lower, 1.2);
 }
 
 // Three replicates ring at 0.4 rad, the last, faintly, at 2.2: from the noise that all share a fit

@@ -34,6 +34,7 @@ TEST(Shapes, ClosedFormsAreTheTransforms) {
       expect_its_transform(waves(frequency, 2), n);
     expect_its_transform(half_waves(n, 3, 0), n);
     expect_its_transform(half_waves(n + 40, 3, 7), n);
+    expect_its_transform(half_waves(n - 20, 3, 7), n);
   }
 }
 

@@ -69,6 +69,11 @@ Injection hide_slow_line(Scene& scene, double delta) {
   return hide_lines(scene, delta, uniform(scene.random, 20.0, 60.0) / scene.seconds(), {1.0});
 }
 
+// A thermostat's cycle: a walk is its double.
+Injection hide_slow_cycle(Scene& scene, double delta) {
+  return hide_lines(scene, delta, uniform(scene.random, 3.3, 8.0) / scene.seconds(), {1.0});
+}
+
 Injection hide_harmonics(Scene& scene, double delta) {
   return hide_lines(scene, delta, draw_frequency(scene, 1.0, 0.16 * scene.rate_hz),
                     {1.0, 0.7, 0.5});
@@ -92,7 +97,9 @@ std::vector<HiddenEffect> periodic_effects() {
     return out;
   };
   return {
-      effect("line", "", 100.0, hide_line), effect("line", "slow", 100.0, hide_slow_line),
+      effect("line", "", 100.0, hide_line),
+      effect("line", "slow", 100.0, hide_slow_line),
+      effect("line", "few_periods", 100.0, hide_slow_cycle),
       effect("harmonics", "", 100.0, hide_harmonics),
       effect("mains_alias", "", 80.0, hide_mains),  // 50 Hz shows at 30 Hz, 60 Hz at 20 Hz
   };

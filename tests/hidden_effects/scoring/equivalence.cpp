@@ -28,6 +28,7 @@ std::vector<std::string> right_names(const HiddenEffect& effect, bool withheld) 
       {"bursts", {"variance_wander"}},
       {"variance_wander/fast", {"bursts"}},
       // A machine is at work: that its vibration is not steady is said by the other two names.
+      {"line/few_periods", {"slow_cycle"}},
       {"switched_line", {"line"}},
       {"line/beating", {"switched_line", "harmonics"}},
       {"wandering_line", {"line", "resonance"}},
