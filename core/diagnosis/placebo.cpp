@@ -77,13 +77,13 @@ std::vector<SharedVector> shared_column(const TriedTerm& tried, const Subject& s
   return out;
 }
 
-// The first `extent` samples of a column, less their mean, in a replicate of so many samples.
+// The first `extent` samples of a column in a replicate of so many samples; then it stays as it is,
+// as a step would hide what slow noise lets it explain.
 SharedVector within(const SharedVector& cosines, Index extent, Index samples) {
   if (cosines.size() + 1 == samples && extent == samples) return cosines;
   const Eigen::VectorXd all = inverse_cosine_transform(cosines);
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(samples);
+  Eigen::VectorXd out = Eigen::VectorXd::Constant(samples, all(extent - 1));
   out.head(extent) = all.head(extent);
-  out.head(extent).array() -= out.head(extent).mean();
   return cosine_transform(out);
 }
 
@@ -113,6 +113,10 @@ struct Explained {
     square += more.square;
   }
   double gain() const { return square > 0.0 ? 0.5 * product * product / square : 0.0; }
+  /// Nothing where the coefficient has the other sign: what is common moves the same way.
+  double gain_with(const Explained& own) const {
+    return product * own.product > 0.0 ? gain() : 0.0;
+  }
 };
 
 // Does the column of the replicate `shift` further on explain as much as each replicate's own, over
@@ -134,7 +138,7 @@ bool copies_explain_as_much(const Current& current, const std::vector<SharedVect
     all_own.add(own[k]);
     all_copied.add(copied[k]);
   }
-  return all_copied.gain() > all_own.gain() - kAsMuch;
+  return all_copied.gain_with(all_own) > all_own.gain() - kAsMuch;
 }
 
 // A first look at what copies explain, without a transform a pair: products in time, squares as if
@@ -162,15 +166,16 @@ class Glance {
       own.add(explained(k, k, extent));
       copied.add(explained(k, other, extent));
     }
-    return copied.gain() > kTenth * own.gain() - kAsMuch;
+    return copied.gain_with(own) > kTenth * own.gain() - kAsMuch;
   }
 
  private:
   Explained explained(std::size_t k, std::size_t column, Index extent) const {
     const auto of = samples_[column].head(extent);
-    const auto left = current_.weighted[k].head(extent);
+    const Eigen::VectorXd& left = current_.weighted[k];
     Explained out;
-    out.product = of.dot(left) - of.mean() * left.sum();
+    out.product =
+        of.dot(left.head(extent)) + of(extent - 1) * left.tail(left.size() - extent).sum();
     out.square = square_[column] * static_cast<double>(extent);
     return out;
   }
