@@ -161,6 +161,25 @@ TEST(Views, AnAllanDeviationStandsAtItsOwnAveragingTime) {
   EXPECT_EQ(found, 1) << view.sentence();
 }
 
+// Of six views of a true model one is beyond 1 % once in seventeen: that is chance. A wave grows.
+TEST(Views, AreBeyondChanceWhereNoneOfThemWouldBe) {
+  int near = 0;
+  for (const double amplitude : {0.05, 0.056, 0.058, 0.06, 0.066}) {
+    DiagnoseOptions options;
+    options.model = "WN";
+    const auto report = diagnose_series(three_of("WN(sigma2=1)", amplitude, 7.0), 0, options);
+    ASSERT_TRUE(report) << report.error().message;
+    const auto& views = report->ladder(0).views();
+    for (const v1::ErrorView& one : views) {
+      const bool chance = 1.0 - std::pow(1.0 - one.p(), views.size()) >= 0.05;
+      near += one.p() < 0.05 && chance ? 1 : 0;
+      EXPECT_EQ(one.sentence().find("no more than chance") != std::string::npos, chance)
+          << one.sentence() << " " << one.p();
+    }
+  }
+  EXPECT_GT(near, 0);
+}
+
 // The findings of a ladder that added these, each of a known cause, and ended with this model.
 v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string>& added) {
   FullModel start = *parse_full_model(model, kFifty);

@@ -48,6 +48,7 @@ test("a device is listed, and its history is a click away", { timeout: 150_000 }
 
   await row.getByRole("link").click();
   await page.getByText("The newest calibration against").waitFor();
+  await page.getByText(/^Calibration: \d+ of \d+ channels have a model/).waitFor();
   assert.match(await page.locator(".rows tbody tr").first().textContent(), /N of WN.*not compared/);
   await page.locator("summary", { hasText: "calibrations" }).first().click();
   await page.locator("details .picture-frame circle.measured").nth(1).waitFor();

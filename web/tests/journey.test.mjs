@@ -1,7 +1,7 @@
 // From an emulated sensor with a hidden effect to a model that holds it, with nothing but the page.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browse, file, folder, operator, picture, serve, signIn, viewer, violations } from "./programs.mjs";
+import { browse, file, folder, hold, operator, picture, serve, signIn, viewer, violations } from "./programs.mjs";
 
 const campaign = `name = "bench"
 folder = "recordings"
@@ -61,13 +61,17 @@ test("from an empty bench to a model that holds the hidden effect", { timeout: 4
   await page.getByRole("link", { name: "Studies" }).click();
   await page.getByRole("option", { name: "imu/imu/gyro_x" }).first().waitFor({ state: "attached", timeout: 20_000 });
   await page.getByLabel("channel").first().selectOption("imu/imu/gyro_x");
+  await page.route("**/v1/studies", async (route) => {
+    const response = await route.fetch();
+    hold(child.pid); // else the fit may end before it is cancelled
+    await route.fulfill({ response });
+  }, { times: 1 });
   await page.getByRole("button", { name: "Study", exact: true }).first().click();
   await page.getByRole("status").getByText("Fitting the first model").waitFor();
-  child.kill("SIGSTOP"); // else the fit may end before it is cancelled
   assert.deepEqual(await violations(page), []);
   await picture(page, "job");
   await page.getByRole("button", { name: "Cancel" }).click();
-  child.kill("SIGCONT");
+  child.kill("SIGCONT"); // the fit itself is ended
   await page.getByText("Fitting the first model").waitFor({ state: "detached", timeout: 10_000 });
   await page.getByText("There is no study yet").waitFor();
   await page.getByLabel("first model").first().fill("WN");
@@ -83,11 +87,16 @@ test("from an empty bench to a model that holds the hidden effect", { timeout: 4
   assert.deepEqual(await violations(page), []);
   await picture(page, "journey_error");
   await page.getByRole("button", { name: "Close" }).click();
+  assert.equal(await page.getByLabel("term", { exact: true }).inputValue(), "lime(f=7)");
+  await page.getByRole("button", { name: "Cancel", exact: true }).click();
   const error = async () => parseFloat(await page.locator(".errors .now").first().textContent());
   const before = await error();
   await page.getByRole("button", { name: "Add", exact: true }).first().click();
   await page.locator(".step").nth(1).waitFor({ timeout: 60_000 });
   assert.ok((await error()) < before / 2);
   await picture(page, "journey_added");
+  await page.getByRole("link", { name: "Bench" }).click();
+  await page.getByRole("button", { name: "Record again" }).click();
+  await page.getByRole("region", { name: "bench" }).getByText(/replicate \d of 3/).waitFor({ timeout: 30_000 });
   assert.deepEqual(problems, []);
 });

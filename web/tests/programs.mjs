@@ -1,6 +1,6 @@
 // The programs and the browser that the tests use. What a test starts ends with it.
 import { execFileSync, spawn } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -45,6 +45,14 @@ function started(test, program, words, pattern, cwd) {
 export async function open(test, where, ...words) {
   const { child, found } = await started(test, imunoise, ["open", "--no-browser", "--studies", join(where, "studies"), ...words], /http:\S+/, where);
   return { child, url: found };
+}
+
+/** Holds a program and those that it runs, or lets them go on. */
+export function hold(pid, signal = "SIGSTOP") {
+  process.kill(pid, signal);
+  const tasks = readdirSync(`/proc/${pid}/task`);
+  const children = tasks.flatMap((task) => readFileSync(`/proc/${pid}/task/${task}/children`, "utf8").split(" ").filter(Boolean).map(Number));
+  for (const one of children) process.kill(one, signal);
 }
 
 export const operator = "o".repeat(32);

@@ -50,7 +50,7 @@ test("the hidden effect is found and the error falls", { timeout: 180_000 }, asy
 
   await page.getByRole("button", { name: "Undo" }).click();
   await page.waitForFunction((error) => parseFloat(document.querySelector(".errors .now")?.textContent) === error, before);
-  await page.locator(".candidates li").first().waitFor({ timeout: 60_000 });
+  await page.getByText("Seeking what is missing").waitFor(); // and need not end
   await page.keyboard.press("Control+Shift+Z");
   await page.waitForFunction((error) => parseFloat(document.querySelector(".errors .now")?.textContent) === error, after);
   await page.locator(".verdict.good").waitFor({ timeout: 60_000 });

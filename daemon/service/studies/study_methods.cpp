@@ -128,7 +128,9 @@ class StudyMethods {
     *order.mutable_request() = asked;
     for (const auto& one : records_.folders()) order.add_folders(one.string());
     order.set_cache(studies_.cache().string());
-    return compute_(order, progress);
+    auto out = compute_(order, progress);
+    if (out && progress.stopped()) return fail("cancelled");  // before its end: nothing is kept
+    return out;
   }
 
   using Keep = Result<void> (StudyStore::*)(const std::string& name, const v1::Study& study);

@@ -32,9 +32,8 @@ std::string worst_words(const ErrorView& from, const std::vector<std::string>& r
     return fmt::format("The strongest wave, at {:.4g} Hz, is {:.1f} dB over the noise", at.from,
                        from.value);
   if (from.view == "noise_over_time")
-    return fmt::format("Worst in {} from {} s: {} power than in the rest",
-                       replicates[at.replicate], report::stretch(at.from, at.to),
-                       more(at.deviation));
+    return fmt::format("Worst in {} from {} s: {} power than in the rest", replicates[at.replicate],
+                       report::stretch(at.from, at.to), more(at.deviation));
   if (from.view == "distribution")
     return fmt::format("The tails are {} than normal ones: excess kurtosis {:.2g}",
                        at.deviation < 0.0 ? "lighter" : "heavier", at.deviation);
@@ -45,7 +44,12 @@ std::string worst_words(const ErrorView& from, const std::vector<std::string>& r
                      more(at.deviation));
 }
 
-v1::ErrorView message_of(const ErrorView& from, const Subject& subject,
+// How often one of so many views would deviate as much under a true model.
+double of_many(double p, std::size_t views) {
+  return -std::expm1(static_cast<double>(views) * std::log1p(-p));
+}
+
+v1::ErrorView message_of(const ErrorView& from, std::size_t views, const Subject& subject,
                          const std::vector<std::string>& replicates) {
   ErrorView placed = from;
   if (from.view == "averaging_times") {  // an Allan deviation's is half of its wavelet's
@@ -65,8 +69,8 @@ v1::ErrorView message_of(const ErrorView& from, const Subject& subject,
   out.set_p(from.p_value);
   if (std::isfinite(placed.worst.from)) out.set_from(placed.worst.from);
   if (std::isfinite(placed.worst.to)) out.set_to(placed.worst.to);
-  out.set_sentence(
-      fmt::format("{}; {}.", worst_words(placed, replicates), significance_words(from.p_value)));
+  out.set_sentence(fmt::format("{}; {}.", worst_words(placed, replicates),
+                               significance_words(of_many(from.p_value, views))));
   return out;
 }
 
@@ -85,8 +89,9 @@ std::vector<v1::ErrorView> views_of(const FittedModel& trial, const LeftOver& le
                                     const MisfitReport& misfit,
                                     const std::vector<std::string>& replicates) {
   std::vector<v1::ErrorView> out;
-  for (const ErrorView& one : error_views(trial, left, misfit))
-    out.push_back(message_of(one, trial.regression.subject(), replicates));
+  const std::vector<ErrorView> views = error_views(trial, left, misfit);
+  for (const ErrorView& one : views)
+    out.push_back(message_of(one, views.size(), trial.regression.subject(), replicates));
   return out;
 }
 

@@ -71,11 +71,12 @@ function Campaign({ state }: { state: CampaignState }) {
   const [problem, tell] = useState("");
   const name = state.campaign?.name ?? "";
   const replicate = live.value.get(name);
-  const start = (): void => {
-    post("/v1/campaigns/{campaign}/start", { campaign: name }, { once: false }).then(() => tell(""), (error: Error) => tell(error.message));
-  };
   const told = state.status?.phase ?? "";
-  const phase = state.running || told === "finished" ? phases[told] ?? "starts" : "stopped";
+  const finished = told === "finished" && state.status?.reason !== "stopped"; // its schedule asks for no more
+  const start = (): void => {
+    post("/v1/campaigns/{campaign}/start", { campaign: name }, { once: finished }).then(() => tell(""), (error: Error) => tell(error.message));
+  };
+  const phase = state.running || finished ? phases[told] ?? "starts" : "stopped";
   return (
     <section class="campaign" aria-label={name}>
       <header>
@@ -86,7 +87,7 @@ function Campaign({ state }: { state: CampaignState }) {
         {state.left_s !== undefined && <span>{duration(state.left_s)} left</span>}
         {state.running
           ? <Stop state={state} replicate={replicate} onDone={tell} />
-          : <button type="button" class="main" disabled={!mayChange.value} onClick={start}>Start</button>}
+          : <button type="button" class="main" disabled={!mayChange.value} onClick={start}>{finished ? "Record again" : "Start"}</button>}
       </header>
       {state.progress !== undefined && <progress max={1} value={state.progress} aria-label={`progress of ${name}`} />}
       {state.trouble && <p class="alarm" role="alert">{state.trouble}</p>}
@@ -114,13 +115,19 @@ const Rejected = () => (
 );
 
 export function Bench() {
-  useEffect(() => void listCampaigns().catch(() => undefined), []);
+  const wrong = rejected.value.length > 0; // that they were mended is no event
+  useEffect(() => {
+    const look = (): void => void listCampaigns().catch(() => undefined);
+    look();
+    const again = wrong ? setInterval(look, 5000) : undefined;
+    return () => clearInterval(again);
+  }, [wrong]);
   if (campaigns.value === null) return <Loading />;
   const all = [...campaigns.value.values()];
   return (
     <div class="bench">
       {all.length > 0 && <h1 class="visually-hidden">Bench</h1>}
-      {rejected.value.length > 0 && <Rejected />}
+      {wrong && <Rejected />}
       {all.length === 0 && <Empty title="The bench is empty" sentence="Put a campaign file, such as config/emulated.toml, into the folder that imunoised was started with, then send SIGHUP to imunoised." />}
       {all.map((one) => <Campaign key={one.campaign?.name} state={one} />)}
     </div>

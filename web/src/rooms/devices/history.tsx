@@ -1,7 +1,8 @@
 // A device's parameters over its recordings, and whether the newest calibration fits the earlier ones.
 import { get } from "../../api/client";
-import type { History as Answer, ParameterHistory } from "../../api/schema";
+import type { History as Answer, HistoryPoint, ParameterHistory } from "../../api/schema";
 import { Picture } from "../../figure/picture";
+import { calibrationWords } from "../../parts/calibration_words";
 import { useLoaded } from "../../parts/loaded";
 import { Empty, Loading } from "../../parts/states";
 import { minute, recordingsOf } from "./device_rows";
@@ -46,6 +47,14 @@ const Points = ({ device, one }: { device: string; one: ParameterHistory }) => (
   </details>
 );
 
+// Whether its models fit.
+function Newest({ points }: { points: readonly HistoryPoint[] }) {
+  const newest = points.at(-1);
+  const { answer } = useLoaded(() => get("/v1/calibrations", {}, { campaign: newest?.bench ?? "" }), `${newest?.bench} ${newest?.folder}`);
+  const one = answer?.calibrations.find((each) => each.folder === newest?.folder);
+  return one ? <p>{calibrationWords(one)}</p> : null;
+}
+
 function Recordings({ device }: { device: string }) {
   const { answer } = useLoaded(() => get("/v1/recordings"), device);
   const all = recordingsOf(answer?.recordings ?? [], device);
@@ -70,6 +79,7 @@ export function History({ device }: { device: string }) {
       {back}
       <h1>{answer.device?.id ?? device}</h1>
       <p class={answer.alarm ? "alarm" : ""} role="status">{answer.summary}</p>
+      <Newest points={answer.parameters[0]?.points ?? []} />
       <Overview history={answer} />
       {answer.notes.map((one) => <p class="soft" key={one}>{one}</p>)}
       <Recordings device={answer.device?.id ?? device} />

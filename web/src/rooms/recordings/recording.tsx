@@ -9,6 +9,7 @@ import { Empty, Loading, Skeleton } from "../../parts/states";
 import { kLeft, kRight } from "../../trace/draw";
 import { tracesOf } from "../../trace/ranges";
 import { TraceTable, TraceView } from "../../trace/trace_view";
+import { calibrationWords } from "../../parts/calibration_words";
 import { shortfalls, summary } from "./replicate_words";
 import { afterKey, type Part, whole, within, zoomed } from "./zoom";
 
@@ -123,7 +124,7 @@ function NoiseValues({ manifest, campaign, folder }: { manifest: Manifest; campa
 export function Recording({ campaign, folder }: { campaign: string; folder: string }) {
   const { answer, problem } = useLoaded(() => get("/v1/recordings/{campaign}/{folder}", { campaign, folder }), `${campaign}/${folder}`);
   const known = useLoaded(() => get("/v1/calibrations", {}, { campaign }), campaign).answer;
-  const calibrated = known?.calibrations.some((one) => one.folder === folder && one.fitted > 0);
+  const calibration = known?.calibrations.find((one) => one.folder === folder);
   const back = <p><a href="#/devices">All devices</a></p>;
   if (problem) return <Empty title={`No recording ${folder}`} sentence={problem}>{back}</Empty>;
   if (!answer) return <Loading />;
@@ -133,7 +134,8 @@ export function Recording({ campaign, folder }: { campaign: string; folder: stri
       <h1>{folder}</h1>
       <p class="soft">{campaign} · {answer.closed ? summary(answer.replicates) : "not closed: while it records, its latest samples are on the bench"}</p>
       {shortfalls(answer.replicates).length > 0 && <ul class="alarm">{shortfalls(answer.replicates).map((one) => <li key={one}>{one}</li>)}</ul>}
-      {calibrated && <NoiseValues manifest={answer} campaign={campaign} folder={folder} />}
+      {calibration && <p>{calibrationWords(calibration)}</p>}
+      {calibration && calibration.fitted > 0 && <NoiseValues manifest={answer} campaign={campaign} folder={folder} />}
       <Choices manifest={answer} campaign={campaign} folder={folder} />
     </div>
   );

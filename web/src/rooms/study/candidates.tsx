@@ -44,7 +44,7 @@ export function Candidates({ store, study, still }: { store: StudyStore; study: 
   const all = (study.diagnosis?.candidates ?? []).filter(beyondChance);
   const preview = store.preview.value;
   if (!study.diagnosis) {
-    return store.busy.value ? null : (
+    return store.busy.value || store.working.value ? null : (
       <section class="candidates">
         <h2>What may be missing</h2>
         <p class="soft">This model has not been compared with the known effects.</p>

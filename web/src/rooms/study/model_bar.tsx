@@ -51,9 +51,11 @@ function AddTerm({ store, still }: { store: StudyStore; still: boolean }) {
   const [used, use] = useState(false); // the button takes the focus back
   const add = (event: Event): void => {
     event.preventDefault();
-    show(false);
-    void store.add(term.trim());
-    type("");
+    void store.add(term.trim()).then((done) => {
+      if (!done) return; // what is wrong with it can be mended
+      show(false);
+      type("");
+    });
   };
   const cancel = (): void => {
     show(false);

@@ -13,7 +13,8 @@ export class StudyStore {
     const job = jobs.value.get(this.job.value);
     return job && !over(job) ? job : null;
   });
-  readonly busy = signal(false);
+  readonly busy = signal(false); // with a change; a search for what is missing is no reason to wait
+  private sought: Promise<void> = Promise.resolve();
   private closed = false;
 
   constructor(readonly name: string) {}
@@ -24,26 +25,24 @@ export class StudyStore {
     await this.guarded(async () => {
       this.study.value = await get("/v1/studies/{study}", { study: this.name });
     });
-    if (this.study.value && !this.study.value.diagnosis) await this.seek();
+    this.resume();
   }
 
-  seek(): Promise<void> {
-    return mayChange.value ? this.does("/v1/studies/{study}/candidates", {}) : Promise.resolve();
+  /** Compares the model with the known effects. */
+  seek(): void {
+    if (!mayChange.value) return;
+    this.sought = this.follows("/v1/studies/{study}/candidates", {}).catch((error: Refused) => { this.problem.value = error.message; });
   }
-  add = (term: string): Promise<void> => this.changes("/v1/studies/{study}/add", { term });
-  tryModel = (model: string): Promise<void> => this.changes("/v1/studies/{study}/try", { model });
-  undo = (): Promise<void> => this.changes("/v1/studies/{study}/undo", {});
-  redo = (): Promise<void> => this.changes("/v1/studies/{study}/redo", {});
-
-  async back(steps: number): Promise<void> {
-    for (let i = 0; i < steps && !this.problem.value; ++i) await this.does("/v1/studies/{study}/undo", {});
-    if (!this.problem.value) await this.seek();
-  }
+  add = (term: string): Promise<boolean> => this.changes("/v1/studies/{study}/add", { term });
+  tryModel = (model: string): Promise<boolean> => this.changes("/v1/studies/{study}/try", { model });
+  undo = (): Promise<boolean> => this.changes("/v1/studies/{study}/undo", {});
+  redo = (): Promise<boolean> => this.changes("/v1/studies/{study}/redo", {});
+  back = (steps: number): Promise<boolean> => this.changes("/v1/studies/{study}/undo", {}, steps);
 
   async branch(name: string): Promise<boolean> {
-    await this.does("/v1/studies/{study}/branch", { name });
+    const done = await this.changes("/v1/studies/{study}/branch", { name });
     await listStudies();
-    return !this.problem.value;
+    return done;
   }
 
   /** Draws what a term would do. What a candidate promises is known already. */
@@ -51,34 +50,43 @@ export class StudyStore {
     const known = this.study.value?.diagnosis?.candidates.some((one) => one.term === term && one.next);
     if (!known && term) {
       const study = this.study.value;
-      await this.does("/v1/studies/{study}/preview", { term });
+      const done = await this.changes("/v1/studies/{study}/preview", { term });
       this.study.value = study;
-      if (this.problem.value) return;
+      if (!done) return;
     }
     this.preview.value = term;
   }
 
-  // Afterwards the new model has not been compared with the known effects.
-  private async changes<Path extends keyof Posts>(path: Path, body: Posts[Path]["body"]): Promise<void> {
+  // A new model has not been compared with the known effects. What is sought for the one before is given up.
+  private async changes<Path extends keyof Posts>(path: Path, body: Posts[Path]["body"], times = 1): Promise<boolean> {
+    this.busy.value = true;
     this.preview.value = "";
-    await this.does(path, body);
+    await this.guarded(async () => {
+      const job = this.working.value;
+      if (job?.operation === "candidates") await post("/v1/jobs/{job}/cancel", { job: job.job });
+      await this.sought;
+      for (let i = 0; i < times; ++i) await this.follows(path, body);
+    });
     void listStudies().catch(() => undefined);
-    if (!this.problem.value) await this.seek();
+    this.resume();
+    return !this.problem.value;
   }
 
-  private async does<Path extends keyof Posts>(path: Path, body: Posts[Path]["body"]): Promise<void> {
-    await this.guarded(async () => {
-      let job = (await post(path, { study: this.name }, body)) as Job;
-      this.job.value = job.job;
-      jobs.value = new Map(jobs.value).set(job.job, job);
-      while (!over(job) && !this.closed) {
-        await this.news(job.job);
-        job = await get("/v1/jobs/{job}", { job: job.job });
-      }
-      jobs.value = new Map(jobs.value).set(job.job, { ...job });
-      if (job.state === "failed") throw new Error(job.error);
-      if (job.result && path !== "/v1/studies/{study}/branch") this.study.value = job.result;
-    });
+  private resume(): void {
+    if (this.study.value && !this.study.value.diagnosis && !this.closed) this.seek();
+  }
+
+  private async follows<Path extends keyof Posts>(path: Path, body: Posts[Path]["body"]): Promise<void> {
+    let job = (await post(path, { study: this.name }, body)) as Job;
+    this.job.value = job.job;
+    jobs.value = new Map(jobs.value).set(job.job, job);
+    while (!over(job) && !this.closed) {
+      await this.news(job.job);
+      job = await get("/v1/jobs/{job}", { job: job.job });
+    }
+    jobs.value = new Map(jobs.value).set(job.job, { ...job });
+    if (job.state === "failed") throw new Error(job.error);
+    if (job.result && path !== "/v1/studies/{study}/branch") this.study.value = job.result;
   }
 
   // Until the stream tells that the job is over, or a while later: streams may break.
