@@ -21,6 +21,7 @@
   EFFECT(heavy_tails)            \
   EFFECT(variance_wander)        \
   EFFECT(bursts)                 \
+  EFFECT(power_change)           \
   EFFECT(own_powers)
 
 namespace imunoise {

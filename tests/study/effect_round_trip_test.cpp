@@ -54,6 +54,7 @@ const std::vector<Example>& examples() {
       {"heavy_tails(dof=4, size=2)", 0.2, 5.0},  // the tails are those of all noise
       {"variance_wander(tau=20, deviation=0.8)", 0.5},
       {"bursts(length=20, every=200, ratio=6)", 0.3},
+      {"power_change(replicate=2, from=100, to=400, ratio=3)"},
       {"wander(from=0.6, to=0.8, amplitude=0.8)", 0.3},
       {"oscillation(from=0.5, to=0.9, amplitude=1.5)", 0.2},
       {"two_lags(heat, fast=3, slow=20, coefficient=0.1)"},

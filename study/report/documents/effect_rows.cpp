@@ -5,10 +5,24 @@
 #include <algorithm>
 
 namespace imunoise::report {
+namespace {
+
+// A count, a place or a time, which is known as it stands: "4", "150.1".
+std::string as_it_stands(double value, Digits digits) {
+  std::string out = number(value, 5, digits);
+  if (out.find('.') == std::string::npos ||
+      out.find_first_not_of("-0123456789.") != std::string::npos)
+    return out;
+  out.erase(out.find_last_not_of('0') + 1);
+  if (out.back() == '.') out.pop_back();
+  return out;
+}
+
+}  // namespace
 
 std::string value_of(const v1::EffectParameter& one, Digits digits) {
   std::string out = one.has_lower() ? with_interval(one.value(), one.lower(), one.upper(), digits)
-                                    : number(one.value(), 5, digits);
+                                    : as_it_stands(one.value(), digits);
   return one.unit() == "1" ? out : out + " " + one.unit();
 }
 

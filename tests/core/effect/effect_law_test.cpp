@@ -154,6 +154,7 @@ const std::vector<std::string>& simulated_terms() {
       "heavy_tails(dof=4, size=2)",
       "variance_wander(tau=8, deviation=0.6)",
       "bursts(length=2, every=20, ratio=6)",
+      "power_change(replicate=2, from=60, to=110, ratio=3)",
       "own_powers(spread=0.4)",
   };
   return kTerms;

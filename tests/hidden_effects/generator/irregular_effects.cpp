@@ -111,6 +111,19 @@ Injection hide_modulation(Scene& scene, double delta) {
   return add_power(scene, courses, delta);
 }
 
+// A machine runs beside one replicate for a while: white noise comes to its own. δ beside the white
+// floor, of one who is told when.
+Injection hide_power_change(Scene& scene, double delta) {
+  const double n = static_cast<double>(scene.samples());
+  const double length = n * uniform(scene.random, 0.1, 0.6);
+  const double begin = uniform(scene.random, 0.0, n - length);
+  std::vector<Series> courses(scene.replicates(), Series(scene.samples(), 0.0));
+  Series& one = courses[below(scene.random, courses.size())];
+  std::fill(one.begin() + static_cast<std::ptrdiff_t>(begin),
+            one.begin() + static_cast<std::ptrdiff_t>(begin + length), 1.0);
+  return add_power(scene, courses, delta);
+}
+
 Series scaled(Series of, double factor) {
   for (double& x : of) x *= factor;
   return of;
@@ -158,6 +171,7 @@ std::vector<HiddenEffect> irregular_effects() {
       effect("telegraph", Family::kLocal, hide_telegraph),
       effect("outliers", Family::kLocal, hide_outliers),
       effect("replicate_change", Family::kShort, hide_replicate_change),
+      effect("power_change", Family::kShort, hide_power_change),
       effect("modulated_variance", Family::kWitness, hide_modulation),
   };
   out.back().witness = "temperature";

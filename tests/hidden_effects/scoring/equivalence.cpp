@@ -27,6 +27,8 @@ std::vector<std::string> right_names(const HiddenEffect& effect, bool withheld) 
       // Many bursts are a power that wanders fast, and one cause makes both.
       {"bursts", {"variance_wander"}},
       {"variance_wander/fast", {"bursts"}},
+      // One burst in one replicate, or a slow rise, is a power that changes for a while.
+      {"bursts/one_replicate", {"variance_wander", "power_change"}},
       // A machine is at work: that its vibration is not steady is said by the other two names.
       {"line/few_periods", {"slow_cycle"}},
       {"switched_line", {"line"}},

@@ -1,0 +1,102 @@
+#include "core/effects/distributions/power_spell.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/regression/modulation.h"
+
+namespace imunoise {
+namespace {
+
+using Index = Eigen::Index;
+
+// Blocks of samples, whose ends are the places that a first look tries.
+constexpr Index kMostBlocks = 256;
+constexpr Index kSmallestBlock = 32;  // samples
+// Shorter is a burst; longer, the replicate is another one.
+constexpr Index kShortest = 32;     // an n-th of the series
+constexpr double kLongest = 0.875;  // of it
+
+// Sums of squares: of all, and of those within.
+PowerSpell of_sums(Index begin, Index end, double within, double all, Index samples) {
+  const auto inside = static_cast<double>(end - begin);
+  const double outside = static_cast<double>(samples) - inside;
+  const double in = within / inside;
+  const double out = (all - within) / outside;
+  if (!(in > 0.0 && out > 0.0)) return {begin, end};
+  const double one = all / static_cast<double>(samples);
+  return {begin, end, -0.5 * (inside * std::log(in / one) + outside * std::log(out / one)),
+          in / out, std::sqrt(2.0 / inside + 2.0 / outside)};
+}
+
+}  // namespace
+
+PowerSpell power_spell(const Eigen::VectorXd& white, Index begin, Index end) {
+  return of_sums(begin, end, white.segment(begin, end - begin).squaredNorm(), white.squaredNorm(),
+                 white.size());
+}
+
+PowerSpell best_spell(const Eigen::VectorXd& white) {
+  const Index samples = white.size();
+  const Index blocks = std::min(kMostBlocks, samples / kSmallestBlock);
+  if (blocks < kShortest) return {};
+  Eigen::VectorXd sum(samples + 1);
+  sum(0) = 0.0;
+  for (Index t = 0; t < samples; ++t) sum(t + 1) = sum(t) + white(t) * white(t);
+  PowerSpell best;
+  const auto look = [&](Index begin, Index end) {
+    const PowerSpell one = of_sums(begin, end, sum(end) - sum(begin), sum(samples), samples);
+    if (one.nats > best.nats) best = one;
+  };
+  const auto edge = [&](Index block) { return block * samples / blocks; };
+  const Index shortest = blocks / kShortest;
+  const auto longest = static_cast<Index>(kLongest * static_cast<double>(blocks));
+  for (Index b = 0; b < blocks; ++b) {
+    for (Index e = b + shortest; e <= std::min(blocks, b + longest); ++e) look(edge(b), edge(e));
+  }
+  // To the sample, an end after the other.
+  const Index reach = samples / blocks;
+  for (const bool begins : {true, false, true, false}) {
+    const PowerSpell near = best;
+    if (begins ? near.begin == 0 : near.end == samples) continue;
+    for (Index move = -reach; move <= reach; ++move) {
+      const Index b = std::max<Index>(0, near.begin + (begins ? move : 0));
+      const Index e = std::min(samples, near.end + (begins ? 0 : move));
+      if (e - b >= reach) look(b, e);
+    }
+  }
+  return best;
+}
+
+double excess_scatter(const Eigen::VectorXd& white, const PowerSpell& spell) {
+  Eigen::ArrayXd squares = white.array().square();
+  squares.segment(spell.begin, spell.size()) /= spell.ratio;
+  const double mean = squares.mean();
+  return std::max(1.0, 0.5 * (squares.square().mean() / (mean * mean) - 1.0));
+}
+
+Eigen::VectorXd course_of(const PowerSpell& spell, Index samples, double width) {
+  const auto risen = [&](double from_edge) {
+    return std::clamp(0.5 + from_edge / std::max(1.0, width), 0.0, 1.0);
+  };
+  Eigen::VectorXd out(samples);
+  for (Index t = 0; t < samples; ++t) {
+    const double place = static_cast<double>(t) + 0.5;
+    const double in = spell.begin == 0 ? 1.0 : risen(place - static_cast<double>(spell.begin));
+    const double until = spell.end == samples ? 1.0 : risen(static_cast<double>(spell.end) - place);
+    out(t) = std::min(in, until);
+  }
+  return out;
+}
+
+bool changes_at_once(const Eigen::VectorXd& white, const PowerSpell& spell) {
+  const Innovations one{{0}, {white}};
+  const auto gain = [&](double width) {
+    return modulation_by({{SharedVector(course_of(spell, white.size(), width))}}, one)
+        .log_likelihood;
+  };
+  constexpr double kClearly = 3.0;  // nats
+  return gain(0.0) > gain(0.25 * static_cast<double>(spell.size())) + kClearly;
+}
+
+}  // namespace imunoise

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace imunoise {
+
+/// A part of a series of independent normal numbers whose power is not that of the rest.
+struct PowerSpell {
+  Eigen::Index begin = 0;
+  Eigen::Index end = 0;
+  double nats = 0.0;   ///< gained by two powers over one
+  double ratio = 1.0;  ///< of the power within to that outside
+  double error = 0.0;  ///< standard error of its logarithm
+
+  Eigen::Index size() const { return end - begin; }
+};
+
+/// The likelihood ratio of this part; without gain where a power is zero.
+PowerSpell power_spell(const Eigen::VectorXd& white, Eigen::Index begin, Eigen::Index end);
+
+/// The part of most likelihood between a 32nd and seven eighths of the series; empty where it is
+/// too short. By chance it gains more than x nats about as often as the best of kSpells separate
+/// parts would (of 4,096 to 131,072 normal numbers; 1,500 draws each, p of 0.01 to 0.1).
+PowerSpell best_spell(const Eigen::VectorXd& white);
+inline constexpr double kSpells = 800.0;
+
+/// How much more the squares of such a series scatter than those of normal numbers of two powers;
+/// at least 1.
+double excess_scatter(const Eigen::VectorXd& white, const PowerSpell& spell);
+
+/// 1 in the spell, 0 elsewhere. Ends are slopes `width` samples wide, but where the series ends.
+Eigen::VectorXd course_of(const PowerSpell& spell, Eigen::Index samples, double width);
+
+/// Whether the power changes at once, and not as slowly as the spell is long: ends a quarter of it
+/// wide explain clearly less.
+bool changes_at_once(const Eigen::VectorXd& white, const PowerSpell& spell);
+
+}  // namespace imunoise
