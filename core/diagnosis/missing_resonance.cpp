@@ -88,8 +88,9 @@ std::optional<FittedModel> grown(const FittedModel& fitted, const Process& like)
     Model start = fitted.fit.model.noise;
     if (const auto* const spread = std::get_if<Voigt>(&change.added)) {
       const double width = std::hypot(-std::log(spread->r), spread->spread);
-      start.terms.emplace_back(Process(Resonance{spread->sigma2, std::exp(-width), spread->omega}));
-      change = {std::move(start), start.terms.back().process};
+      const Process peak = Resonance{spread->sigma2, std::exp(-width), spread->omega};
+      start.terms.emplace_back(peak);
+      change = {std::move(start), peak};
     } else {
       const Resonance peak = std::get<Resonance>(change.added);
       start.terms.emplace_back(Process(peak));

@@ -128,6 +128,13 @@ Suggestions search_power_change(const SearchView& view) {
   Suggestion out{.cause = "power_change",
                  .added = EffectTerm(power_change()),
                  .search = {.log_places = std::log(kSpells * static_cast<double>(each.size()))}};
+  // A third is no event: the power wanders.
+  constexpr std::ptrdiff_t kMostEvents = 2;
+  const auto& effects = view.current().regression.effects();
+  const auto events = std::count_if(effects.begin(), effects.end(), [](const EffectTerm& term) {
+    return term.effect == &power_change();
+  });
+  if (events >= kMostEvents) return {out};
   if (best == each.end() || !(best->nats > out.search.log_places)) return {out};
   const auto place = static_cast<std::size_t>(best - each.begin());
   const Part& part = subject.parts[all.replicates[place]];

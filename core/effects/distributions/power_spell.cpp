@@ -14,7 +14,7 @@ using Index = Eigen::Index;
 constexpr Index kMostBlocks = 256;
 constexpr Index kSmallestBlock = 32;  // samples
 // Shorter is a burst; longer, the replicate is another one.
-constexpr Index kShortest = 32;     // an n-th of the series
+constexpr Index kShortest = 16;     // an n-th of the series
 constexpr double kLongest = 0.875;  // of it
 
 // Sums of squares: of all, and of those within.

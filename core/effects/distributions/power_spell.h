@@ -18,9 +18,9 @@ struct PowerSpell {
 /// The likelihood ratio of this part; without gain where a power is zero.
 PowerSpell power_spell(const Eigen::VectorXd& white, Eigen::Index begin, Eigen::Index end);
 
-/// The part of most likelihood between a 32nd and seven eighths of the series; empty where it is
-/// too short. By chance it gains more than x nats about as often as the best of kSpells separate
-/// parts would (of 4,096 to 131,072 normal numbers; 1,500 draws each, p of 0.01 to 0.1).
+/// The part of most likelihood between a 16th and seven eighths of the series; empty where it is
+/// too short. By chance it gains more than x nats at most as often as the best of kSpells separate
+/// parts would.
 PowerSpell best_spell(const Eigen::VectorXd& white);
 inline constexpr double kSpells = 800.0;
 

@@ -36,6 +36,21 @@ TEST(FitWithResonances, FindsAPeakWhereverItBegins) {
   EXPECT_NEAR(found_in<Resonance>(sought)->omega, 2.0, 0.02);
 }
 
+// The best peak has a width that the typed form lacks: this once read a model after it was moved.
+TEST(FitWithResonances, KeepsTheFormThatIsAskedFor) {
+  const auto subject =
+      subject_of({.model = "WN(sigma2=1) + VOIGT(sigma2=0.02, r=0.98, omega=1.2, spread=0.05)",
+                  .samples = kLong,
+                  .seed = 53});
+  FullModel start = *parse_full_model("WN + RES", subject->rate);
+  set_values(start.noise.terms[0].process, std::vector<double>{1.0});
+  set_values(start.noise.terms[1].process, std::vector<double>{1e-3, 0.6, 0.4});
+  const FittedModel sought = fit_with_resonances(subject, start);
+  ASSERT_NE(found_in<Resonance>(sought), nullptr);
+  EXPECT_EQ(found_in<Voigt>(sought), nullptr);
+  EXPECT_NEAR(found_in<Resonance>(sought)->omega, 1.2, 0.05);
+}
+
 Suggestion best_peak(const char* model, std::uint64_t seed) {
   const FittedModel plain =
       fitted(subject_of({.model = model, .samples = kLong, .seed = seed}), "WN");
