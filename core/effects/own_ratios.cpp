@@ -62,7 +62,8 @@ struct OwnNoise {
 
 std::vector<OwnNoise> own_noises(const FittedEffect& effect, const std::vector<std::size_t>& terms,
                                  bool shapes) {
-  const auto& [regression, fit] = effect.model;
+  const Regression& regression = effect.model.regression;
+  const JointFit& fit = effect.model.fit;
   const std::vector<BandedPower> residual = regression.residual(fit.effects.value);
   std::vector<OwnNoise> out(residual.size());
   for_each_index(out.size(), [&](std::size_t i) {

@@ -1,9 +1,11 @@
 #include "daemon/live/live_device.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <variant>
 
 #include "core/support/counted.h"
@@ -20,6 +22,14 @@ constexpr double kWarming = 2.0 / 3600.0;             // K/s
 // "once", "3 times".
 std::string times(std::size_t count) {
   return count == 1 ? "once" : fmt::format("{} times", count);
+}
+
+std::string rejected_words(const Concern& of) {
+  return fmt::format("{} rejected", counted(of.count(), "sample"));
+}
+
+std::string lost_words(const Concern& of) {
+  return fmt::format("samples missing {}", times(of.count()));
 }
 
 double number_at(const recording::Numbers& numbers, std::size_t i) {
@@ -118,7 +128,7 @@ void LiveDevice::take(const recording::Block& block, Steady::time_point now) {
   const recording::Rows& rows = block.rows;
   const std::uint64_t refused = recording::refused_rows(rows.refused);
   to.refused += refused;
-  if (refused > 0) to.lost.see(rows.size() > 0 ? rows.host_time.back() : to.now_ns, refused);
+  if (refused > 0) to.rejected.see(rows.size() > 0 ? rows.host_time.back() : to.now_ns, refused);
   if (rows.size() == 0) return;
   const v1::RecordedStream& stream = device_.streams(static_cast<int>(block.stream));
   take_gaps(rows, stream.rate_hz(), to);
@@ -217,10 +227,14 @@ void LiveDevice::warn(const v1::RecordedStream& stream, const Stream& of, Steady
   };
   if (const double seconds = silence(stream, of, now); seconds > 0.0)
     add(v1::silent, "", of.now_ns, fmt::format("no samples for {:.0f} s", seconds));
-  if (const auto since = of.lost.since(of.now_ns)) {
-    add(v1::lost_samples, "", *since,
-        fmt::format("samples were rejected or are missing, {} in the last minutes",
-                    times(of.lost.count())));
+  const auto rejected = of.rejected.since(of.now_ns);
+  const auto lost = of.lost.since(of.now_ns);
+  if (rejected || lost) {
+    std::vector<std::string> what;
+    if (rejected) what.push_back(rejected_words(of.rejected));
+    if (lost) what.push_back(lost_words(of.lost));
+    add(v1::lost_samples, "", std::min(rejected.value_or(INT64_MAX), lost.value_or(INT64_MAX)),
+        fmt::format("{} in the last minutes", fmt::join(what, ", ")));
   }
   for (const Channel& one : of.channels) {
     if (const auto since = one.saturated.since(of.now_ns)) {
@@ -283,9 +297,9 @@ v1::LiveWarning LiveDevice::past_warning() const {
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     const v1::RecordedStream& stream = device_.streams(static_cast<int>(s));
     const Stream& of = streams_[s];
-    see(v1::lost_samples, of.lost, of,
-        fmt::format("{}: samples were rejected or missing, {}", stream.name(),
-                    times(of.lost.count())));
+    see(v1::lost_samples, of.rejected, of,
+        fmt::format("{}: {}", stream.name(), rejected_words(of.rejected)));
+    see(v1::lost_samples, of.lost, of, fmt::format("{}: {}", stream.name(), lost_words(of.lost)));
     for (const Channel& one : of.channels) {
       see(v1::saturated, one.saturated, of,
           fmt::format("{}: {} at the limit of the range",

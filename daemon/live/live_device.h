@@ -62,7 +62,8 @@ class LiveDevice {
     std::optional<std::int64_t> begin_ns;
     std::int64_t now_ns = 0;
     Steady::time_point heard;  // when the newest samples came
-    Concern lost;
+    Concern rejected;
+    Concern lost;  // missing before a row
   };
   // What a picture of the device shows.
   struct Pictured {

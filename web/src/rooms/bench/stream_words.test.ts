@@ -18,9 +18,9 @@ test("a device's streams are one row: the fastest rate, all that is missing, a t
 });
 
 test("what is wrong now comes before what was wrong", () => {
-  const past = { sentence: "imu: samples were rejected or missing, 3 times", since_ns: "1772345553000000000" };
+  const past = { sentence: "imu: 3 samples rejected", since_ns: "1772345553000000000" };
   const device = { disk_trouble: "", warnings: [], past_warning: past } as unknown as LiveDevice;
-  expect(lastError(device)).toBe("06:12:33 UTC: imu: samples were rejected or missing, 3 times");
+  expect(lastError(device)).toBe("06:12:33 UTC: imu: 3 samples rejected");
   expect(lastError({ ...device, warnings: [{ sentence: "gyro_x: stuck" }] } as unknown as LiveDevice)).toBe("gyro_x: stuck");
   expect(lastError({ disk_trouble: "", warnings: [] } as unknown as LiveDevice)).toBe("none");
 });
