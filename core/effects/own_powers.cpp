@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/effects/own_ratios.h"
+#include "core/regression/own_ratios.h"
 #include "core/search/search_view.h"
 #include "core/search/shape_spread.h"
 #include "core/support/parallel.h"

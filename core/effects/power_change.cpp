@@ -215,7 +215,7 @@ const Effect& power_change() {
       .anywhere = true,
       .causes = {{.id = "power_change",
                   .title = "noise of another power for a while",
-                  .physics = "A machine ran or somebody worked near the bench for a while, or the "
+                  .physics = "A machine ran or people worked near the bench for a while, or the "
                              "sensor itself grew noisy, or changed its range or its filter.",
                   .record_next = "nothing, if it is known what happened at that time: keep it in "
                                  "the model; else the same again, with what goes on nearby written "

@@ -139,8 +139,7 @@ void add_stretches(v1::DiagnosisReport& to, double side) {
           fmt::format("{}: from {} s the noise has {} variance than in the rest "
                       "({:.1f} sigma).{}",
                       worst->replicate(), report::stretch(worst->from(), worst->to()),
-                      percent_more(worst->ratio()),
-                      std::abs(worst->sigma()), others));
+                      percent_more(worst->ratio()), std::abs(worst->sigma()), others));
   misfit.set_from(worst->from());
   misfit.set_to(worst->to());
 }

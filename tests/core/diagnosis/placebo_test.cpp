@@ -48,18 +48,18 @@ TEST(Placebo, ACourseThatDiffersIsTheWitnessItself) {
   EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kFound);
 }
 
-// Copies from shorter replicates end early. That alone says nothing: a step there once hid what slow
-// noise lets a course explain, and copies seemed as good.
+// Copies from shorter replicates end early. That alone says nothing: a step there once hid what
+// slow noise lets a course explain, and copies seemed as good.
 TEST(Placebo, ACourseThatDiffersIsTheWitnessItselfInReplicatesOfEveryLength) {
   const auto course = [](std::size_t k, double s) {  // half a period or less
     return wave(0.002 + 0.001 * static_cast<double>(k), s + 90.0 * static_cast<double>(k));
   };
   for (std::uint64_t seed = 8710; seed < 8720; ++seed) {
-    const Diagnosis diagnosis = diagnose(fitted(subject_of(
-        {.shorter = 1500,
-         .seed = seed,
-         .added = [&](std::size_t k, double s) { return 0.6 * course(k, s); },
-         .temperature = course})));
+    const Diagnosis diagnosis = diagnose(
+        fitted(subject_of({.shorter = 1500,
+                           .seed = seed,
+                           .added = [&](std::size_t k, double s) { return 0.6 * course(k, s); },
+                           .temperature = course})));
     ASSERT_FALSE(diagnosis.effects.empty());
     EXPECT_EQ(diagnosis.effects[0].tried.cause, "temperature");
     EXPECT_FALSE(could_be(diagnosis.effects[0], "common_course")) << seed;

@@ -1,4 +1,4 @@
-#include "core/effects/own_ratios.h"
+#include "core/regression/own_ratios.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
-namespace imunoise::effects {
+namespace imunoise {
 namespace {
 
 // The processes whose power is free, and there, in all replicates.
@@ -220,4 +220,4 @@ std::vector<ReportedNumber> own_ratios(const FittedEffect& effect, bool shapes) 
   return out;
 }
 
-}  // namespace imunoise::effects
+}  // namespace imunoise
