@@ -5,6 +5,7 @@
 
 #include "core/effect/columns.h"
 #include "core/effect/converter_steps.h"
+#include "core/effects/distributions/power_spell.h"
 #include "core/effects/distributions/tails.h"
 #include "core/effects/reshaped_noise.h"
 #include "core/search/search_view.h"
@@ -60,8 +61,13 @@ Suggestions search_heavy_tails(const SearchView& view) {
            .power = true}};
 }
 
+// What counts is what is left of the tails beside noise of another power for a while.
 void review_heavy_tails(const Current& current, TriedTerm& tried) {
-  const SizeCounts sizes = count_sizes(innovations(current.regression, current.fit).white);
+  const Innovations all = innovations(current.regression, current.fit);
+  const SizeCounts sizes = count_sizes(all.white);
+  const SizeCounts beside = count_sizes(beside_spells(all.white));
+  tried.likelihood_gain =
+      std::clamp(gain_of(beside, best_student(beside)), 0.0, std::max(0.0, tried.likelihood_gain));
   if (!compare_tails(sizes).rules_out_mixture()) tried.could_be.push_back("outliers");
 }
 

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 
 #include "core/effect/columns.h"
 #include "core/search/peak.h"
 #include "core/search/search_view.h"
 #include "core/search/wave_scores.h"
+#include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::effects {
@@ -54,6 +56,8 @@ void add_line(const EffectTerm& term, const Subject& subject, std::size_t,
   line_shape(term, subject).add(coefficients, to);
 }
 
+constexpr double kFewestTurns =
+    8.0;  // of a machine in a replicate: fewer waves in tune are any course
 constexpr double kDrawnPhase = -1.0;
 constexpr double kSlowestMachine = 0.02;  // Hz; a building does not sway as slowly either
 
@@ -107,6 +111,19 @@ double line_gain(const Current& current, double f) {
   return out;
 }
 
+// The same by least squares. Where only few periods lie in a replicate, the two quadratures of a
+// wave are not orthogonal, and the noise is not the same around it.
+double slow_gain(const Current& current, double f) {
+  std::vector<double> each(current.cosines.size());
+  for_each_index(each.size(), [&](std::size_t k) {
+    const Eigen::MatrixXd columns = waves(f, 1).cosines(current.subject().length(k));
+    const Eigen::MatrixXd weighted = (columns.array().colwise() / current.spectrum[k]).matrix();
+    const Eigen::VectorXd moment = weighted.transpose() * current.cosines[k];
+    each[k] = 0.5 * moment.dot(solve_symmetric(weighted.transpose() * columns, moment));
+  });
+  return std::accumulate(each.begin(), each.end(), 0.0);
+}
+
 // True where a frequency is that of 50 or 60 Hz mains or of a low multiple, folded where that is
 // above half the sampling rate; mains wander by 0.1 %.
 bool is_mains(double hertz, double rate, double resolution) {
@@ -149,8 +166,11 @@ Suggestion best_wave(const Current& current) {
   best += first;
   const double step = 1.0 / static_cast<double>(padded);
   const double near = static_cast<double>(best) * step;
-  const Peak peak = peak_between(near - step, near + step, 0.25 * step,
-                                 [&](double at) { return line_gain(current, at); });
+  constexpr double kFewPeriods = 20.0;
+  const bool slow = near * static_cast<double>(shortest) < kFewPeriods;
+  const Peak peak = peak_between(near - step, near + step, 0.25 * step, [&](double at) {
+    return slow ? slow_gain(current, at) : line_gain(current, at);
+  });
   const double rate = subject.rate.value;
   const double hertz = peak.at * rate;
   out.added = EffectTerm(line(), "", {{"f", hertz}});
@@ -174,7 +194,7 @@ std::optional<Suggestion> best_harmonics(const Current& current, const Suggestio
   for (int order = 1; order <= 4; ++order) {
     const double fundamental = f / order;
     const int most = std::min(12, static_cast<int>(0.495 / fundamental));
-    if (fundamental * static_cast<double>(shortest) < kFewestPeriods || most < 2) continue;
+    if (fundamental * static_cast<double>(shortest) < kFewestTurns || most < 2) continue;
     double total = 0.0;
     double kept = 0.0;
     int count = 0;

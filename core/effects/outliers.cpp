@@ -5,6 +5,7 @@
 
 #include "core/effect/columns.h"
 #include "core/effects/distributions/contamination.h"
+#include "core/effects/distributions/power_spell.h"
 #include "core/effects/distributions/tails.h"
 #include "core/effects/draws.h"
 #include "core/search/search_view.h"
@@ -208,8 +209,21 @@ Suggestions search_outliers(const SearchView& view) {
                                     log_number(count)}}};
 }
 
+double beyond(const std::vector<Eigen::VectorXd>& white, double above) {
+  double out = 0.0;
+  for (const Eigen::VectorXd& one : white)
+    out += static_cast<double>((one.array().abs() > above).count());
+  return out;
+}
+
+// Those that only noise of another power for a while makes are no outliers.
 void review_outliers(const Current& current, TriedTerm& tried) {
-  const SizeCounts sizes = count_sizes(innovations(current.regression, current.fit).white);
+  const Innovations all = innovations(current.regression, current.fit);
+  const double above = (*tried.term())[kOutliersAbove];
+  const double as_they_are = beyond(all.white, above);
+  if (as_they_are > 0.0)
+    tried.likelihood_gain *= std::min(1.0, beyond(beside_spells(all.white), above) / as_they_are);
+  const SizeCounts sizes = count_sizes(all.white);
   if (!compare_tails(sizes).rules_out_student()) tried.could_be.push_back("heavy_tails");
 }
 

@@ -117,12 +117,38 @@ double inflation_of(const SearchView& view, const PowerSpell& best, std::size_t 
   return out;
 }
 
+// Of two parts that make a replicate, the one whose power is not that of the other replicates; of a
+// single replicate the shorter one.
+PowerSpell unusual(const PowerSpell& spell, std::size_t place, const Innovations& all) {
+  const Eigen::VectorXd& white = all.white[place];
+  if (spell.begin > 0 && spell.end < white.size()) return spell;
+  double squares = 0.0;
+  double samples = 0.0;
+  for (std::size_t i = 0; i < all.white.size(); ++i) {
+    if (i == place) continue;
+    squares += all.white[i].squaredNorm();
+    samples += static_cast<double>(all.white[i].size());
+  }
+  const auto inside = static_cast<double>(spell.size());
+  const auto outside = static_cast<double>(white.size()) - inside;
+  const double within = white.segment(spell.begin, spell.size()).squaredNorm();
+  const double in = within / inside;
+  const double out = (white.squaredNorm() - within) / outside;
+  const double usual = squares / samples;
+  const bool as_usual = samples > 0.0
+                            ? std::abs(std::log(in / usual)) < std::abs(std::log(out / usual))
+                            : inside > outside;
+  if (!as_usual) return spell;
+  return spell.begin == 0 ? power_spell(white, spell.end, white.size())
+                          : power_spell(white, 0, spell.begin);
+}
+
 Suggestions search_power_change(const SearchView& view) {
   const Innovations& all = view.innovations();
   const Subject& subject = view.subject();
   std::vector<PowerSpell> each(all.white.size());
   for_each_index(each.size(), [&](std::size_t i) { each[i] = best_spell(all.white[i]); });
-  const auto best = std::max_element(
+  const auto found = std::max_element(
       each.begin(), each.end(),
       [](const PowerSpell& one, const PowerSpell& other) { return one.nats < other.nats; });
   Suggestion out{.cause = "power_change",
@@ -135,18 +161,19 @@ Suggestions search_power_change(const SearchView& view) {
     return term.effect == &power_change();
   });
   if (events >= kMostEvents) return {out};
-  if (best == each.end() || !(best->nats > out.search.log_places)) return {out};
-  const auto place = static_cast<std::size_t>(best - each.begin());
+  if (found == each.end() || !(found->nats > out.search.log_places)) return {out};
+  const auto place = static_cast<std::size_t>(found - each.begin());
+  const PowerSpell best = unusual(*found, place, all);
   const Part& part = subject.parts[all.replicates[place]];
   const auto seconds = [&](Index sample) {
     return static_cast<double>(part.first + sample) / subject.rate.value;
   };
   out.added = EffectTerm(power_change(), "",
                          {{"replicate", static_cast<double>(part.recorded + 1)},
-                          {"from", seconds(best->begin)},
-                          {"to", seconds(best->end)}});
-  out.inflation = inflation_of(view, *best, place);
-  out.score_nats = best->nats / out.inflation;
+                          {"from", seconds(best.begin)},
+                          {"to", seconds(best.end)}});
+  out.inflation = inflation_of(view, best, place);
+  out.score_nats = best.nats / out.inflation;
   return {out};
 }
 
@@ -197,9 +224,9 @@ const Effect& power_change() {
                       .required = true,
                       .lower = 1.0},
                      {.name = "from",
-                      .meaning = "where it begins, from the first sample of what was recorded",
+                      .meaning = "where it begins, from the first sample of what was recorded; not "
+                                 "given: there",
                       .unit = "s",
-                      .required = true,
                       .rounding = Rounding::kBySample},
                      {.name = "to",
                       .meaning = "where it ends",

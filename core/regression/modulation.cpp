@@ -90,7 +90,10 @@ double predicted_gain(const Modulation& modulation, const VarianceCourse& course
                       const Innovations& innovations) {
   const Stretches all = stretches_of(course, innovations);
   const Eigen::ArrayXd c = (all.course - modulation.mean) / modulation.deviation;
-  return gain_of(std::log(modulation.level) + modulation.slope * c, all.power);
+  // Far beyond the course that it was estimated from, a slope tells nothing: it counts less the
+  // more its error makes of the logarithm there.
+  const Eigen::ArrayXd told = modulation.slope * c / (1.0 + (modulation.error * c).square());
+  return gain_of(std::log(modulation.level) + told, all.power);
 }
 
 }  // namespace imunoise

@@ -164,19 +164,27 @@ const LogRatios& most_different(const Ratios& ratios) {
   return *out;
 }
 
-// The ratio of each replicate; of each process in it where one does not tell all.
+// The ratio of each replicate; of each process in it where one does not tell all. What is not known
+// within a factor of 20 is left out.
 void add_ratios(const Ratios& ratios, std::vector<ReportedNumber>& out) {
   constexpr double kBeyondChance = 0.01;
+  constexpr double kKnown = 1.5;  // standard error of the logarithm
   const auto dof = static_cast<double>(ratios.processes.size()) - 1.0;
+  const bool alike =
+      !(dof > 0.0) ||
+      chi_square_tail(ratios.unlike.sum(), dof * static_cast<double>(ratios.unlike.size())) >
+          kBeyondChance;
   for (Eigen::Index k = 0; k < ratios.unlike.size(); ++k) {
-    if (!(dof > 0.0 && chi_square_tail(ratios.unlike(k), dof) < kBeyondChance)) {
+    if (alike) {
       out.push_back(
           ratios.whole.in_replicate(k, fmt::format("power ratio of replicate {}", k + 1)));
       continue;
     }
-    for (const LogRatios& one : ratios.processes)
-      out.push_back(
-          one.in_replicate(k, fmt::format("power ratio of {} in replicate {}", one.of, k + 1)));
+    for (const LogRatios& one : ratios.processes) {
+      if (one.error(k) < kKnown)
+        out.push_back(
+            one.in_replicate(k, fmt::format("power ratio of {} in replicate {}", one.of, k + 1)));
+    }
   }
 }
 

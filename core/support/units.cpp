@@ -75,6 +75,17 @@ std::string normalise(std::string_view text) {
   return out;
 }
 
+std::optional<Unit> known_unit(std::string_view text) {
+  constexpr std::size_t kLongest = 64;  // bytes: longer is no unit
+  if (text.size() > kLongest) return std::nullopt;
+  const std::string wanted = normalise(text);
+  for (const NamedUnit& unit : kUnits) {
+    if (unit.symbol == wanted)
+      return Unit{std::string(unit.symbol), unit.quantity, unit.to_si, unit.si_offset};
+  }
+  return std::nullopt;
+}
+
 // "0.0076 deg/s", "1/131 deg/s"
 std::optional<Unit> parse_multiple(std::string_view text) {
   const char* const end = text.data() + text.size();
@@ -89,29 +100,27 @@ std::optional<Unit> parse_multiple(std::string_view text) {
     at = stop;
   }
   if (at == end || *at != ' ' || !(factor > 0.0) || !std::isfinite(factor)) return std::nullopt;
-  auto unit = parse_unit(std::string_view(at + 1, static_cast<std::size_t>(end - at - 1)));
+  auto unit = known_unit(std::string_view(at + 1, static_cast<std::size_t>(end - at - 1)));
   if (!unit || unit->si_offset != 0.0) return std::nullopt;
   unit->to_si *= factor;
   unit->symbol = std::string(text);
-  return *unit;
+  return unit;
 }
 
 }  // namespace
 
 Result<Unit> parse_unit(std::string_view text) {
-  const std::string wanted = normalise(text);
   if (const auto multiple = parse_multiple(text)) return *multiple;
-  for (const NamedUnit& unit : kUnits) {
-    if (unit.symbol == wanted) {
-      return Unit{std::string(unit.symbol), unit.quantity, unit.to_si, unit.si_offset};
-    }
-  }
+  if (const auto known = known_unit(text)) return *known;
   std::string known;
   for (const NamedUnit& unit : kUnits) {
     known += known.empty() ? "" : ", ";
     known += unit.symbol;
   }
-  return fail("unknown unit '" + std::string(text) + "' (known: " + known + ")");
+  constexpr std::size_t kShown = 40;  // bytes
+  const std::string shown =
+      text.size() > kShown ? std::string(text.substr(0, kShown)) + "…" : std::string(text);
+  return fail("unknown unit '" + shown + "' (known: " + known + ")");
 }
 
 std::string_view si_symbol(Quantity quantity) {

@@ -75,6 +75,16 @@ double excess_scatter(const Eigen::VectorXd& white, const PowerSpell& spell) {
   return std::max(1.0, 0.5 * (squares.square().mean() / (mean * mean) - 1.0));
 }
 
+std::vector<Eigen::VectorXd> beside_spells(std::vector<Eigen::VectorXd> white) {
+  constexpr double kSurely = 20.0;  // nats
+  for (Eigen::VectorXd& one : white) {
+    const PowerSpell spell = best_spell(one);
+    if (spell.nats > kSurely * excess_scatter(one, spell))
+      one.segment(spell.begin, spell.size()) /= std::sqrt(spell.ratio);
+  }
+  return white;
+}
+
 Eigen::VectorXd course_of(const PowerSpell& spell, Index samples, double width) {
   const auto risen = [&](double from_edge) {
     return std::clamp(0.5 + from_edge / std::max(1.0, width), 0.0, 1.0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace imunoise {
 
@@ -27,6 +28,9 @@ inline constexpr double kSpells = 800.0;
 /// How much more the squares of such a series scatter than those of normal numbers of two powers;
 /// at least 1.
 double excess_scatter(const Eigen::VectorXd& white, const PowerSpell& spell);
+
+/// Some series without their spells that are beyond doubt: these make tails on the whole.
+std::vector<Eigen::VectorXd> beside_spells(std::vector<Eigen::VectorXd> white);
 
 /// 1 in the spell, 0 elsewhere. Ends are slopes `width` samples wide, but where the series ends.
 Eigen::VectorXd course_of(const PowerSpell& spell, Eigen::Index samples, double width);

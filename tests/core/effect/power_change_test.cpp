@@ -41,6 +41,34 @@ TEST(PowerChange, IsFoundWithItsTimes) {
   EXPECT_NEAR((*best.term())[2], 90.0, 0.02 * 50);
 }
 
+// A part that lies at an end and the rest make the same two powers: the other replicates tell which
+// of them is the unusual one.
+TEST(PowerChange, AtAnEndIsNotItsComplement) {
+  const auto at_end = [](double s) { return s > 120.0 ? 1.0 : 0.0; };
+  const Diagnosis diagnosis = diagnose(fitted(louder(at_end, 3.0, 9103)));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  ASSERT_EQ(best.cause, "power_change");
+  EXPECT_NEAR((*best.term())[1], 120.0, 1.0);
+  EXPECT_GT((*best.term())[2], 160.0);
+}
+
+// All noise together has heavy tails then. They are those of two powers.
+TEST(PowerChange, IsNoHeavyTailsHoweverLoud) {
+  const auto between = [](double s) { return s > 40.0 && s < 90.0 ? 1.0 : 0.0; };
+  const Diagnosis diagnosis = diagnose(fitted(louder(between, 19.0, 9104)));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "power_change");
+}
+
+// A model with it is read as it is printed, also from the first sample on.
+TEST(PowerChange, MayBeginWithTheReplicate) {
+  const auto model = parse_full_model("WN + power_change(replicate=2, to=50)", Hertz{50.0});
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(print(*model), "WN + power_change(replicate=2, to=50)");
+  EXPECT_TRUE(check(model->effects[0], *subject_of({})));
+}
+
 // A rise that is slow may be one of a power that wanders.
 TEST(PowerChange, ASlowRiseMayBeWanderingPower) {
   const auto slow = [](double s) { return std::exp(-0.5 * std::pow((s - 70.0) / 22.0, 2)); };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string>
 
 namespace imunoise {
 namespace {
@@ -53,6 +54,16 @@ TEST(Units, MultiplesOfOne) {
   for (const char* const text :
        {"0 deg/s", "-1 deg/s", "nan deg/s", "1/0 g", "2 degC", "2 furlong", "2"})
     EXPECT_FALSE(parse_unit(text)) << text;
+}
+
+// Each number before a unit was once taken off by a call within the call before.
+TEST(Units, OneFactorIsEnough) {
+  EXPECT_FALSE(parse_unit("2 0.5 deg/s"));
+  std::string many;
+  for (int i = 0; i < 500'000; ++i) many += "1 ";
+  const auto unit = parse_unit(many + "deg/s");
+  ASSERT_FALSE(unit);
+  EXPECT_LT(unit.error().message.size(), 1000U);
 }
 
 TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {
