@@ -105,7 +105,7 @@ bool changes_at_once(const Eigen::VectorXd& white, const PowerSpell& spell) {
     return modulation_by({{SharedVector(course_of(spell, white.size(), width))}}, one)
         .log_likelihood;
   };
-  constexpr double kClearly = 3.0;  // nats
+  constexpr double kClearly = 8.0;  // nats: the best of many places has sharp ends by chance
   return gain(0.0) > gain(0.25 * static_cast<double>(spell.size())) + kClearly;
 }
 
