@@ -167,7 +167,8 @@ Suggestion best_wave(const Current& current) {
   const double step = 1.0 / static_cast<double>(padded);
   const double near = static_cast<double>(best) * step;
   constexpr double kFewPeriods = 20.0;
-  const bool slow = near * static_cast<double>(shortest) < kFewPeriods;
+  constexpr Index kMostSamples = 1 << 21;  // of a replicate: least squares keeps four columns of it
+  const bool slow = longest <= kMostSamples && near * static_cast<double>(shortest) < kFewPeriods;
   const Peak peak = peak_between(near - step, near + step, 0.25 * step, [&](double at) {
     return slow ? slow_gain(current, at) : line_gain(current, at);
   });

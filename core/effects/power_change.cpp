@@ -244,9 +244,9 @@ const Effect& power_change() {
                   .title = "noise of another power for a while",
                   .physics = "A machine ran or people worked near the bench for a while, or the "
                              "sensor itself grew noisy, or changed its range or its filter.",
-                  .record_next = "nothing, if it is known what happened at that time: keep it in "
-                                 "the model; else the same again, with what goes on nearby written "
-                                 "down",
+                  .record_next =
+                      "nothing, if you know what happened then: keep the term; else the same "
+                      "again, with notes of what goes on nearby",
                   .looks_like = {"variance_wander", "bursts", "replicate_change"},
                   .family = "power_change"}},
       .fault = power_change_fault,

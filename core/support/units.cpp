@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/support/utf8.h"
+
 namespace imunoise {
 namespace {
 
@@ -75,6 +77,15 @@ std::string normalise(std::string_view text) {
   return out;
 }
 
+// For messages: some 40 bytes of a long text, to the end of a character.
+std::string beginning(std::string_view text) {
+  constexpr std::size_t kShown = 40;
+  std::size_t end = 0;
+  while (end < std::min(kShown, text.size()))
+    end += std::max<std::size_t>(1, utf8_sequence(text.substr(end)));
+  return std::string(text.substr(0, end)) + (end < text.size() ? "…" : "");
+}
+
 std::optional<Unit> known_unit(std::string_view text) {
   constexpr std::size_t kLongest = 64;  // bytes: longer is no unit
   if (text.size() > kLongest) return std::nullopt;
@@ -117,10 +128,7 @@ Result<Unit> parse_unit(std::string_view text) {
     known += known.empty() ? "" : ", ";
     known += unit.symbol;
   }
-  constexpr std::size_t kShown = 40;  // bytes
-  const std::string shown =
-      text.size() > kShown ? std::string(text.substr(0, kShown)) + "…" : std::string(text);
-  return fail("unknown unit '" + shown + "' (known: " + known + ")");
+  return fail("unknown unit '" + beginning(text) + "' (known: " + known + ")");
 }
 
 std::string_view si_symbol(Quantity quantity) {

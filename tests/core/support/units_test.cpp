@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/support/utf8.h"
+
 namespace imunoise {
 namespace {
 
@@ -64,6 +66,9 @@ TEST(Units, OneFactorIsEnough) {
   const auto unit = parse_unit(many + "deg/s");
   ASSERT_FALSE(unit);
   EXPECT_LT(unit.error().message.size(), 1000U);
+  std::string degrees = "x";
+  for (int i = 0; i < 100; ++i) degrees += "°";
+  EXPECT_TRUE(is_utf8(parse_unit(degrees).error().message));
 }
 
 TEST(Units, NamesTheKnownOnesWhenOneIsUnknown) {
