@@ -5,6 +5,7 @@
 
 #include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/oracle.h"
+#include "tests/hidden_effects/generator/white_walk.h"
 
 namespace imunoise::hidden {
 
@@ -99,6 +100,28 @@ Injection add_noise(Scene& scene, double delta,
   return of_data(scene, after(deviation));
 }
 
+namespace {
+
+// Nats by which samples in a walk are likelier with the white noise that came to them than as
+// noise of one power.
+double gained_by_power(const Scene& scene, const std::vector<Series>& more) {
+  const WhiteWalk noise{scene.base.white, scene.base.walk};
+  double samples = 0.0;
+  double squares = 0.0;
+  double out = 0.0;
+  for (std::size_t r = 0; r < scene.replicates(); ++r) {
+    const Series& gyro = scene.recordings[r][kSubject];
+    double own = 0.0;
+    for (const double z : innovations(gyro, noise)) own += z * z;
+    out += log_likelihood(gyro, noise, more[r]) - log_likelihood(gyro, noise) - 0.5 * own;
+    squares += own;
+    samples += static_cast<double>(gyro.size());
+  }
+  return out + 0.5 * samples * (1.0 + std::log(squares / samples));
+}
+
+}  // namespace
+
 Injection add_power(Scene& scene, const std::vector<Series>& courses, double delta) {
   const auto after = [&](double growth) {
     Series out;
@@ -109,14 +132,16 @@ Injection add_power(Scene& scene, const std::vector<Series>& courses, double del
   };
   const double growth =
       solve_strength(delta, 1e-6, 1e3, [&](double g) { return swing_strength(after(g)); });
+  std::vector<Series> more = courses;
   for (std::size_t r = 0; r < scene.replicates(); ++r) {
     Series& gyro = scene.recordings[r][kSubject];
     for (std::size_t t = 0; t < gyro.size(); ++t) {
-      gyro[t] += scene.floor() * std::sqrt(growth * courses[r][t]) * scene.random.normal();
+      more[r][t] *= growth * scene.floor() * scene.floor();
+      gyro[t] += std::sqrt(more[r][t]) * scene.random.normal();
     }
   }
   const double put = swing_strength(after(growth));
-  return {put, put, {}};
+  return {put, put, {}, gained_by_power(scene, more)};
 }
 
 }  // namespace imunoise::hidden

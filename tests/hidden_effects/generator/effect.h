@@ -23,7 +23,7 @@ struct Injection {
   double informed = 0.0;  ///< The same of an oracle who is told the base's levels as well.
   std::vector<TrueParameter> parameters;
   /// Nats by which the true spectra exceed, on these very data, the nearest of the base's noises;
-  /// absent where the effect does not change spectra.
+  /// absent where the effect does not change powers.
   std::optional<double> gained{};
   /// Nats that it costs an observer not to be told what each replicate has of its own (phases).
   double untold = 0.0;

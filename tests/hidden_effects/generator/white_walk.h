@@ -16,10 +16,11 @@ struct WhiteWalk {
 class WalkFilter {
  public:
   explicit WalkFilter(const WhiteWalk& noise);
-  /// Variance of the next sample about the walk as it is known.
-  double expected() const { return variance_ + white_; }
+  /// Variance of the next sample about the walk as it is known, `more` of it being its own beside
+  /// the white noise's.
+  double expected(double more = 0.0) const { return variance_ + white_ + more; }
   /// The share of a deviation from it that moves what is known; then the next sample's turn comes.
-  double next();
+  double next(double more = 0.0);
 
  private:
   double white_;
@@ -30,7 +31,8 @@ class WalkFilter {
 /// Deviations of samples from what the ones before make likely, in their standard deviations.
 Series innovations(const Series& x, const WhiteWalk& noise);
 
-/// Log-likelihood of a series, less ½ ln 2π a sample.
-double log_likelihood(const Series& x, const WhiteWalk& noise);
+/// Log-likelihood of a series, less ½ ln 2π a sample. `more`: variance of white noise beside it, of
+/// each sample; empty for none.
+double log_likelihood(const Series& x, const WhiteWalk& noise, const Series& more = {});
 
 }  // namespace imunoise::hidden
