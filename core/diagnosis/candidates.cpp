@@ -69,9 +69,11 @@ TriedTerm tried_term(const Current& current, const Suggestion& suggestion) {
   const Suggestion& how = out.suggestion;
   out.log_p = log_p_value(out.likelihood_gain / how.inflation, how.dof, out.noise_dof, how.power,
                           how.search);
-  out.gain = out.against_wander && -out.log_p > kBeyondWander
-                 ? -log_p_value(out.likelihood_gain, how.dof, out.noise_dof, how.power, how.search)
-                 : -out.log_p;
+  out.gain = -out.log_p;
+  if (out.against_wander && out.gain > kBeyondWander) {
+    out.gain = out.next_gain -
+               log_p_value(out.likelihood_gain, how.dof, out.noise_dof, how.power, how.search);
+  }
   return out;
 }
 

@@ -23,11 +23,11 @@ std::shared_ptr<const Subject> of_normal_tails(const EffectTerm& term, const Cur
   const Student student = student_of(sizes, term[kHeavyTailsDof]);
   const NormalFromStudent table(student);
   return reshaped(current, [&](const Eigen::VectorXd& white, std::size_t) {
-    Reshaping out{Eigen::ArrayXd(white.size())};
+    Reshaping out{Eigen::ArrayXd(white.size()), 0.0};
     for (Eigen::Index t = 0; t < white.size(); ++t) {
       const double size = std::abs(white(t));
       out.factor(t) = table.factor(size);
-      out.nats += log_density(student, size) - log_normal_density(size);
+      *out.nats += log_density(student, size) - log_normal_density(size);
     }
     return out;
   });

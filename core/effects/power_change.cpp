@@ -45,6 +45,13 @@ std::pair<Index, Index> samples_of(const EffectTerm& term, const Subject& subjec
   return {place(term[kPowerChangeFrom]), place(term[kPowerChangeTo])};
 }
 
+Eigen::ArrayXd inside(const EffectTerm& term, const Subject& subject, std::size_t k) {
+  const auto [begin, end] = samples_of(term, subject, k);
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(subject.length(k));
+  out.segment(begin, end - begin) = 1.0;
+  return out;
+}
+
 std::string_view power_change_fault(const EffectTerm& term) {
   return term[kPowerChangeFrom] < term[kPowerChangeTo] ? "" : "from must lie below to";
 }
@@ -65,25 +72,76 @@ Result<void> check_power_change(const EffectTerm& term, const Subject& subject) 
 
 // What a fit found of it.
 struct ChangedPower : Found {
-  PowerSpell spell;
+  double ratio = 1.0;  // of the power within to that outside
+  double error = 0.0;  // standard error of its logarithm
 };
 
+// Samples of a replicate, 1 where they belong.
+using Samples = Eigen::ArrayXd;
+
+ChangedPower compared(const Eigen::VectorXd& white, const Samples& inside, const Samples& outside) {
+  const auto power = [&](const Samples& of) {
+    return (white.array().square() * of).sum() / of.sum();
+  };
+  ChangedPower out;
+  out.ratio = power(inside) / power(outside);
+  out.error = std::sqrt(2.0 / inside.sum() + 2.0 / outside.sum());
+  return out;
+}
+
+struct Change {
+  EffectTerm term;
+  Samples inside;
+};
+
+// The other changes that a model has in the same replicate.
+std::vector<Change> others_beside(const EffectTerm& term, const Current& current) {
+  const Subject& subject = current.subject();
+  const std::size_t changed = *changing(term, subject);
+  std::vector<Change> out;
+  for (const EffectTerm& other : current.regression.effects()) {
+    if (other.effect == &power_change() && !(other == term) && changing(other, subject) == changed)
+      out.push_back({other, inside(other, subject, changed)});
+  }
+  return out;
+}
+
+// Its power is compared with that outside all changes. Those that were found before were compared
+// with samples that belong to this one: they are found anew.
 std::shared_ptr<const Subject> of_one_power(const EffectTerm& term, const Current& current) {
-  const std::size_t changed = *changing(term, current.subject());
-  const auto [begin, end] = samples_of(term, current.subject(), changed);
+  const Subject& subject = current.subject();
+  const std::size_t changed = *changing(term, subject);
+  const Samples own = inside(term, subject, changed);
+  const std::vector<Change> others = others_beside(term, current);
+  Samples outside = 1.0 - own;
+  for (const Change& other : others) outside *= 1.0 - other.inside;
+  if (outside.sum() < static_cast<double>(kFewest)) outside = 1.0 - own;
+  std::vector<std::shared_ptr<ChangedPower>> anew(others.size());
   auto found = std::make_shared<ChangedPower>();
-  auto out =
-      reshaped(current, [&, from = begin, to = end](const Eigen::VectorXd& white, std::size_t k) {
-        Reshaping how{Eigen::ArrayXd::Ones(white.size())};
-        if (k != changed) return how;
-        found->spell = power_spell(white, from, to);
-        how.factor.segment(from, to - from) = 1.0 / std::sqrt(found->spell.ratio);
-        how.nats = found->spell.nats;
-        return how;
-      });
+  auto out = reshaped(current, [&](const Eigen::VectorXd& white, std::size_t k) {
+    Reshaping how{Samples::Ones(white.size())};
+    if (k != changed) return how;
+    const auto divide = [&](const Samples& where, double ratio) {
+      how.factor *= 1.0 + where * (1.0 / std::sqrt(ratio) - 1.0);
+    };
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      const auto* const before = subject.found_by<ChangedPower>(others[i].term);
+      const Samples alone = others[i].inside * (1.0 - own);
+      if (before == nullptr || alone.sum() < static_cast<double>(kFewest)) continue;
+      anew[i] = std::make_shared<ChangedPower>(compared(white, alone, outside));
+      divide(others[i].inside, anew[i]->ratio);
+      anew[i]->ratio *= before->ratio;
+    }
+    *found = compared((white.array() * how.factor).matrix(), own, outside);
+    divide(own, found->ratio);
+    return how;
+  });
   constexpr double kCoefficients = 3.0;  // a ratio and two times
   out->own_nats.resize(out->replicates(), 0.0);
   out->own_nats[changed] += kCoefficients;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (anew[i]) out->keep(others[i].term, std::move(anew[i]));
+  }
   out->keep(term, std::move(found));
   return out;
 }
@@ -117,11 +175,12 @@ double inflation_of(const SearchView& view, const PowerSpell& best, std::size_t 
   return out;
 }
 
-// Of two parts that make a replicate, the one whose power is not that of the other replicates; of a
-// single replicate the shorter one.
+// A part of a replicate whose power is not that of the other replicates: what was found, or else
+// what lies beside it; of two parts that make a single replicate the shorter one.
 PowerSpell unusual(const PowerSpell& spell, std::size_t place, const Innovations& all) {
   const Eigen::VectorXd& white = all.white[place];
-  if (spell.begin > 0 && spell.end < white.size()) return spell;
+  const bool between = spell.begin > 0 && spell.end < white.size();
+  if (between && all.white.size() == 1) return spell;
   double squares = 0.0;
   double samples = 0.0;
   for (std::size_t i = 0; i < all.white.size(); ++i) {
@@ -139,50 +198,86 @@ PowerSpell unusual(const PowerSpell& spell, std::size_t place, const Innovations
                             ? std::abs(std::log(in / usual)) < std::abs(std::log(out / usual))
                             : inside > outside;
   if (!as_usual) return spell;
-  return spell.begin == 0 ? power_spell(white, spell.end, white.size())
-                          : power_spell(white, 0, spell.begin);
+  const PowerSpell beside = best_beside(white, spell);
+  return beside.size() > 0 ? beside : spell;
+}
+
+// A third is no event: the power wanders.
+constexpr std::ptrdiff_t kMostEvents = 2;
+
+std::ptrdiff_t events_in(const Current& current) {
+  const auto& effects = current.regression.effects();
+  return std::count_if(effects.begin(), effects.end(),
+                       [](const EffectTerm& term) { return term.effect == &power_change(); });
+}
+
+// The best of all replicates, and in which of the innovations.
+struct PlacedSpell {
+  std::size_t place = 0;
+  PowerSpell spell;
+};
+
+PlacedSpell best_of(const Innovations& all) {
+  std::vector<PowerSpell> each(all.white.size());
+  for_each_index(each.size(), [&](std::size_t i) { each[i] = best_spell(all.white[i]); });
+  PlacedSpell out;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    if (each[i].nats > out.spell.nats) out = {i, each[i]};
+  }
+  return out;
+}
+
+double log_places(const Innovations& all) {
+  return std::log(kSpells * static_cast<double>(all.white.size()));
+}
+
+EffectTerm term_of(const PowerSpell& spell, const Part& part, Hertz rate) {
+  const auto seconds = [&](Index sample) {
+    return static_cast<double>(part.first + sample) / rate.value;
+  };
+  return EffectTerm(power_change(), "",
+                    {{"replicate", static_cast<double>(part.recorded + 1)},
+                     {"from", seconds(spell.begin)},
+                     {"to", seconds(spell.end)}});
 }
 
 Suggestions search_power_change(const SearchView& view) {
   const Innovations& all = view.innovations();
   const Subject& subject = view.subject();
-  std::vector<PowerSpell> each(all.white.size());
-  for_each_index(each.size(), [&](std::size_t i) { each[i] = best_spell(all.white[i]); });
-  const auto found = std::max_element(
-      each.begin(), each.end(),
-      [](const PowerSpell& one, const PowerSpell& other) { return one.nats < other.nats; });
   Suggestion out{.cause = "power_change",
                  .added = EffectTerm(power_change()),
-                 .search = {.log_places = std::log(kSpells * static_cast<double>(each.size()))}};
-  // A third is no event: the power wanders.
-  constexpr std::ptrdiff_t kMostEvents = 2;
-  const auto& effects = view.current().regression.effects();
-  const auto events = std::count_if(effects.begin(), effects.end(), [](const EffectTerm& term) {
-    return term.effect == &power_change();
-  });
-  if (events >= kMostEvents) return {out};
-  if (found == each.end() || !(found->nats > out.search.log_places)) return {out};
-  const auto place = static_cast<std::size_t>(found - each.begin());
-  const PowerSpell best = unusual(*found, place, all);
-  const Part& part = subject.parts[all.replicates[place]];
-  const auto seconds = [&](Index sample) {
-    return static_cast<double>(part.first + sample) / subject.rate.value;
-  };
-  out.added = EffectTerm(power_change(), "",
-                         {{"replicate", static_cast<double>(part.recorded + 1)},
-                          {"from", seconds(best.begin)},
-                          {"to", seconds(best.end)}});
+                 .search = {.log_places = log_places(all)}};
+  if (events_in(view.current()) >= kMostEvents) return {out};
+  const auto [place, found] = best_of(all);
+  if (!(found.nats > out.search.log_places)) return {out};
+  const PowerSpell best = without_gap(all.white[place], unusual(found, place, all));
+  out.added = term_of(best, subject.parts[all.replicates[place]], subject.rate);
   out.inflation = inflation_of(view, best, place);
   out.score_nats = best.nats / out.inflation;
   return {out};
+}
+
+// A model with the next event beside the first, where there is one.
+std::optional<FittedModel> with_next(const FittedModel& first) {
+  const Innovations left = innovations(first.regression, first.fit);
+  const auto [place, next] = best_of(left);
+  const Eigen::VectorXd& white = left.white[place];
+  constexpr double kSurely = 5.0;  // nats
+  const bool clear = next.nats / excess_scatter(white, next) > log_places(left) + kSurely;
+  if (!clear || !(sharpness(white, next) > 0.0)) return std::nullopt;
+  const Subject& subject = first.regression.subject();
+  const EffectTerm term = term_of(next, subject.parts[left.replicates[place]], subject.rate);
+  if (!check_power_change(term, subject)) return std::nullopt;
+  return fit_with(current_of(first.regression, first.fit), term);
 }
 
 // Where it is one rise of many, or a slow one, the power may wander.
 void review_power_change(const Current& current, TriedTerm& tried) {
   if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
   tried.against_wander = true;
-  const Suggestion& found = tried.suggestion;
-  tried.likelihood_gain = std::min(tried.likelihood_gain, found.score_nats * found.inflation);
+  // The replicate itself is the evidence. Once it is, what the others say counts, too.
+  Suggestion& found = tried.suggestion;
+  found.inflation = std::max(found.inflation, tried.likelihood_gain / found.score_nats);
   const Subject& subject = current.subject();
   const std::size_t changed = *changing(*tried.term(), subject);
   const auto [begin, end] = samples_of(*tried.term(), subject, changed);
@@ -190,18 +285,26 @@ void review_power_change(const Current& current, TriedTerm& tried) {
   const auto at = std::find(before.replicates.begin(), before.replicates.end(), changed);
   const Eigen::VectorXd& white =
       before.white[static_cast<std::size_t>(at - before.replicates.begin())];
-  const auto left =
-      PowerView::of(innovations(tried.fitted.regression, tried.fitted.fit), subject.rate);
-  constexpr double kSurely = 3.0;  // nats
-  if ((left && left->wander_gain() > kSurely) ||
-      !changes_at_once(white, power_spell(white, begin, end)))
+  const FittedModel* all = &tried.fitted;
+  std::optional<FittedModel> both;
+  if (events_in(current) + 1 < kMostEvents) both = with_next(tried.fitted);
+  if (both) {
+    all = &*both;
+    tried.next_gain = std::max(
+        0.0, both->fit.log_likelihood - tried.fitted.fit.log_likelihood - log_places(before));
+  }
+  const auto power = PowerView::of(innovations(all->regression, all->fit), subject.rate);
+  constexpr double kSurely = 3.0;   // nats
+  constexpr double kClearly = 8.0;  // nats
+  if ((power && power->wander_gain() > kSurely) ||
+      !(sharpness(white, power_spell(white, begin, end)) > kClearly))
     tried.could_be.push_back("variance_wander");
 }
 
 std::vector<ReportedNumber> power_change_numbers(const FittedEffect& effect) {
   const auto* const found = effect.subject().found_by<ChangedPower>(effect.term());
   if (found == nullptr) return {};
-  return {with_log_error({"ratio", found->spell.ratio, "1"}, found->spell.error)};
+  return {with_log_error({"ratio", found->ratio, "1"}, found->error)};
 }
 
 void power_change_more(const TriedTerm& tried, std::vector<ReportedNumber>& first,

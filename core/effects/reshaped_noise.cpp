@@ -48,15 +48,15 @@ std::shared_ptr<Subject> reshaped(
   auto out = std::make_shared<Subject>(current.subject());
   const std::size_t count = out->replicates();
   out->reshaped_nats.resize(count, 0.0);
-  std::vector<Squares> squares(count);
+  std::vector<std::optional<Squares>> squares(count);  // where the distribution says what it gains
   for_each_index(count, [&](std::size_t k) {
     const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
     const Eigen::VectorXd white =
         inverse_cosine_transform((current.cosines[k].array() / deviation).matrix());
     const Reshaping how = reshape(white, k);
     const Eigen::VectorXd even = (white.array() * how.factor).matrix();
-    squares[k] = {white.squaredNorm(), even.squaredNorm()};
-    out->reshaped_nats[k] += how.nats;
+    if (how.nats) squares[k] = {white.squaredNorm(), even.squaredNorm()};
+    out->reshaped_nats[k] += how.nats.value_or(how.factor.log().sum());
     const Eigen::ArrayXd left = cosine_transform(even).array() * deviation;
     Eigen::VectorXd cosines =
         (out->cosines[k].array() + left - current.cosines[k].array()).matrix();
@@ -66,16 +66,17 @@ std::shared_ptr<Subject> reshaped(
   // The samples as normal numbers, whose level a fit finds anew, become more likely by so much;
   // what the distribution gains counts instead.
   Squares all;
-  for (const Squares& one : squares) {
-    all.before += one.before;
-    all.after += one.after;
+  for (const auto& one : squares) {
+    all.before += one ? one->before : 0.0;
+    all.after += one ? one->after : 0.0;
   }
   if (!(all.after > 0.0)) return out;
   const double level = all.after / all.before;
   for (std::size_t k = 0; k < count; ++k) {
+    if (!squares[k]) continue;
     const auto n = static_cast<double>(out->length(k));
     out->reshaped_nats[k] +=
-        0.5 * (n * std::log(level) + squares[k].after / level - squares[k].before);
+        0.5 * (n * std::log(level) + squares[k]->after / level - squares[k]->before);
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/regression/current.h"
 #include "core/regression/fitted_model.h"
@@ -11,7 +12,9 @@ namespace imunoise {
 /// How one replicate's innovations become normal numbers of one variance.
 struct Reshaping {
   Eigen::ArrayXd factor;  ///< of each innovation
-  double nats = 0.0;      ///< that the distribution behind it gains over the normal one
+  /// What the distribution behind it gains over the normal one; absent for normal numbers as wide
+  /// as the factors say, whose likelihood needs no other word.
+  std::optional<double> nats{};
 };
 
 /// The subject with the innovations of what a fit leaves multiplied by a factor each, and the nats

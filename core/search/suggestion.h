@@ -69,6 +69,7 @@ struct TriedTerm {
   /// It may be what wanders by itself, and is tested against that; once beyond it, all that it
   /// explains counts against what wanders.
   bool against_wander = false;
+  double next_gain = 0.0;  ///< nats that one more of its kind gains, where two may belong together
   std::vector<std::string_view> could_be{};  ///< causes that its data cannot exclude
 
   /// The term, or null where it is noise.

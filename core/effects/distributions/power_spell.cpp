@@ -29,6 +29,30 @@ PowerSpell of_sums(Index begin, Index end, double within, double all, Index samp
           in / out, std::sqrt(2.0 / inside + 2.0 / outside)};
 }
 
+// Sums of the squares before each sample, and of all.
+Eigen::VectorXd sums_of_squares(const Eigen::VectorXd& white) {
+  Eigen::VectorXd out(white.size() + 1);
+  out(0) = 0.0;
+  for (Index t = 0; t < white.size(); ++t) out(t + 1) = out(t) + white(t) * white(t);
+  return out;
+}
+
+// The best of the parts that it looks at.
+class Best {
+ public:
+  explicit Best(const Eigen::VectorXd& white) : sum_(sums_of_squares(white)) {}
+  void look(Index begin, Index end) {
+    const Index samples = sum_.size() - 1;
+    const PowerSpell one = of_sums(begin, end, sum_(end) - sum_(begin), sum_(samples), samples);
+    if (one.nats > found_.nats) found_ = one;
+  }
+  const PowerSpell& found() const { return found_; }
+
+ private:
+  Eigen::VectorXd sum_;
+  PowerSpell found_;
+};
+
 }  // namespace
 
 PowerSpell power_spell(const Eigen::VectorXd& white, Index begin, Index end) {
@@ -40,32 +64,54 @@ PowerSpell best_spell(const Eigen::VectorXd& white) {
   const Index samples = white.size();
   const Index blocks = std::min(kMostBlocks, samples / kSmallestBlock);
   if (blocks < kShortest) return {};
-  Eigen::VectorXd sum(samples + 1);
-  sum(0) = 0.0;
-  for (Index t = 0; t < samples; ++t) sum(t + 1) = sum(t) + white(t) * white(t);
-  PowerSpell best;
-  const auto look = [&](Index begin, Index end) {
-    const PowerSpell one = of_sums(begin, end, sum(end) - sum(begin), sum(samples), samples);
-    if (one.nats > best.nats) best = one;
-  };
+  Best best(white);
   const auto edge = [&](Index block) { return block * samples / blocks; };
   const Index shortest = blocks / kShortest;
   const auto longest = static_cast<Index>(kLongest * static_cast<double>(blocks));
   for (Index b = 0; b < blocks; ++b) {
-    for (Index e = b + shortest; e <= std::min(blocks, b + longest); ++e) look(edge(b), edge(e));
+    for (Index e = b + shortest; e <= std::min(blocks, b + longest); ++e)
+      best.look(edge(b), edge(e));
   }
   // To the sample, an end after the other.
   const Index reach = samples / blocks;
   for (const bool begins : {true, false, true, false}) {
-    const PowerSpell near = best;
+    const PowerSpell near = best.found();
     if (begins ? near.begin == 0 : near.end == samples) continue;
     for (Index move = -reach; move <= reach; ++move) {
       const Index b = std::max<Index>(0, near.begin + (begins ? move : 0));
       const Index e = std::min(samples, near.end + (begins ? 0 : move));
-      if (e - b >= reach) look(b, e);
+      if (e - b >= reach) best.look(b, e);
     }
   }
-  return best;
+  return best.found();
+}
+
+PowerSpell best_beside(const Eigen::VectorXd& white, const PowerSpell& spell) {
+  const Index samples = white.size();
+  const Index shortest = samples / kShortest;
+  Best best(white);
+  for (Index e = spell.end + shortest; e <= samples; ++e) best.look(spell.end, e);
+  for (Index b = spell.begin - shortest; b >= 0; --b) best.look(b, spell.begin);
+  return best.found();
+}
+
+PowerSpell without_gap(const Eigen::VectorXd& white, const PowerSpell& spell) {
+  const PowerSpell gap = best_spell(white.segment(spell.begin, spell.size()));
+  constexpr double kSurely = 5.0;  // nats
+  if (!(gap.nats > std::log(kSpells) + kSurely)) return spell;
+  // Its power is that outside, and not that of the spell.
+  const double inside = static_cast<double>(spell.size());
+  const auto between = static_cast<double>(gap.size());
+  const double within = white.segment(spell.begin, spell.size()).squaredNorm();
+  const double all = white.squaredNorm();
+  const double outside = (all - within) / (static_cast<double>(white.size()) - inside);
+  const double in_gap = white.segment(spell.begin + gap.begin, gap.size()).squaredNorm();
+  const double sides = (within - in_gap) / (inside - between);
+  const double level = in_gap / between;
+  if (std::abs(std::log(level / sides)) < std::abs(std::log(level / outside))) return spell;
+  const PowerSpell first = power_spell(white, spell.begin, spell.begin + gap.begin);
+  const PowerSpell second = power_spell(white, spell.begin + gap.end, spell.end);
+  return first.nats > second.nats ? first : second;
 }
 
 double excess_scatter(const Eigen::VectorXd& white, const PowerSpell& spell) {
@@ -99,14 +145,13 @@ Eigen::VectorXd course_of(const PowerSpell& spell, Index samples, double width) 
   return out;
 }
 
-bool changes_at_once(const Eigen::VectorXd& white, const PowerSpell& spell) {
+double sharpness(const Eigen::VectorXd& white, const PowerSpell& spell) {
   const Innovations one{{0}, {white}};
   const auto gain = [&](double width) {
     return modulation_by({{SharedVector(course_of(spell, white.size(), width))}}, one)
         .log_likelihood;
   };
-  constexpr double kClearly = 8.0;  // nats: the best of many places has sharp ends by chance
-  return gain(0.0) > gain(0.25 * static_cast<double>(spell.size())) + kClearly;
+  return gain(0.0) - gain(0.25 * static_cast<double>(spell.size()));
 }
 
 }  // namespace imunoise

@@ -25,6 +25,13 @@ PowerSpell power_spell(const Eigen::VectorXd& white, Eigen::Index begin, Eigen::
 PowerSpell best_spell(const Eigen::VectorXd& white);
 inline constexpr double kSpells = 800.0;
 
+/// The part of most likelihood that begins where this one ends, or ends where it begins.
+PowerSpell best_beside(const Eigen::VectorXd& white, const PowerSpell& spell);
+
+/// Of two spells that were taken for one, with what lies between them, the clearer one; else the
+/// spell itself.
+PowerSpell without_gap(const Eigen::VectorXd& white, const PowerSpell& spell);
+
 /// How much more the squares of such a series scatter than those of normal numbers of two powers;
 /// at least 1.
 double excess_scatter(const Eigen::VectorXd& white, const PowerSpell& spell);
@@ -35,8 +42,8 @@ std::vector<Eigen::VectorXd> beside_spells(std::vector<Eigen::VectorXd> white);
 /// 1 in the spell, 0 elsewhere. Ends are slopes `width` samples wide, but where the series ends.
 Eigen::VectorXd course_of(const PowerSpell& spell, Eigen::Index samples, double width);
 
-/// Whether the power changes at once, and not as slowly as the spell is long: ends a quarter of it
-/// wide explain clearly less.
-bool changes_at_once(const Eigen::VectorXd& white, const PowerSpell& spell);
+/// Nats by which a power that changes at once is likelier than one that changes as slowly as the
+/// spell is long, by slopes a quarter of it wide. The best of many places has sharp ends by chance.
+double sharpness(const Eigen::VectorXd& white, const PowerSpell& spell);
 
 }  // namespace imunoise

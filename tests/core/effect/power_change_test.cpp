@@ -53,6 +53,55 @@ TEST(PowerChange, AtAnEndIsNotItsComplement) {
   EXPECT_GT((*best.term())[2], 160.0);
 }
 
+// The rest of a replicate may be the clearer part, louder at either end: the other replicates tell
+// that the part between is as usual.
+TEST(PowerChange, IsNotTheUsualPartBesideIt) {
+  const auto late = [](double s) {
+    return s > 70.0 && s < 130.0 ? 1.0 : s < 5.0 || s > 130.0 ? 0.5 : 0.0;
+  };
+  const Diagnosis diagnosis = diagnose(fitted(louder(late, 0.7, 9105)));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  ASSERT_EQ(best.cause, "power_change");
+  EXPECT_NEAR((*best.term())[1], 70.0, 3.0);
+}
+
+// Two of them in one replicate are neither one, with what lies between them, nor wandering power.
+TEST(PowerChange, TwoInOneReplicateAreTwo) {
+  const auto twice = [](double s) {
+    return (s > 20.0 && s < 50.0) || (s > 90.0 && s < 130.0) ? 1.0 : 0.0;
+  };
+  const Diagnosis diagnosis = diagnose(fitted(louder(twice, 1.0, 9106)));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  ASSERT_EQ(best.cause, "power_change");
+  EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kFound);
+  EXPECT_NEAR((*best.term())[1], 90.0, 1.0);
+  EXPECT_NEAR((*best.term())[2], 130.0, 1.0);
+}
+
+// Each ratio is that to the power outside both, whichever comes first. Bound: four standard errors.
+TEST(PowerChange, TwoInOneReplicateHaveTheirOwnRatios) {
+  const auto course = [](double s) {
+    return s > 20.0 && s < 50.0 ? 1.0 : s > 90.0 && s < 130.0 ? 2.0 : 0.0;
+  };
+  const auto subject = louder(course, 1.0, 9107);
+  const std::string first = "power_change(replicate=3, from=20, to=50)";
+  const std::string second = "power_change(replicate=3, from=90, to=130)";
+  const auto expect_ratios = [&](const FittedModel& found, double one, double other) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ReportedNumber ratio = fitted_numbers({found, i}).at(0);
+      EXPECT_NEAR(std::log(ratio.value), std::log(i == 0 ? one : other), 4.0 * 0.045) << i;
+    }
+  };
+  expect_ratios(fitted(subject, "WN + RW + " + first + " + " + second), 2.0, 3.0);
+  expect_ratios(fitted(subject, "WN + RW + " + second + " + " + first), 3.0, 2.0);
+  // As a ladder adds one to the other.
+  const FittedModel one = fitted(subject, "WN + RW + " + second);
+  const EffectTerm next = parse_full_model("WN + " + first, Hertz{50.0})->effects.at(0);
+  expect_ratios(fit_with(current_of(one.regression, one.fit), next), 3.0, 2.0);
+}
+
 // All noise together has heavy tails then. They are those of two powers.
 TEST(PowerChange, IsNoHeavyTailsHoweverLoud) {
   const auto between = [](double s) { return s > 40.0 && s < 90.0 ? 1.0 : 0.0; };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tests/hidden_effects/generator/cosine.h"
 #include "tests/hidden_effects/generator/oracle.h"
@@ -103,21 +104,24 @@ Injection add_noise(Scene& scene, double delta,
 namespace {
 
 // Nats by which samples in a walk are likelier with the white noise that came to them than as
-// noise of one power.
+// noise of one power, which for each replicate the others tell: so a model is held out, too.
 double gained_by_power(const Scene& scene, const std::vector<Series>& more) {
   const WhiteWalk noise{scene.base.white, scene.base.walk};
-  double samples = 0.0;
-  double squares = 0.0;
+  std::vector<double> squares;
   double out = 0.0;
   for (std::size_t r = 0; r < scene.replicates(); ++r) {
     const Series& gyro = scene.recordings[r][kSubject];
-    double own = 0.0;
-    for (const double z : innovations(gyro, noise)) own += z * z;
-    out += log_likelihood(gyro, noise, more[r]) - log_likelihood(gyro, noise) - 0.5 * own;
-    squares += own;
-    samples += static_cast<double>(gyro.size());
+    squares.push_back(0.0);
+    for (const double z : innovations(gyro, noise)) squares.back() += z * z;
+    out += log_likelihood(gyro, noise, more[r]) - log_likelihood(gyro, noise) - 0.5 * squares[r];
   }
-  return out + 0.5 * samples * (1.0 + std::log(squares / samples));
+  const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
+  const auto samples = static_cast<double>(scene.samples());
+  for (const double own : squares) {
+    const double level = (all - own) / (samples * static_cast<double>(squares.size() - 1));
+    out += 0.5 * (samples * std::log(level) + own / level);
+  }
+  return out;
 }
 
 }  // namespace
@@ -141,7 +145,7 @@ Injection add_power(Scene& scene, const std::vector<Series>& courses, double del
     }
   }
   const double put = swing_strength(after(growth));
-  return {put, put, {}, gained_by_power(scene, more)};
+  return {put, put, {{"growth", growth, "1"}}, gained_by_power(scene, more)};
 }
 
 }  // namespace imunoise::hidden

@@ -35,7 +35,8 @@ Injection add_noise(Scene& scene, double delta,
 
 /// Adds white noise to gyro_x whose variance follows `courses` (one a replicate, ≥ 0), all times
 /// the one factor that makes δ what is asked, beside the white floor and for an observer who must
-/// fit the mean level: only what swings around that is evidence.
+/// fit the mean level: only what swings around that is evidence. Its parameter `growth` is the
+/// variance that comes to that of the white floor where a course is 1.
 Injection add_power(Scene& scene, const std::vector<Series>& courses, double delta);
 
 }  // namespace imunoise::hidden

@@ -121,7 +121,10 @@ Injection hide_power_change(Scene& scene, double delta) {
   Series& one = courses[below(scene.random, courses.size())];
   std::fill(one.begin() + static_cast<std::ptrdiff_t>(begin),
             one.begin() + static_cast<std::ptrdiff_t>(begin + length), 1.0);
-  return add_power(scene, courses, delta);
+  Injection out = add_power(scene, courses, delta);
+  out.parameters.push_back({"from_s", begin / scene.rate_hz, "s"});
+  out.parameters.push_back({"to_s", (begin + length) / scene.rate_hz, "s"});
+  return out;
 }
 
 Series scaled(Series of, double factor) {
