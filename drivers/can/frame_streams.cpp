@@ -15,10 +15,16 @@ double round_rate(double rate) {
 
 }  // namespace
 
-// Frames a second; 0: not known.
+// Frames a second; 0: not known. By the median time that half of the frames take: those that waited
+// in a queue came late.
 double FrameStreams::Arrivals::rate() const {
-  if (count < 2 || last_ns <= first_ns) return 0.0;
-  return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
+  if (times.size() < 2) return 0.0;
+  const std::size_t half = times.size() / 2;
+  std::vector<std::int64_t> taken;
+  for (std::size_t i = half; i < times.size(); ++i) taken.push_back(times[i] - times[i - half]);
+  const auto middle = taken.begin() + static_cast<std::ptrdiff_t>(taken.size() / 2);
+  std::nth_element(taken.begin(), middle, taken.end());
+  return *middle > 0 ? static_cast<double>(half) * 1e9 / static_cast<double>(*middle) : 0.0;
 }
 
 Result<FrameStreams> FrameStreams::make(const drivers::CanChannels& channels) {
@@ -49,23 +55,19 @@ void FrameStreams::for_streams_of(const drivers::CanFrame& frame, Visit visit) {
 }
 
 void FrameStreams::hear(const drivers::CanFrame& frame, std::int64_t time_ns) {
-  for_streams_of(frame, [&](std::size_t s) {
-    Arrivals& arrivals = arrivals_[s];
-    if (arrivals.count++ == 0) arrivals.first_ns = time_ns;
-    arrivals.last_ns = time_ns;
-  });
+  for_streams_of(frame, [&](std::size_t s) { arrivals_[s].times.push_back(time_ns); });
 }
 
 const CanStream* FrameStreams::missing() const {
   for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (arrivals_[s].count == 0) return &streams_[s];
+    if (arrivals_[s].times.empty()) return &streams_[s];
   }
   return nullptr;
 }
 
 const CanStream* FrameStreams::without_rate() const {
   for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (arrivals_[s].count > 0 && arrivals_[s].rate() == 0.0) return &streams_[s];
+    if (!arrivals_[s].times.empty() && arrivals_[s].rate() == 0.0) return &streams_[s];
   }
   return nullptr;
 }
@@ -76,7 +78,7 @@ std::vector<CanStream> FrameStreams::settle(std::optional<double> rate_hz, doubl
   std::vector<CanStream> came;
   std::vector<CanStream> left_out;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
-    if (arrivals_[s].count == 0) continue;
+    if (arrivals_[s].times.empty()) continue;
     double heard = arrivals_[s].rate();
     // It came once: about so often, where others are faster; else it is the fastest itself.
     if (heard == 0.0 && rate_hz) heard = some_known ? 1.0 / listened_s : *rate_hz;

@@ -43,11 +43,9 @@ class FrameStreams {
   void restart();
 
  private:
-  // When frames of a stream came.
+  // When frames of a stream came, ns.
   struct Arrivals {
-    std::uint64_t count = 0;
-    std::int64_t first_ns = 0;
-    std::int64_t last_ns = 0;
+    std::vector<std::int64_t> times;
 
     double rate() const;
   };
