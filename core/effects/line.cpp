@@ -116,7 +116,9 @@ double line_gain(const Current& current, double f) {
 double slow_gain(const Current& current, double f) {
   std::vector<double> each(current.cosines.size());
   for_each_index(each.size(), [&](std::size_t k) {
-    const Eigen::MatrixXd columns = waves(f, 1).cosines(current.subject().length(k));
+    const Index samples = current.subject().length(k);
+    if (f * static_cast<double>(samples) < kFewestPeriods) return;
+    const Eigen::MatrixXd columns = waves(f, 1).cosines(samples);
     const Eigen::MatrixXd weighted = (columns.array().colwise() / current.spectrum[k]).matrix();
     const Eigen::VectorXd moment = weighted.transpose() * current.cosines[k];
     each[k] = 0.5 * moment.dot(solve_symmetric(weighted.transpose() * columns, moment));
@@ -152,20 +154,13 @@ Suggestion best_wave(const Current& current) {
   const Subject& subject = current.subject();
   const auto [shortest, longest] = lengths(subject);
   const Index padded = padded_length(2 * longest);
-  std::vector<Eigen::ArrayXd> each(subject.replicates());
-  for_each_index(each.size(),
-                 [&](std::size_t k) { each[k] = wave_gains(current, whole(subject, k), padded); });
-  Eigen::ArrayXd sum = each[0];
-  for (std::size_t k = 1; k < each.size(); ++k) sum += each[k];
+  const AllWaves waves = all_wave_gains(current, padded);
   Suggestion out{.cause = "line", .added = EffectTerm(line())};
-  const auto first = static_cast<Index>(
-      std::ceil(kFewestPeriods * static_cast<double>(padded) / static_cast<double>(shortest)));
-  if (first >= sum.size() - 2) return out;
-  Index best = first;
-  sum.segment(first, sum.size() - 1 - first).maxCoeff(&best);
-  best += first;
+  if (waves.gain.size() == 0) return out;
+  Index best = 0;
+  waves.gain.maxCoeff(&best);
   const double step = 1.0 / static_cast<double>(padded);
-  const double near = static_cast<double>(best) * step;
+  const double near = static_cast<double>(waves.first + best) * step;
   constexpr double kFewPeriods = 20.0;
   constexpr Index kMostSamples = 1 << 21;  // of a replicate: least squares keeps four columns of it
   const bool slow = longest <= kMostSamples && near * static_cast<double>(shortest) < kFewPeriods;
@@ -176,9 +171,9 @@ Suggestion best_wave(const Current& current) {
   const double hertz = peak.at * rate;
   out.added = EffectTerm(line(), "", {{"f", hertz}});
   out.score_nats = peak.gain;
-  out.dof = 2.0 * static_cast<double>(each.size());
+  out.dof = 2.0 * static_cast<double>(subject.replicates());
   out.shape_error = peak.error * rate;
-  for (std::size_t k = 0; k < each.size(); ++k)
+  for (std::size_t k = 0; k < subject.replicates(); ++k)
     out.information +=
         0.5 * static_cast<double>(subject.length(k)) / noise_level(current, k, peak.at);
   // A wave's score turns by π T/√3 rad per Hz: the spread of time within a replicate.

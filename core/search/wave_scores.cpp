@@ -7,6 +7,7 @@
 
 #include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/fourier.h"
+#include "core/support/parallel.h"
 
 namespace imunoise {
 
@@ -64,6 +65,25 @@ Eigen::ArrayXd wave_gains(const Current& current, const Stretch& stretch, Index 
     out(i) = std::norm(spectrum[static_cast<std::size_t>(i)]) *
              noise_level(current, stretch.replicate, f) / static_cast<double>(stretch.length);
   }
+  return out;
+}
+
+AllWaves all_wave_gains(const Current& current, Index padded) {
+  const Subject& subject = current.subject();
+  std::vector<Eigen::ArrayXd> each(subject.replicates());
+  const auto first_of = [&](Index samples) {
+    return static_cast<Index>(
+        std::ceil(kFewestPeriods * static_cast<double>(padded) / static_cast<double>(samples)));
+  };
+  for_each_index(each.size(), [&](std::size_t k) {
+    each[k] = wave_gains(current, {k, 0, subject.length(k)}, padded);
+    each[k].head(std::min(first_of(subject.length(k)), each[k].size())).setZero();
+  });
+  AllWaves out{.first = first_of(subject.length(current.longest()))};
+  const Index count = each[0].size() - 1 - out.first;
+  if (count < 2) return out;
+  out.gain = each[0].segment(out.first, count);
+  for (std::size_t k = 1; k < each.size(); ++k) out.gain += each[k].segment(out.first, count);
   return out;
 }
 

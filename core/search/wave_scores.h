@@ -13,7 +13,7 @@ struct Stretch {
   Eigen::Index length;
 };
 
-/// A wave of fewer periods than this in the shortest replicate is a trend like any other.
+/// A wave of fewer periods than this in a replicate is a trend like any other there.
 inline constexpr double kFewestPeriods = 3.0;
 
 /// The shortest quick_length() ≥ n.
@@ -31,5 +31,13 @@ std::complex<double> wave_sum(const Current& current, const Stretch& stretch, do
 double wave_gain(const Current& current, const Stretch& stretch, double frequency);
 /// The same at the frequencies i/padded, i = 0 … padded/2.
 Eigen::ArrayXd wave_gains(const Current& current, const Stretch& stretch, Eigen::Index padded);
+
+/// The same over all replicates, each where it has enough periods (kFewestPeriods), from the first
+/// frequency on that has enough in the longest one. Empty where none has.
+struct AllWaves {
+  Eigen::Index first = 0;  ///< number of the first frequency
+  Eigen::ArrayXd gain{};   ///< nats at the frequencies (first + i)/padded, all below a half
+};
+AllWaves all_wave_gains(const Current& current, Eigen::Index padded);
 
 }  // namespace imunoise

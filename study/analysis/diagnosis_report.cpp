@@ -140,10 +140,10 @@ std::string integral_unit(Quantity quantity) {
 
 // Hz: slower waves are not sought.
 double slowest_wave(const Effect& effect, const Subject& subject) {
-  double shortest = INFINITY;
+  double longest = 0.0;
   for (std::size_t k = 0; k < subject.replicates(); ++k)
-    shortest = std::min(shortest, static_cast<double>(subject.length(k)));
-  return effect.fewest_periods * subject.rate.value / shortest;
+    longest = std::max(longest, subject.seconds(k));
+  return effect.fewest_periods / longest;
 }
 
 }  // namespace

@@ -34,5 +34,21 @@ TEST(SlowCycle, HasItsFrequency) {
   EXPECT_GE(held, 10);
 }
 
+// A replicate that ended early has less than one period. The others tell the wave.
+TEST(SlowCycle, IsNotHiddenByAShortReplicate) {
+  constexpr double kHertz = 0.0195;
+  const auto subject = subject_of({.model = "WN(sigma2=1) + RW(gamma2=1e-4)",
+                                   .first = 2000,
+                                   .seed = 9320,
+                                   .added = [&](std::size_t k, double s) {
+                                     return 0.6 * wave(kHertz, s + 31.0 * static_cast<double>(k));
+                                   }});
+  const Diagnosis diagnosis = diagnose(fitted(subject, "WN + RW"));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  ASSERT_EQ(best.cause, "slow_cycle");
+  EXPECT_NEAR((*best.term())[0], kHertz, 3.0 * best.suggestion.shape_error);
+}
+
 }  // namespace
 }  // namespace imunoise
