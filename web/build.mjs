@@ -1,4 +1,4 @@
-// node build.mjs OPENAPI.json FOLDER: checks the page's types, and writes it as three compressed files. Fails
+// node build.mjs OPENAPI.json FOLDER: checks the page's types, and writes it as compressed files. Fails
 // beyond 80 kB.
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -27,7 +27,7 @@ const bundled = await build({
   legalComments: "none",
 });
 const files = bundled.outputFiles.map((file) => [file.path.split("/").at(-1), file.text]);
-files.push(["index.html", readFileSync(join(folder, "src/index.html"), "utf8")]);
+for (const name of ["index.html", "icon.svg"]) files.push([name, readFileSync(join(folder, "src", name), "utf8")]);
 
 mkdirSync(out, { recursive: true });
 let total = 0;

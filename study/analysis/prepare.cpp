@@ -19,7 +19,7 @@ bool is_random(const Model& model) {
 }  // namespace
 
 std::string default_model_note(std::string_view done, std::string_view model) {
-  return fmt::format("No model was named: {} {}. Choose one with --model.", model, done);
+  return fmt::format("No model was named: {} {}. Another one may fit better.", model, done);
 }
 
 Result<void> check_replicates(const Series& series, const std::vector<WaveletVariance>& measured) {
