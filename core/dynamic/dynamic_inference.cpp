@@ -140,7 +140,7 @@ ParameterEstimate estimate_at(const DynamicFit& fit, std::size_t t, std::size_t 
     return {value, error, value * std::exp(-reach), value * std::exp(reach),
             Observability::kObserved};
   }
-  return interval(about, p, value, error, fit.confidence);
+  return interval(about, p, value, error, fit.confidence, value / error);
 }
 
 // How much the objective falls by a trend, the weights held.

@@ -18,14 +18,26 @@ namespace {
 
 enum HeavyTailsParameter : std::size_t { kHeavyTailsDof, kHeavyTailsSize };
 
+double level_of(const Eigen::VectorXd& white) {
+  return std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
+}
+
+// Sizes over the level of their replicate: several levels together have tails that none of them
+// has.
+SizeCounts levelled_sizes(std::vector<Eigen::VectorXd> white) {
+  for (Eigen::VectorXd& one : white) one /= level_of(one);
+  return count_sizes(white);
+}
+
 std::shared_ptr<const Subject> of_normal_tails(const EffectTerm& term, const Current& current) {
-  const SizeCounts sizes = count_sizes(innovations(current.regression, current.fit).white);
+  const SizeCounts sizes = levelled_sizes(innovations(current.regression, current.fit).white);
   const Student student = student_of(sizes, term[kHeavyTailsDof]);
   const NormalFromStudent table(student);
   return reshaped(current, [&](const Eigen::VectorXd& white, std::size_t) {
     Reshaping out{Eigen::ArrayXd(white.size()), 0.0};
+    const double level = level_of(white);
     for (Eigen::Index t = 0; t < white.size(); ++t) {
-      const double size = std::abs(white(t));
+      const double size = std::abs(white(t)) / level;
       out.factor(t) = table.factor(size);
       *out.nats += log_density(student, size) - log_normal_density(size);
     }
@@ -52,7 +64,7 @@ bool may_have_tails(const Current& current) {
 }
 
 Suggestions search_heavy_tails(const SearchView& view) {
-  const SizeCounts sizes = count_sizes(view.innovations().white);
+  const SizeCounts sizes = levelled_sizes(view.innovations().white);
   const Student best = best_student(sizes);
   const double gain = may_have_tails(view.current()) ? std::max(0.0, gain_of(sizes, best)) : 0.0;
   return {{.cause = "heavy_tails",
@@ -64,8 +76,8 @@ Suggestions search_heavy_tails(const SearchView& view) {
 // What counts is what is left of the tails beside noise of another power for a while.
 void review_heavy_tails(const Current& current, TriedTerm& tried) {
   const Innovations all = innovations(current.regression, current.fit);
-  const SizeCounts sizes = count_sizes(all.white);
-  const SizeCounts beside = count_sizes(beside_spells(all.white));
+  const SizeCounts sizes = levelled_sizes(all.white);
+  const SizeCounts beside = levelled_sizes(beside_spells(all.white));
   tried.likelihood_gain =
       std::clamp(gain_of(beside, best_student(beside)), 0.0, std::max(0.0, tried.likelihood_gain));
   if (!compare_tails(sizes).rules_out_mixture()) tried.could_be.push_back("outliers");

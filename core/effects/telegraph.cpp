@@ -102,9 +102,26 @@ bool leaves_once(const std::vector<TwoLevelCourse>& courses) {
                      [](const TwoLevelCourse& one) { return one.jumps.size() <= 1; });
 }
 
-void review_telegraph(const Current&, TriedTerm& tried) {
+// By how much the noise is louder in a replicate with jumps than the model says: there, chance
+// gains so much more. By the median, which jumps do not move.
+double loudest(const Current& current, const std::vector<TwoLevelCourse>& courses) {
+  constexpr double kMedian = 0.4549;  // of the square of a normal number
+  double out = 1.0;
+  const Innovations all = innovations(current.regression, current.fit);
+  for (std::size_t i = 0; i < all.white.size(); ++i) {
+    if (courses[all.replicates[i]].jumps.empty()) continue;
+    Eigen::VectorXd squares = all.white[i].array().square();
+    double* const middle = squares.data() + squares.size() / 2;
+    std::nth_element(squares.data(), middle, squares.data() + squares.size());
+    out = std::max(out, *middle / kMedian);
+  }
+  return out;
+}
+
+void review_telegraph(const Current& current, TriedTerm& tried) {
   const std::vector<TwoLevelCourse>& courses =
       *courses_in(*tried.term(), tried.fitted.regression.subject());
+  tried.suggestion.inflation = loudest(current, courses);
   tried.suggestion.search.log_places = log_places(courses);
   // A level that is left and never taken again was no level of two.
   if (leaves_once(courses)) tried.cause = "step";

@@ -20,6 +20,16 @@ struct WanderingPower : Found {
   double deviation = 0.0;  // of the logarithm of the power
 };
 
+// Nats that a course of the logarithm of the power gains over one power, were it known: more no
+// course that was found gains. The likelihood of the logarithms takes them for normal, and one far
+// below the others for less likely than it is.
+double gain_if_known(const Eigen::VectorXd& white, const Eigen::ArrayXd& course) {
+  const auto n = static_cast<double>(white.size());
+  const Eigen::ArrayXd squares = white.array().square();
+  const double evened = (squares * (-course).exp()).sum();
+  return 0.5 * (n * std::log(squares.sum() / evened) - course.sum());
+}
+
 std::shared_ptr<const Subject> of_steady_power(const EffectTerm& term, const Current& current) {
   const auto view =
       PowerView::of(innovations(current.regression, current.fit), current.subject().rate);
@@ -32,7 +42,9 @@ std::shared_ptr<const Subject> of_steady_power(const EffectTerm& term, const Cur
   const PowerView wandering = view->with_correlation_time(term[kVarianceWanderTau]);
   found->deviation = wandering.deviation();
   auto out = reshaped(current, [&](const Eigen::VectorXd& white, std::size_t k) {
-    return Reshaping{(-0.5 * wandering.course(k, white.size())).exp(), wandering.gain_in(k)};
+    const Eigen::ArrayXd course = wandering.course(k, white.size());
+    return Reshaping{(-0.5 * course).exp(),
+                     std::min(wandering.gain_in(k), gain_if_known(white, course))};
   });
   out->keep(term, std::move(found));
   return out;

@@ -1,5 +1,9 @@
 #include "core/inference/efficient_fit.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "core/inference/intervals.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/inference/residuals.h"
@@ -10,6 +14,18 @@ namespace {
 ParameterCovariance bound(const Model& model, std::span<const BandedPower> powers,
                           const std::vector<Eigen::Index>& columns) {
   return inverse_information(whittle_information(model, powers, columns));
+}
+
+// The evidence for a power by the likelihood that it gains, where nothing else of its process was
+// estimated: chance fits a shape, too.
+double evidence_of(const Model& model, std::span<const BandedPower> powers, std::size_t term,
+                   double by_error) {
+  if (!alone(model.terms[term])) return by_error;
+  Model without = model;
+  without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(term));
+  if (without.terms.empty()) return std::numeric_limits<double>::infinity();
+  const double gain = whittle(without, powers).objective - whittle_objective(model, powers);
+  return std::sqrt(2.0 * std::max(0.0, gain));
 }
 
 double weighted_misfit(const Estimate& estimate, std::span<const WaveletVariance> replicates) {
@@ -32,7 +48,12 @@ void fill_likelihood_intervals(Fit& fit, std::span<const BandedPower> powers) {
       return bound(worth, powers, set);
     });
   };
-  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, powers[0].rate);
+  const std::vector<ParameterPlace> places = parameter_places(model);
+  const auto evidence = [&](Eigen::Index column, double by_error) {
+    return evidence_of(model, powers, places[static_cast<std::size_t>(column)].term, by_error);
+  };
+  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, evidence,
+                 powers[0].rate);
 }
 
 Fit make_efficient(Fit fit, std::span<const WaveletVariance> replicates,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/inference/goodness.h"
 #include "core/inference/intervals.h"
@@ -23,6 +24,18 @@ double error_of_power(const Model& model, std::span<const WaveletVariance> repli
   return error_among(interior, column, [&](const std::vector<Eigen::Index>& set) {
     return parameter_covariance(model, replicates, weight_roots, covariances, set);
   });
+}
+
+void fill_by_errors(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
+                    const PowerError& power_error, Hertz rate) {
+  const Model& model = fit.estimate.model;
+  const std::vector<ParameterPlace> places = parameter_places(model);
+  const auto evidence = [&](Eigen::Index column, double by_error) {
+    const Term& term = model.terms[places[static_cast<std::size_t>(column)].term];
+    return evidence_by_error(term, values(term.process)[0], by_error,
+                             [&](double value) { return power_error(column, value); });
+  };
+  fill_intervals(fit, sets, covariance, power_error, evidence, rate);
 }
 
 TestOutcome test_of_fit(const Model& model, std::span<const WaveletVariance> replicates,
@@ -56,7 +69,7 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
   const auto power_error = [&](Eigen::Index column, double value) {
     return error_of_power(model, replicates, roots, sets.interior, column, value);
   };
-  fill_intervals(fit, sets, covariance, power_error, replicates[0].rate);
+  fill_by_errors(fit, sets, covariance, power_error, replicates[0].rate);
   fit.goodness = fit.estimate.weighting == Weighting::kFull
                      ? test_of_fit(model, replicates, scores)
                      : test_at_full_weights(model, replicates);
@@ -98,7 +111,7 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
     }
     return std::sqrt(squares) / count;
   };
-  fill_intervals(fit, sets, mean, power_error, replicates[0].rate);
+  fill_by_errors(fit, sets, mean, power_error, replicates[0].rate);
   return fit;
 }
 
@@ -116,10 +129,24 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
   const auto found = std::find(sets.interior.begin(), sets.interior.end(), column);
   if (found == sets.interior.end()) return 0.0;
   const double z = normal_quantile(0.5 + 0.5 * fit.confidence);
-  double before = z * estimate.standard_error;  // what must fall to the value
-  double factor_before = 1.0;
+  const auto at = static_cast<Eigen::Index>(found - sets.interior.begin());
+  const Model none = alone(model.terms[term]) ? with_power(model, column, 0.0) : model;
+  // What must fall below 1 for half of such recordings to show it: what an estimate must reach,
+  // over their median if they are distributed as χ² (Wilson & Hilferty 1931, PNAS 17:684).
+  const auto missing = [&](std::span<const WaveletVariance> of,
+                           const std::vector<Eigen::MatrixXd>& roots) {
+    const auto error_under = [&](const Model& truth) {
+      return parameter_covariance(truth, of, roots, moment_covariances(truth, of), sets.interior)
+          .standard_error(at);
+    };
+    const double ratio = estimate.value / error_under(model);
+    const double median = estimate.value * std::pow(1.0 - 1.0 / (9.0 * ratio * ratio), 3);
+    return median > 0.0 ? z * error_under(none) / median : std::numeric_limits<double>::infinity();
+  };
+  double before = missing(replicates, fit.estimate.weight_roots);
   constexpr double kLongest = 256.0;
-  for (const double factor : {4.0, 16.0, 64.0, kLongest}) {
+  // By doublings: in between, no averaging time comes to those there are.
+  for (double factor = 2.0; factor <= kLongest; factor *= 2.0) {
     std::vector<WaveletVariance> longer(replicates.begin(), replicates.end());
     for (WaveletVariance& wv : longer) {
       const auto times = static_cast<std::int64_t>(factor);
@@ -136,23 +163,15 @@ double record_longer(const Fit& fit, std::span<const WaveletVariance> replicates
     const MomentCovariances covariances = moment_covariances(model, longer);
     std::vector<Eigen::MatrixXd> roots;
     for (std::size_t k = 0; k < longer.size(); ++k) roots.push_back(whiten(covariances[k]).matrix);
-    const ParameterCovariance c =
-        parameter_covariance(model, longer, roots, covariances, sets.interior);
-    const auto at = static_cast<Eigen::Index>(found - sets.interior.begin());
-    if (c.hidden(at)) return 0.0;
-    const double now = z * c.standard_error(at);
-    if (now < estimate.value) {  // between the two, on logarithmic scales
-      const double share = std::log(before / estimate.value) / std::log(before / now);
-      return factor_before * std::pow(factor / factor_before, std::isfinite(share) ? share : 1.0);
-    }
+    const double now = missing(longer, roots);
+    if (now < 1.0) return factor;
     // The longer, the more it costs to look: no further than errors can fall that fall half as much
     // again as they do, or as those of a mean.
     constexpr double kMargin = 1.5;
-    const double fall = kMargin * std::max(2.0, before / now);
-    const double steps = std::log(kLongest / factor) / std::log(4.0);
-    if (now > estimate.value * std::pow(fall, steps)) return 0.0;
+    const double fall = kMargin * std::max(std::numbers::sqrt2, before / now);
+    const double steps = std::log2(kLongest / factor);
+    if (std::isfinite(now) && now > std::pow(fall, steps)) return 0.0;
     before = now;
-    factor_before = factor;
   }
   return 0.0;
 }

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Seen, without further questions.
+bool clear(double standard_errors) { return standard_errors > 6.0; }
+
 // Derived quantities of a process with one parameter moved.
 std::vector<DerivedQuantity> derived_with(const Process& process, std::size_t parameter,
                                           double value, Hertz rate) {
@@ -36,6 +39,8 @@ double find(const std::vector<DerivedQuantity>& all, Coefficient coefficient, do
 // probability left outside (Weinstein, Fithian & Benjamini 2013, J. Am. Stat. Assoc. 108:165), over
 // the one without selection. `ratio`: the estimate in standard errors, above z.
 double selection_factor(double ratio, double z) {
+  constexpr double kFar = 30.0;
+  if (!(ratio < kFar)) return 1.0;
   const double outside = normal_tail(z);
   const auto excess = [&](double mean) {
     return normal_tail(ratio - mean) - outside * normal_tail(z - mean);
@@ -95,6 +100,15 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
   return out;
 }
 
+bool alone(const Term& term) {
+  return std::all_of(term.given.begin() + 1, term.given.end(), [](bool one) { return one; });
+}
+
+double evidence_by_error(const Term& term, double value, double by_error,
+                         const std::function<double(double)>& error_at) {
+  return alone(term) && !clear(by_error) ? std::max(by_error, value / error_at(0.0)) : by_error;
+}
+
 double upper_bound(double value, double upper, double z,
                    const std::function<double(double)>& error_at) {
   constexpr int kRounds = 2;
@@ -105,11 +119,11 @@ double upper_bound(double value, double upper, double z,
 }
 
 ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
-                           double standard_error, double confidence) {
+                           double standard_error, double confidence, double evidence) {
   const double z = normal_quantile(0.5 + 0.5 * confidence);
   const ParameterScale scale(info, index);
   ParameterEstimate out{value, standard_error, 0.0, 0.0, Observability::kObserved};
-  if (scale.logarithmic() && value <= z * standard_error) {
+  if (scale.logarithmic() && (index == 0 ? evidence <= z : value <= z * standard_error)) {
     out.upper = value + z * standard_error;
     out.observability = Observability::kUpperBound;
     return out;
@@ -118,7 +132,7 @@ ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double 
   const double centre = scale.to_scale(value);
   out.lower = scale.to_value(centre - reach);
   out.upper = scale.to_value(centre + reach);
-  if (index == 0 && standard_error > 0.0) out.lower *= selection_factor(value / standard_error, z);
+  if (index == 0 && standard_error > 0.0) out.lower *= selection_factor(evidence, z);
   if (!scale.logarithmic() && reach > 8.0) {
     out.observability = Observability::kIndistinguishable;  // spans almost all there is
   }
@@ -126,7 +140,7 @@ ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double 
 }
 
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const PowerError& power_error, Hertz rate) {
+                    const PowerError& power_error, const PowerEvidence& evidence, Hertz rate) {
   const auto place = [](const std::vector<Eigen::Index>& set, Eigen::Index column) {
     return std::find(set.begin(), set.end(), column) - set.begin();
   };
@@ -153,8 +167,11 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
                          p == 0 ? kInfinity : about[index].upper,
                          Observability::kIndistinguishable});
         } else {
-          row.push_back(interval(about[index], index, v[index], covariance.standard_error(at),
-                                 fit.confidence));
+          const double error = covariance.standard_error(at);
+          const double by_error = v[index] / error;
+          const bool known = p > 0 || clear(by_error);
+          row.push_back(interval(about[index], index, v[index], error, fit.confidence,
+                                 known ? by_error : evidence(first, by_error)));
         }
         for (Eigen::Index q = 0; q < size; ++q) {
           const auto other = static_cast<std::size_t>(place(sets.interior, first + q));

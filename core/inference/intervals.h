@@ -8,9 +8,11 @@
 namespace imunoise {
 
 /// Confidence interval of parameter `index` of a process from its standard error, on the scale that
-/// suits it. The lower end of a power that is barely seen counts that it was seen.
+/// suits it. A power is seen where it is beyond what chance makes of none: its evidence, in
+/// standard errors, is that of a power of zero, and not the error of its estimate, which grows with
+/// it. The lower end of a power that is barely seen counts that it was seen.
 ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double value,
-                           double standard_error, double confidence);
+                           double standard_error, double confidence, double evidence);
 
 /// Upper end of the interval of a power that may be zero, from a first guess `upper`: the largest
 /// one that could have been estimated as this little. Its own standard error counts, which grows
@@ -22,6 +24,10 @@ double upper_bound(double value, double upper, double z,
 /// fitted; infinite when it cannot be told apart.
 using PowerError = std::function<double(Eigen::Index column, double value)>;
 
+/// The evidence for a power (by its column), see interval(). `by_error`: the estimate over its
+/// standard error.
+using PowerEvidence = std::function<double(Eigen::Index column, double by_error)>;
+
 /// Interval of a derived quantity of a term: mapped end to end when it depends on one parameter,
 /// else by the delta method on the logarithm. `estimates` and `covariance` are of the term's
 /// parameters; z is the normal quantile of the confidence.
@@ -32,6 +38,14 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
 /// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model,
 /// in the order of `sets`.
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const PowerError& power_error, Hertz rate);
+                    const PowerError& power_error, const PowerEvidence& evidence, Hertz rate);
+
+/// Whether nothing else of its process is estimated beside a term's power.
+bool alone(const Term& term);
+
+/// The evidence for a power of a term by its estimate: where nothing else of its process was
+/// estimated, over its standard error if there were none. `by_error`: over that of the estimate.
+double evidence_by_error(const Term& term, double value, double by_error,
+                         const std::function<double(double)>& error_at);
 
 }  // namespace imunoise

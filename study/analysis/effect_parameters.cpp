@@ -33,13 +33,15 @@ void add_shape(const EffectTerm& term, double shape_error, std::vector<ReportedN
 }
 
 // A parameter of noise, with the interval that a fit gives it; without one where it is at a bound.
-ReportedNumber noise_number(const Term& term, std::size_t parameter, double error,
+// `evidence`: for its power, in standard errors.
+ReportedNumber noise_number(const Term& term, std::size_t parameter, double error, double evidence,
                             Quantity quantity) {
   const ParameterInfo about = parameters(term.process)[parameter];
   ReportedNumber out{about.name, values(term.process)[parameter],
                      unit_of(about.dimension, quantity)};
   if (!(error > 0.0) || !std::isfinite(error)) return out;
-  const ParameterEstimate estimate = interval(about, parameter, out.value, error, kConfidence);
+  const ParameterEstimate estimate =
+      interval(about, parameter, out.value, error, kConfidence, evidence);
   out.lower = estimate.lower;
   out.upper = estimate.upper;
   return out;
@@ -61,7 +63,8 @@ void add_noise(const TriedTerm& tried, const Subject& subject, std::vector<Repor
     const auto inside = std::find(interior.begin(), interior.end(), static_cast<Eigen::Index>(i));
     const double error =
         inside == interior.end() ? 0.0 : covariance.standard_error(inside - interior.begin());
-    out.push_back(noise_number(term, places[i].parameter, error, subject.quantity));
+    const double evidence = std::sqrt(2.0 * std::max(0.0, tried.likelihood_gain));
+    out.push_back(noise_number(term, places[i].parameter, error, evidence, subject.quantity));
     if (places[i].parameter + 1 < term.given.size()) continue;
     for (const DerivedQuantity& quantity : derived(term.process, subject.rate)) {
       if (quantity.coefficient == Coefficient::kCorrelationTime)

@@ -123,7 +123,7 @@ TEST(ParameterSets, AParameterAtABoundIsNotInside) {
 // A random walk at the edge of what is seen: its interval covers the truth, not only its estimate.
 TEST(Intervals, UpperBoundsCover) {
   constexpr std::size_t kSets = 200;
-  const Model truth = model_of("WN(sigma2=1) + RW(gamma2=2e-4)");
+  const Model truth = model_of("WN(sigma2=1) + RW(gamma2=1e-5)");
   std::vector<int> covered(kSets);
   std::vector<int> bound(kSets);
   for_each_index(kSets, [&](std::size_t i) {
@@ -131,7 +131,7 @@ TEST(Intervals, UpperBoundsCover) {
     const ParameterEstimate walk =
         infer(mugmwm(freed(truth), moments, Weighting::kFull), moments).parameters[1][0];
     bound[i] = walk.observability == Observability::kUpperBound ? 1 : 0;
-    covered[i] = walk.lower <= 2e-4 && 2e-4 <= walk.upper ? 1 : 0;
+    covered[i] = walk.lower <= 1e-5 && 1e-5 <= walk.upper ? 1 : 0;
   });
   double share = 0.0;
   double bounds = 0.0;
@@ -149,8 +149,8 @@ TEST(Intervals, UpperBoundsCover) {
 // interval reaches down to the truth all the same.
 TEST(Intervals, CoverWhatIsBarelySeen) {
   constexpr std::size_t kSets = 800;
-  constexpr double kTruth = 1.2e-4;
-  const Model truth = model_of("WN(sigma2=1) + RW(gamma2=1.2e-4)");
+  constexpr double kTruth = 1e-5;
+  const Model truth = model_of("WN(sigma2=1) + RW(gamma2=1e-5)");
   std::vector<int> seen(kSets);
   std::vector<int> covered(kSets);
   for_each_index(kSets, [&](std::size_t i) {
