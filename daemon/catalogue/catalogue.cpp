@@ -38,30 +38,28 @@ v1::HistoryPoint point_of(const Row& row) {
   return out;
 }
 
-// Columns title, symbol, unit, datasheet_unit, to_datasheet and value of a row, from `at` on.
+// Columns title, symbol, unit, datasheet_unit, to_datasheet, value, lower_end and upper_end of a
+// row, from `at` on.
 v1::Coefficient coefficient_of(const Row& row, std::size_t at) {
   v1::Coefficient out;
   out.set_title(text(row[at]));
   out.set_symbol(text(row[at + 1]));
   out.set_unit(text(row[at + 2]));
   out.set_value(real(row[at + 5]));
+  if (std::holds_alternative<double>(row[at + 6])) out.set_lower(real(row[at + 6]));
+  if (std::holds_alternative<double>(row[at + 7])) out.set_upper(real(row[at + 7]));
   if (text(row[at + 3]).empty()) return out;
+  const double to_datasheet = real(row[at + 4]);
   out.set_datasheet_unit(text(row[at + 3]));
-  out.set_datasheet_value(out.value() * real(row[at + 4]));
+  out.set_datasheet_value(out.value() * to_datasheet);
+  if (out.has_lower()) out.set_datasheet_lower(out.lower() * to_datasheet);
+  if (out.has_upper()) out.set_datasheet_upper(out.upper() * to_datasheet);
   return out;
 }
 
-// Columns lower_end and upper_end.
-void add_interval(const Row& row, std::size_t at, double to_datasheet, v1::Coefficient& to) {
-  const bool sheet = !to.datasheet_unit().empty();
-  if (std::holds_alternative<double>(row[at])) {
-    to.set_lower(real(row[at]));
-    if (sheet) to.set_datasheet_lower(to.lower() * to_datasheet);
-  }
-  if (std::holds_alternative<double>(row[at + 1])) {
-    to.set_upper(real(row[at + 1]));
-    if (sheet) to.set_datasheet_upper(to.upper() * to_datasheet);
-  }
+// What it is, or may be where the data do not show it.
+double most_of(const v1::Coefficient& one) {
+  return one.has_lower() && one.has_upper() && !(one.lower() > 0.0) ? one.upper() : one.value();
 }
 
 using LargestNoise = std::map<Key, std::vector<v1::Coefficient>>;
@@ -70,8 +68,9 @@ Result<LargestNoise> largest_noise(Database& database) {
   LargestNoise out;
   for (const char* const symbol : {"N", "B", "K"}) {  // in the order in which people know them
     const auto rows = database.query(
-        "select bench, folder, title, parameter, unit, datasheet_unit, to_datasheet, value "
-        "from parameters where parameter = :symbol order by bench, folder, title",
+        "select bench, folder, title, parameter, unit, datasheet_unit, to_datasheet, value, "
+        "lower_end, upper_end from parameters where parameter = :symbol order by bench, folder, "
+        "title",
         {std::string(symbol)});
     if (!rows) return tl::unexpected(rows.error());
     for (const Row& row : *rows) {
@@ -82,7 +81,7 @@ Result<LargestNoise> largest_noise(Database& database) {
       });
       if (same == all.end()) {
         all.push_back(std::move(one));
-      } else if (one.value() > same->value()) {
+      } else if (most_of(one) > most_of(*same)) {
         *same = std::move(one);
       }
     }
@@ -110,9 +109,7 @@ Result<ChannelsNoise> noise_of_channels(Database& database) {
       one.set_model(text(row[5]));
     }
     before = &row;
-    v1::Coefficient& to = *all.back().add_coefficients();
-    to = coefficient_of(row, 6);
-    add_interval(row, 12, real(row[10]), to);
+    *all.back().add_coefficients() = coefficient_of(row, 6);
   }
   return out;
 }

@@ -98,9 +98,10 @@ Result<void> put_coefficients(Database& database, const std::string& bench, cons
     const std::string& term = names[static_cast<std::size_t>(t)];
     for (const v1::Coefficient& one : fit.terms(t).coefficients()) {
       if (!std::isfinite(one.value()) || !known.emplace(term, one.symbol()).second) continue;
-      const double factor = one.value() > 0.0 && std::isfinite(one.datasheet_value())
-                                ? one.datasheet_value() / one.value()
-                                : 0.0;
+      // Of a value that may be zero its upper end tells the unit.
+      const double si = one.value() > 0.0 ? one.value() : one.upper();
+      const double sheet = one.value() > 0.0 ? one.datasheet_value() : one.datasheet_upper();
+      const double factor = si > 0.0 && std::isfinite(sheet / si) ? sheet / si : 0.0;
       auto done =
           insert(database, "parameters",
                  {bench, found.folder, device, channel.stream(), own_name(channel), term,

@@ -6,6 +6,7 @@
 
 #include "core/inference/efficient_fit.h"
 #include "core/spectrum/cross_power.h"
+#include "core/support/rough.h"
 #include "study/analysis/compared_models.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/test_series.h"
@@ -35,9 +36,9 @@ Result<Fit> average_estimate(const Model& model, const std::vector<WaveletVarian
   if (found.disagreement > kMuch) {
     return fail(fmt::format(
         "estimator: the fits of the replicates do not match: at some averaging time the mean of "
-        "their parameters has a variance {:.2g} times too large or too small; use --estimator "
+        "their parameters has a variance {} times too large or too small; use --estimator "
         "mugmwm, or imunoise test to see how the replicates differ",
-        found.disagreement));
+        rough(found.disagreement)));
   }
   return infer(found, measured, options.confidence);
 }

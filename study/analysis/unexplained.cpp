@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/support/distributions.h"
+#include "core/support/rough.h"
 #include "study/analysis/sentences/error_sentences.h"
 
 namespace imunoise::study {
@@ -124,9 +125,9 @@ std::string prediction_of(const v1::Rung& rung, const v1::Rung& best) {
     if (!(std::abs(std::log(ratio)) > worst)) continue;
     worst = std::abs(std::log(ratio));
     out = fmt::format(
-        "For the error of the integrated {} after {:g} s, the model predicts {:.2g} times what the "
+        "For the error of the integrated {} after {:g} s, the model predicts {} times what the "
         "best model predicts.",
-        integral_name(rung.drift(i).unit()), rung.drift(i).seconds(), ratio);
+        integral_name(rung.drift(i).unit()), rung.drift(i).seconds(), rough(ratio));
   }
   return out;
 }

@@ -148,7 +148,8 @@ std::string summary_of(const v1::Calibration& calibration) {
   std::string out =
       fmt::format("{} of {} channels have a model", fitted, calibration.channels_size());
   if (misfits > 0)
-    out += fmt::format("; {} of these do not fit{}", misfits, missing_in(calibration));
+    out += fmt::format("; {} of these {} not fit{}", misfits, misfits == 1 ? "does" : "do",
+                       missing_in(calibration));
   if (doubts > 0) out += fmt::format("; {} of these may not fit", doubts);
   if (fitted > 0 && misfits + doubts == 0) out += ", and every model fits";
   if (calibration.settings().diagnose() && fitted > 0)

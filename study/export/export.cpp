@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/effects/parse_full_model.h"
+#include "core/support/rough.h"
 #include "study/export/whole/array_states.h"
 #include "study/export/whole/matrices.h"
 #include "study/words/number.h"
@@ -30,6 +31,15 @@ Bounded coefficient(const v1::FitReport& fit, std::string_view symbol, double va
   return found == 1 ? out : Bounded{value, 0.0, 0.0};
 }
 
+// The random walk may be zero, for all that the data show.
+bool hides_walk(const v1::FitReport& fit) {
+  const std::string_view walk = info(Process(RandomWalk{})).name;
+  return std::any_of(fit.terms().begin(), fit.terms().end(), [&](const v1::Term& term) {
+    return term.name() == walk && term.parameters_size() > 0 &&
+           term.parameters(0).observability() == v1::upper_bound_only;
+  });
+}
+
 Result<AxisNoise> axis_of(const v1::FitReport& fit, Quantity quantity) {
   const Hertz rate{fit.rate_hz()};
   auto model = parse_full_model(fit.fitted_model(), rate);
@@ -42,6 +52,7 @@ Result<AxisNoise> axis_of(const v1::FitReport& fit, Quantity quantity) {
   out.confidence = fit.confidence();
   out.n = coefficient(fit, "N", out.n.value);
   out.k = coefficient(fit, "K", out.k.value);
+  out.hidden_walk = out.k.upper > 0.0 && hides_walk(fit);
   // The report lists the same coefficients in the same order, with intervals.
   std::size_t at = 0;
   for (const v1::Term& term : fit.terms()) {
@@ -82,9 +93,9 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizo
   Eigen::ArrayXd allan = 2.0 * variance(axis.noise, m);
   if (!axis.draws.empty())
     allan = allan.max(power_on_allan(axis.noise, axis.draws, m, kNextPowerOn));
-  const double hidden = axis.k.value > 0.0 ? 0.0 : axis.k.upper;
-  if (hidden > 0.0) {
-    allan += 2.0 * variance(Process(RandomWalk{hidden * hidden / axis.rate.value}), m);
+  if (axis.hidden_walk) {
+    const double more = axis.k.upper * axis.k.upper - axis.k.value * axis.k.value;
+    allan += 2.0 * variance(Process(RandomWalk{more / axis.rate.value}), m);
     axis.remarks.push_back(fmt::format(
         "{}: the data show no random walk; the bound includes the largest one that they allow",
         axis.channel));
@@ -139,7 +150,7 @@ void choose_bias(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
 void fill(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
   const bool needs_n = !(axis.n.value > 0.0);
   const bool bias = axis.k.value > 0.0 || (to.takes_markov && axis.markov);
-  const bool needs_k = !bias && (!axis.left_out.empty() || !to.takes_zero);
+  const bool needs_k = !bias && (axis.hidden_walk || !axis.left_out.empty() || !to.takes_zero);
   if (!needs_n && !needs_k) return;
   const WhiteAndWalk bound = smallest_bound(axis.noise, axis.rate, horizon);
   if (needs_n) {
@@ -149,7 +160,7 @@ void fill(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
                     horizon_words(horizon)));
   }
   if (!needs_k) return;
-  if (axis.k.upper > 0.0) {
+  if (axis.hidden_walk) {
     axis.k = {axis.k.upper, 0.0, 0.0};
     axis.remarks.push_back(
         fmt::format("{}: the data show no random walk; K is its upper bound", axis.channel));
@@ -204,9 +215,9 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
     heading.push_back(fmt::format("  {} takes no {}", to.title, one));
   if (most > 1.05) {
     heading.push_back(fmt::format(
-        "  What it does not take makes integrated errors over {} up to {:.2g} times larger; "
+        "  What it does not take makes integrated errors over {} up to {} times larger; "
         "pass --conservative to bound them.",
-        horizon_words(options.horizon), most));
+        horizon_words(options.horizon), rough(most)));
   }
   for (const std::string& one : remarks) heading.push_back("  " + one);
 }
@@ -270,6 +281,7 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
       if (options.conservative) {
         make_conservative(axis, all.quantity, options.horizon);
       } else if (to.holding == Holding::kDensities) {
+        if (axis.hidden_walk) axis.k.value = 0.0;
         choose_bias(axis, to, options.horizon);
         fill(axis, to, options.horizon);
       }

@@ -51,6 +51,7 @@ struct AxisNoise {
   double confidence = 0.95;                  ///< of the intervals
   Bounded n;                                 ///< unit/√Hz; 0: the model has no white noise
   Bounded k;                                 ///< unit/s/√Hz; 0: the model has no random walk
+  bool hidden_walk = false;                  ///< the data do not show it: k.upper bounds it
   std::vector<CoefficientRow> coefficients;  ///< of all terms
   std::optional<Markov> markov;              ///< the slowest Markov process of at least kSlowest
   std::string markov_words;                  ///< term_words() of that process; empty: there is none

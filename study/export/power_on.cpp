@@ -7,6 +7,7 @@
 
 #include "core/process/parameter_scale.h"
 #include "core/support/random.h"
+#include "core/support/rough.h"
 #include "study/analysis/vocabulary.h"
 
 namespace imunoise::study {
@@ -54,10 +55,10 @@ std::vector<ParameterDraw> moving_parameters(
       out.push_back(
           {t, static_cast<std::size_t>(found - about.begin()), from.mean(), from.relative(),
            static_cast<int>(from.replicates()),
-           fmt::format("{} of {}: mean {:.3g}, between {} replicates ±{:.2g} % ({:.2g} … {:.2g} %)",
+           fmt::format("{} of {}: mean {:.3g}, between {} replicates ±{} % ({} … {} %)",
                        from.parameter(), from.term(), from.mean(), from.replicates(),
-                       100.0 * from.relative(), 100.0 * from.relative_lower(),
-                       100.0 * from.relative_upper())});
+                       rough(100.0 * from.relative()), rough(100.0 * from.relative_lower()),
+                       rough(100.0 * from.relative_upper()))});
     }
   }
   return out;

@@ -106,7 +106,7 @@ TEST_F(Cli, SaysWhenItChoosesTheModelItself) {
   const auto json = nlohmann::json::parse(done.out);
   EXPECT_TRUE(json["default_model"]);
   EXPECT_EQ(json["estimator"], "GMWM");
-  EXPECT_NE(json["notes"].dump().find("--model"), std::string::npos);
+  EXPECT_NE(json["notes"].dump().find("No model was named"), std::string::npos);
 }
 
 TEST_F(Cli, FittedModelCanBeSimulated) {

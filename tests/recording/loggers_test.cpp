@@ -161,13 +161,15 @@ TEST_F(Loggers, WhatIsNoChannelIsLeftOut) {
 }
 
 TEST_F(Loggers, UnitsBehindTheAxisAndInARowOfTheirOwn) {
-  const auto behind = table("time_s,gyro_x_rad_s,gyr_y_dps,acc_z_g", [&](int i) {
-    return fmt::format("{:.2f},{:.6e},{:.6e},1", 0.01 * i, noise(i, 0), noise(i, 1));
+  const auto behind = table("time_s,gyro_x_rad_s,gyr_y_dps,acc_z_g,gyro_z_deg_h", [&](int i) {
+    return fmt::format("{:.2f},{:.6e},{:.6e},1,{:.6e}", 0.01 * i, noise(i, 0), noise(i, 1),
+                       noise(i, 2));
   });
   ASSERT_TRUE(behind) << behind.error().message;
   EXPECT_EQ(behind->front().channels[0].unit.symbol, "rad/s");
   EXPECT_EQ(behind->front().channels[1].unit.symbol, "deg/s");
   EXPECT_EQ(behind->front().channels[2].unit.symbol, "g");
+  EXPECT_EQ(behind->front().channels[3].unit.symbol, "deg/h");
   const auto row =
       table("timestamp\tstatus\tgyro_x\tacc_z\n(us)\t(na)\t(rad.s-1)\t(m.s-2)",
             [&](int i) { return fmt::format("{}\t0\t{:.6e}\t9.8", 10'000 * i, noise(i, 0)); });

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/support/counted.h"
+#include "core/support/rough.h"
 #include "recording/import/preflight/cuts.h"
 #include "recording/import/preflight/dropped_rows.h"
 #include "recording/import/preflight/frozen.h"
@@ -332,20 +333,19 @@ class Judge {
       const double end = time_of(std::min(one.end, rows_ - 1));
       if (out) {
         find(Severity::kLeftOut,
-             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} times its "
+             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {} times its "
                          "usual scatter): left out",
-                         begin, end, one.channel, one.size));
+                         begin, end, one.channel, rough(one.size)));
       } else if (one.several) {
-        find(Severity::kDoubt,
-             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {:.2g} times its "
-                         "usual scatter): used, as it was asked for",
-                         begin, end, one.channel, one.size));
+        find(Severity::kDoubt, fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {} times its "
+                                           "usual scatter): used, as it was asked for",
+                                           begin, end, one.channel, rough(one.size)));
       } else {
-        find(Severity::kDoubt,
-             fmt::format(
-                 "{} changes from {:.6g} to {:.6g} s, by {:.2g} times its usual scatter, and no "
-                 "other channel does: used; --exclude {:.6g}..{:.6g} leaves it out",
-                 one.channel, begin, end, one.size, begin, end));
+        find(
+            Severity::kDoubt,
+            fmt::format("{} changes from {:.6g} to {:.6g} s, by {} times its usual scatter, and no "
+                        "other channel does: used; --exclude {:.6g}..{:.6g} leaves it out",
+                        one.channel, begin, end, rough(one.size), begin, end));
       }
     }
     if (told > kTold) find(Severity::kLeftOut, fmt::format("{} more disturbances", told - kTold));

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/support/counted.h"
 #include "recording/import/text/number.h"
 
 namespace imunoise::recording {
@@ -131,8 +132,8 @@ std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size
   const std::vector<std::string> fields = split_fields(line, layout_.delimiter);
   if (fields.size() != row_.size()) {
     leave_out(line_number,
-              fmt::format("{} values where the table has {} columns (separated by {})",
-                          fields.size(), row_.size(),
+              fmt::format("{} where the table has {} columns (separated by {})",
+                          counted(fields.size(), "value"), row_.size(),
                           layout_.delimiter == ' '    ? std::string("blanks")
                           : layout_.delimiter == '\t' ? std::string("tabs")
                                                       : fmt::format("'{}'", layout_.delimiter)));

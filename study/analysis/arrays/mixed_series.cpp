@@ -7,6 +7,7 @@
 
 #include "core/array/array_whittle.h"
 #include "core/effects/parse_full_model.h"
+#include "core/support/rough.h"
 #include "study/analysis/arrays/array_parameters.h"
 #include "study/analysis/arrays/array_setup.h"
 #include "study/analysis/arrays/regressors.h"
@@ -80,8 +81,8 @@ std::string summary_of(const v1::MixedReport& report) {
     if (!one.significant() && one.naive().p_value() < kLevel) {
       out += fmt::format(
           "Had the samples been taken as independent, it would have seemed to have one: "
-          "its error is {:.2g} times larger than that. ",
-          one.gls().standard_error() / one.naive().standard_error());
+          "its error is {} times larger than that. ",
+          rough(one.gls().standard_error() / one.naive().standard_error()));
     }
   }
   out.pop_back();

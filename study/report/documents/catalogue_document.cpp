@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "core/support/counted.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/view/coefficient_words.h"
 #include "study/words/number.h"
@@ -125,7 +126,7 @@ Document document(const v1::CalibrationList& list, Digits digits) {
   section.summary = list.calibrations().empty()
                         ? "No recording in this folder is calibrated; run imunoise calibrate "
                           "RECORDING."
-                        : fmt::format("{} calibrations.", list.calibrations_size());
+                        : counted(list.calibrations_size(), "calibration") + ".";
   section.tables = {std::move(table)};
   if (Table noise = noise_table(list, digits); !noise.rows.empty())
     section.tables.push_back(std::move(noise));

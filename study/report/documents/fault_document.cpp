@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/fault_figure.h"
@@ -61,10 +62,11 @@ Document document(const v1::FaultReport& report, Digits digits) {
   section.badge = sound ? "no fault" : "faulty";
   section.mood = sound ? Mood::kGood : Mood::kBad;
   section.facts = fmt::format(
-      "{} · {:g} Hz · {} sensors · {} replicates · fitted to {} {} · {} false alarms per hour "
+      "{} · {:g} Hz · {} sensors · {} · fitted to {} {} · {} false alarms per hour "
       "allowed",
-      report.model(), report.rate_hz(), report.sensors_size(), report.replicates_size(),
-      report.trained_on(), report.trained_elsewhere() ? "others" : "of them",
+      report.model(), report.rate_hz(), report.sensors_size(),
+      counted(report.replicates_size(), "replicate"), report.trained_on(),
+      report.trained_elsewhere() ? "others" : "of them",
       number(report.false_alarms_per_hour(), 3, digits));
   section.summary = report.summary();
   std::set<std::string> drawn;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/support/counted.h"
+#include "core/support/rough.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/figures/history_figure.h"
 
@@ -13,7 +15,7 @@ constexpr int kMostTables = 4;  // of points; with more parameters the overview 
 
 std::string change_words(double fraction) {
   if (std::abs(fraction) >= 10.0) return fmt::format("{:.3g} times", 1.0 + fraction);
-  return fmt::format("{:+.2g} %", 100.0 * fraction);
+  return fmt::format("{}{} %", fraction < 0.0 ? "" : "+", rough(100.0 * fraction));
 }
 
 std::string value_of(const v1::HistoryPoint& point, const ShownUnit& unit, Digits digits) {
@@ -101,8 +103,9 @@ Document document(const v1::History& history, Digits digits) {
       calibrations.emplace(point.bench(), point.folder());
   }
   section.facts =
-      fmt::format("{} · {} · {} calibrations · false-alarm probability {}", history.device().name(),
-                  history.device().driver(), calibrations.size(), percent(history.level()));
+      fmt::format("{} · {} · {} · false-alarm probability {}", history.device().name(),
+                  history.device().driver(), counted(calibrations.size(), "calibration"),
+                  percent(history.level()));
   section.summary = history.summary();
   section.tables = {overview(history, digits), trends(history, digits)};
   for (const v1::ParameterHistory& one : history.parameters()) {

@@ -148,17 +148,28 @@ TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
   EXPECT_NE(file.find("--conservative bounds the next power-on"), std::string::npos) << file;
 }
 
-TEST(Export, ConservativeValuesBoundARandomWalkThatTheDataDoNotShow) {
+// Whether its estimate is zero or not, and whether the program would take zero.
+TEST(Export, ARandomWalkThatTheDataDoNotShowIsItsUpperBound) {
   constexpr double kUpper = 3e-4;
-  auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=8e-6)", kAt);
-  for (auto& axis : imu.gyro.axes) axis.k = {0.0, 0.0, kUpper};
-  ExportOptions options;
-  EXPECT_NEAR(numbers_of(written(imu, "kalibr", options), "gyroscope_random_walk")[0], kUpper,
-              1e-6 * kUpper);
-  options.conservative = true;
-  const std::string safe = written(imu, "kalibr", options);
-  EXPECT_GT(numbers_of(safe, "gyroscope_random_walk")[0], 0.999 * kUpper) << safe;
-  EXPECT_NE(safe.find("the largest one that they allow"), std::string::npos) << safe;
+  for (const double estimate : {0.0, 1e-4}) {
+    auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=8e-6)", kAt);
+    for (auto& axis : imu.gyro.axes) {
+      axis.k = {estimate, 0.0, kUpper};
+      axis.hidden_walk = true;
+      axis.noise.terms.emplace_back(RandomWalk{estimate * estimate / axis.rate.value});
+    }
+    ExportOptions options;
+    for (const auto& [to, key] :
+         {std::pair("kalibr", "gyroscope_random_walk"), std::pair("orb-slam3", "IMU.GyroWalk")}) {
+      const std::string file = written(imu, to, options);
+      EXPECT_NEAR(numbers_of(file, key)[0], kUpper, 1e-6 * kUpper) << file;
+      EXPECT_NE(file.find("the data show no random walk"), std::string::npos) << file;
+    }
+    options.conservative = true;
+    const std::string safe = written(imu, "kalibr", options);
+    EXPECT_GT(numbers_of(safe, "gyroscope_random_walk")[0], 0.999 * kUpper) << safe;
+    EXPECT_NE(safe.find("the largest one that they allow"), std::string::npos) << safe;
+  }
 }
 
 TEST(Export, KalibrNeverGetsZero) {
