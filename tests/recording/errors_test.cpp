@@ -22,7 +22,7 @@ TEST_F(Refused, FlawsInRowsOfText) {
   expect_parts(flaw("1,-inf"), {"channel y misses 1 value", "row 22"});
   expect_parts(flaw("1,1e999"), {"row 22: '1e999' is not a finite number"});
   expect_parts(flaw("1,"), {"channel y misses 1 value", "row 22"});
-  expect_parts(flaw("1"), {"row 22: 1 values where the table has 2 columns"});
+  expect_parts(flaw("1"), {"row 22: 1 value where the table has 2 columns"});
   expect_parts(flaw("1,2,3"), {"row 22: 3 values where the table has 2 columns"});
   expect_parts(flaw("1,2x"), {"row 22: '2x' is not a number"});
   expect_parts(flaw("1,+-2"), {"row 22: '+-2' is not a number"});

@@ -199,7 +199,7 @@ TEST_F(Calibrated, WhatAModelLacksIsTold) {
     EXPECT_NE(got.summary().find(one.channel() + ": "), std::string::npos) << got.summary();
   }
   EXPECT_GT(failing, 0) << got.summary();
-  EXPECT_NE(got.summary().find("do not fit ("), std::string::npos) << got.summary();
+  EXPECT_NE(got.summary().find("does not fit ("), std::string::npos) << got.summary();
 }
 
 TEST_F(Calibrated, TheFileIsReadAsItWasWritten) {

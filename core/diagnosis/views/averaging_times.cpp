@@ -24,24 +24,28 @@ const Scales& longest_scales(const std::vector<WaveletVariance>& replicates) {
 }
 
 // Mean of the replicates' variances over the model's, weighted by their coefficients, with its
-// covariance.
+// covariance. A replicate with noise of its own is compared with that; what correlates its scales
+// is the noise that all share.
 struct PooledRatio {
   Eigen::ArrayXd ratio;
   Eigen::MatrixXd covariance;
 };
 
-PooledRatio pooled_ratio(const LeftOver& left, const Eigen::ArrayXd& expected) {
+PooledRatio pooled_ratio(const FittedModel& fitted, const LeftOver& left,
+                         const Eigen::ArrayXd& expected) {
+  const std::vector<Model>& noise = fitted.fit.own_noise;
   const Index n = expected.size();
   Eigen::ArrayXd weights = Eigen::ArrayXd::Zero(n);
   PooledRatio out{Eigen::ArrayXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (std::size_t k = 0; k < left.variances.size(); ++k) {
     const WaveletVariance& own = left.variances[k];
     const auto size = static_cast<Index>(own.scales.size());
-    const Eigen::ArrayXd weight =
-        static_cast<double>(own.samples) + 1.0 - 2.0 * own.scales.half_widths();
+    const Eigen::ArrayXd m = own.scales.half_widths();
+    const Eigen::ArrayXd weight = static_cast<double>(own.samples) + 1.0 - 2.0 * m;
     const Eigen::ArrayXd relative = weight / expected.head(size);
     weights.head(size) += weight;
-    out.ratio.head(size) += relative * own.variance;
+    const Eigen::ArrayXd under = noise.empty() ? expected.head(size).eval() : variance(noise[k], m);
+    out.ratio.head(size) += weight * own.variance / under;
     out.covariance.topLeftCorner(size, size) +=
         relative.matrix().asDiagonal() * left.covariances[k] * relative.matrix().asDiagonal();
   }
@@ -66,7 +70,7 @@ AveragingTimes averaging_times(const FittedModel& fitted, const LeftOver& left) 
   const Scales& scales = longest_scales(left.variances);
   const Eigen::ArrayXd m = scales.half_widths();
   const Eigen::ArrayXd expected = variance(noise, m);
-  const PooledRatio pooled = pooled_ratio(left, expected);
+  const PooledRatio pooled = pooled_ratio(fitted, left, expected);
   std::vector<Index> used;
   for (Index i = 0; i < m.size(); ++i) {
     if (2.0 / pooled.covariance(i, i) >= kFewestDegrees) used.push_back(i);

@@ -17,6 +17,19 @@ using Index = Eigen::Index;
 // Bands are put together until they have this many degrees of freedom and span half an octave.
 constexpr double kFewestDof = 8.0;
 
+// What the model leaves in each replicate; over noise of its own, as if that were what all share.
+std::vector<BandedPower> as_shared(const FittedModel& fitted) {
+  const Regression& regression = fitted.regression;
+  std::vector<BandedPower> out = regression.residual(fitted.fit.effects.value);
+  if (fitted.fit.own_noise.empty()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Model& own = fitted.fit.own_noise[regression.replicates()[i]];
+    out[i].power *=
+        spectrum(fitted.fit.model.noise, out[i].frequency) / spectrum(own, out[i].frequency);
+  }
+  return out;
+}
+
 // What the replicates of one length say about a narrow band.
 struct Measured {
   double frequency = 0.0;  // Hz
@@ -92,7 +105,7 @@ MisfitReport misfit_of(const FittedModel& fitted) {
   MisfitReport out;
   const Model& noise = fitted.fit.model.noise;
   const Subject& subject = fitted.regression.subject();
-  const std::vector<BandedPower> remaining = fitted.regression.residual(fitted.fit.effects.value);
+  const std::vector<BandedPower> remaining = as_shared(fitted);
   const std::vector<Index> interior = parameter_sets(noise).interior;
   std::vector<Eigen::VectorXd> directions;
   add_bands(measured(noise, pooled(remaining), interior), out.bands, directions);

@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "core/support/counted.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/view/coefficient_words.h"
 #include "study/words/number.h"

@@ -3,10 +3,10 @@
 #include <set>
 #include <utility>
 
-#include "core/support/counted.h"
 #include "study/report/documents/inference_documents.h"
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/fault_figure.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <set>
 
-#include "core/support/counted.h"
-#include "core/support/rough.h"
 #include "study/report/documents/catalogue_documents.h"
 #include "study/report/figures/history_figure.h"
+#include "study/words/number.h"
 
 namespace imunoise::report {
 namespace {
@@ -15,7 +14,7 @@ constexpr int kMostTables = 4;  // of points; with more parameters the overview 
 
 std::string change_words(double fraction) {
   if (std::abs(fraction) >= 10.0) return fmt::format("{:.3g} times", 1.0 + fraction);
-  return fmt::format("{}{} %", fraction < 0.0 ? "" : "+", rough(100.0 * fraction));
+  return fmt::format("{:+.2g} %", 100.0 * fraction);
 }
 
 std::string value_of(const v1::HistoryPoint& point, const ShownUnit& unit, Digits digits) {
