@@ -7,6 +7,9 @@
 #include <map>
 
 #include "core/diagnosis/candidates.h"
+#include "core/diagnosis/views/averaging_times.h"
+#include "core/diagnosis/views/left_over.h"
+#include "core/diagnosis/views/misfit.h"
 #include "core/search/search_view.h"
 #include "tests/core/diagnosis/subject_of.h"
 
@@ -172,6 +175,44 @@ TEST(OwnPowers, OneTermMoreExplainsNoLess) {
   const FittedModel walk = fit_with(
       current, Suggestion{.cause = "random_walk", .added = NoiseChange{start, RandomWalk{1e-9}}});
   EXPECT_GT(walk.fit.log_likelihood, known.log_likelihood - 1e-3);
+}
+
+// White noise and a walk, in replicate 2 as loud as `louder` says.
+std::shared_ptr<const Subject> with_a_louder_one(double louder, std::uint64_t seed) {
+  RandomStream random(seed);
+  double walk = 0.0;
+  return subject_of({.model = "WN(sigma2=1) + RW(gamma2=1e-4)",
+                     .replicates = 3,
+                     .seed = seed + 1,
+                     .added = [&](std::size_t k, double) {
+                       const double own = std::sqrt(louder - 1.0);
+                       walk += 0.01 * random.normal();
+                       return k == 1 ? own * (random.normal() + walk) : 0.0;
+                     }});
+}
+
+// One replicate ten times as loud as the others decides what all share. Compared with that, true
+// models failed in 44 of 100 sets. Of 16 tests 5 below 5 % are 1 in 1,000.
+TEST(OwnPowers, ATrueModelFitsHoweverTheReplicatesDiffer) {
+  int low = 0;
+  for (std::uint64_t seed = 70; seed < 78; ++seed) {
+    const FittedModel model = fitted(with_a_louder_one(10.0, 10 * seed), "WN + RW + own_powers");
+    low += misfit_of(model).spectrum.p_value < 0.05 ? 1 : 0;
+    low += averaging_times(model, left_over(model)).test.p_value < 0.05 ? 1 : 0;
+  }
+  EXPECT_LT(low, 5);
+}
+
+// All samples together have the tails of several normal laws.
+TEST(OwnPowers, DifferentLevelsAreNoHeavyTails) {
+  const Diagnosis diagnosis = diagnose(fitted(with_a_louder_one(5.0, 790)));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].tried.cause, "replicate_change");
+  for (const RankedTerm& one : diagnosis.effects) {
+    if (one.tried.cause == "heavy_tails") {
+      EXPECT_GT(one.familywise_p, 0.05);
+    }
+  }
 }
 
 }  // namespace

@@ -110,6 +110,27 @@ TEST(PowerChange, IsNoHeavyTailsHoweverLoud) {
   EXPECT_EQ(diagnosis.effects[0].tried.cause, "power_change");
 }
 
+// Wandering power takes logarithms of powers for normal numbers: one far below the others seemed
+// less likely under constant power than it is, and wandering gained more than the truth.
+TEST(PowerChange, AQuietOneGainsMoreThanAnyWander) {
+  RandomStream random(9108);
+  const auto subject =
+      subject_of({.model = "WN(sigma2=0.1)", .seed = 9109, .added = [&](std::size_t k, double s) {
+                    const double own = random.normal();
+                    return k == 2 && s > 40.0 && s < 90.0 ? 0.0 : std::sqrt(0.9) * own;
+                  }});
+  const Diagnosis diagnosis = diagnose(fitted(subject, "WN"));
+  ASSERT_FALSE(diagnosis.effects.empty());
+  const TriedTerm& best = diagnosis.effects[0].tried;
+  EXPECT_EQ(best.cause, "power_change");
+  EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::kFound);
+  for (const RankedTerm& one : diagnosis.effects) {
+    if (one.tried.cause == "variance_wander") {
+      EXPECT_LT(one.tried.likelihood_gain, best.likelihood_gain);
+    }
+  }
+}
+
 // A model with it is read as it is printed, also from the first sample on.
 TEST(PowerChange, MayBeginWithTheReplicate) {
   const auto model = parse_full_model("WN + power_change(replicate=2, to=50)", Hertz{50.0});
