@@ -85,6 +85,9 @@ void Climb::leave_behind(const TriedTerm& taken) {
   std::erase_if(leads_, [&](const Lead& one) {
     return one.found == found || one.evidence < kMasked * taken.gain;
   });
+  // One more of its kind was seen already.
+  if (taken.next_gain > 0.0)
+    leads_.push_back({found, effect_of(taken.suggestion), taken.next_gain});
 }
 
 void Climb::refute(const Suggestion& one) {

@@ -257,26 +257,36 @@ Suggestions search_power_change(const SearchView& view) {
   return {out};
 }
 
-// A model with the next event beside the first, where there is one.
-std::optional<FittedModel> with_next(const FittedModel& first) {
+// The next event beside the first, and the nats that it gains beyond chance.
+struct NextEvent {
+  FittedModel model;
+  double nats;
+};
+
+std::optional<NextEvent> next_beside(const FittedModel& first) {
   const Innovations left = innovations(first.regression, first.fit);
   const auto [place, next] = best_of(left);
   const Eigen::VectorXd& white = left.white[place];
   constexpr double kSurely = 5.0;  // nats
-  const bool clear = next.nats / excess_scatter(white, next) > log_places(left) + kSurely;
-  if (!clear || !(sharpness(white, next) > 0.0)) return std::nullopt;
+  const double within = next.nats / excess_scatter(white, next);
+  if (!(within > log_places(left) + kSurely && sharpness(white, next) > 0.0)) return std::nullopt;
   const Subject& subject = first.regression.subject();
   const EffectTerm term = term_of(next, subject.parts[left.replicates[place]], subject.rate);
   if (!check_power_change(term, subject)) return std::nullopt;
-  return fit_with(current_of(first.regression, first.fit), term);
+  FittedModel both = fit_with(current_of(first.regression, first.fit), term);
+  const double gain = both.fit.log_likelihood - first.fit.log_likelihood;
+  return NextEvent{std::move(both), std::max(gain, within) - log_places(left)};
 }
 
 // Where it is one rise of many, or a slow one, the power may wander.
 void review_power_change(const Current& current, TriedTerm& tried) {
-  if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
   tried.against_wander = true;
-  // The replicate itself is the evidence. Once it is, what the others say counts, too.
+  // The replicate itself is the evidence. Once it is, what the others say counts, too, unless they
+  // differ anyway.
   Suggestion& found = tried.suggestion;
+  const double within = found.score_nats * found.inflation;
+  tried.likelihood_gain =
+      worsens_tails(current, tried.fitted) ? 0.0 : std::max(tried.likelihood_gain, within);
   found.inflation = std::max(found.inflation, tried.likelihood_gain / found.score_nats);
   const Subject& subject = current.subject();
   const std::size_t changed = *changing(*tried.term(), subject);
@@ -285,15 +295,11 @@ void review_power_change(const Current& current, TriedTerm& tried) {
   const auto at = std::find(before.replicates.begin(), before.replicates.end(), changed);
   const Eigen::VectorXd& white =
       before.white[static_cast<std::size_t>(at - before.replicates.begin())];
-  const FittedModel* all = &tried.fitted;
-  std::optional<FittedModel> both;
-  if (events_in(current) + 1 < kMostEvents) both = with_next(tried.fitted);
-  if (both) {
-    all = &*both;
-    tried.next_gain = std::max(
-        0.0, both->fit.log_likelihood - tried.fitted.fit.log_likelihood - log_places(before));
-  }
-  const auto power = PowerView::of(innovations(all->regression, all->fit), subject.rate);
+  std::optional<NextEvent> next;
+  if (events_in(current) + 1 < kMostEvents) next = next_beside(tried.fitted);
+  if (next) tried.next_gain = next->nats;
+  const FittedModel& all = next ? next->model : tried.fitted;
+  const auto power = PowerView::of(innovations(all.regression, all.fit), subject.rate);
   constexpr double kSurely = 3.0;   // nats
   constexpr double kClearly = 8.0;  // nats
   if ((power && power->wander_gain() > kSurely) ||
