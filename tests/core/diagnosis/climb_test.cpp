@@ -90,6 +90,20 @@ TEST(Climb, ByTheBeginningsOfTheReplicates) {
   expect_same(climbed(start, 8192), looked(start));
 }
 
+// The first look saw the second one, beside bursts and wandering power, which explain some of both.
+TEST(Climb, TwoChangesOfPowerAreTwo) {
+  RandomStream random(9110);
+  const auto twice = [&](std::size_t k, double s) {
+    const double own = random.normal();
+    if (k != 0) return 0.0;
+    return (s > 25.0 && s < 50.0 ? std::sqrt(2.0) : s > 90.0 && s < 125.0 ? 1.0 : 0.0) * own;
+  };
+  const Climbed found =
+      climbed(fitted(subject_of({.replicates = 2, .seed = 9111, .added = twice})), 1 << 20);
+  EXPECT_EQ(found.causes, (std::vector<std::string>{"power_change", "power_change"}));
+  EXPECT_EQ(found.end, DiagnosisVerdict::kNone);
+}
+
 TEST(Climb, EndsWhereNothingIs) {
   const FittedModel start = fitted(subject_of({.seed = 20}));
   const Diagnosis first = diagnose(start, kLevel);
