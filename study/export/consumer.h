@@ -45,6 +45,7 @@ struct Consumer {
   std::string_view holds;  ///< what it can express: "white noise and random walk"
   Holding holding = Holding::kDensities;
   AxisRule axes = AxisRule::kWorst;  ///< kEach where its file has a value for each axis
+  bool takes_walk = true;            ///< it has a place for K
   bool takes_markov = false;         ///< a bias may be a Markov process
   bool takes_zero = true;            ///< false: it refuses values of zero
   std::string_view remark{};         ///< what its user has to know; stands in the file

@@ -198,6 +198,9 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
   }
   heading.push_back(fmt::format("{}, sampled at {:g} Hz; {}:", name, from.axes.front().rate.value,
                                 given.reduction));
+  const AxisNoise& first = from.axes.front();
+  if (first.n.bounded() || first.k.bounded())
+    heading.push_back(fmt::format("  intervals: {:g} % confidence", 100.0 * first.confidence));
   double most = 1.0;
   std::set<std::string> left_out;
   std::vector<std::string> remarks;
@@ -215,9 +218,9 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
     heading.push_back(fmt::format("  {} takes no {}", to.title, one));
   if (most > 1.05) {
     heading.push_back(fmt::format(
-        "  What it does not take makes integrated errors over {} up to {} times larger; "
-        "pass --conservative to bound them.",
-        horizon_words(options.horizon), rough(most)));
+        "  What it does not take makes integrated errors over {} up to {} times larger{}.",
+        horizon_words(options.horizon), rough(most),
+        to.takes_walk ? "; pass --conservative to bound them" : ""));
   }
   for (const std::string& one : remarks) heading.push_back("  " + one);
 }
@@ -297,6 +300,9 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
     add_sensor(all, *into, to, options, out.heading);
   }
   out.heading.push_back(fmt::format("{} holds {}.", to.title, to.holds));
+  if (options.conservative && !to.takes_walk)
+    out.heading.push_back(
+        fmt::format("{} takes no K. N alone does not bound the error of the model.", to.title));
   if (!to.remark.empty()) out.heading.emplace_back(to.remark);
   if (to.holding == Holding::kStates)
     for (std::string& line : usage_words()) out.heading.push_back(std::move(line));

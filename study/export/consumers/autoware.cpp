@@ -42,6 +42,7 @@ const Consumer& autoware() {
       .file = "imu_corrector.param.yaml",
       .holds = "white noise, a value for each axis of the gyro; no random walk",
       .axes = AxisRule::kEach,
+      .takes_walk = false,
       .fields = autoware_fields,
       .write = autoware_file,
   };

@@ -36,6 +36,7 @@ const Consumer& ros() {
       .file = "imu.yaml",
       .holds = "white noise, a value for each axis; no random walk",
       .axes = AxisRule::kEach,
+      .takes_walk = false,
       .remark = "A first element of -1 would mean that the sensor has no such output.",
       .fields = ros_fields,
       .write = ros_file,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/support/random.h"
@@ -172,6 +173,16 @@ TEST(Export, ARandomWalkThatTheDataDoNotShowIsItsUpperBound) {
   }
 }
 
+TEST(Export, NothingIsBoundWhereAProgramTakesNoWalk) {
+  const auto imu = example_imu(kGyro, kGyro, kAt);
+  const std::string plain = written(imu, "ros");
+  EXPECT_EQ(plain.find("pass --conservative"), std::string::npos) << plain;
+  ExportOptions options;
+  options.conservative = true;
+  const std::string safe = written(imu, "ros", options);
+  EXPECT_NE(safe.find("N alone does not bound"), std::string::npos) << safe;
+}
+
 TEST(Export, KalibrNeverGetsZero) {
   const auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=1e-4) + GM(sigma2=1e-6, tc=100)", kAt);
   const std::string file = written(imu, "kalibr");
@@ -264,6 +275,7 @@ TEST(Export, IntervalsFollowTheFit) {
   fit.set_unit("rad/s");
   fit.set_rate_hz(200.0);
   fit.set_fitted_model(kGyro);
+  fit.set_confidence(0.68);
   v1::Coefficient& n = *fit.add_terms()->add_coefficients();
   n.set_symbol("N");
   n.set_value(2e-4);
@@ -274,6 +286,9 @@ TEST(Export, IntervalsFollowTheFit) {
   EXPECT_EQ(imu->gyro.axes[0].axis, 'x');
   const auto sheet = study::export_sheet(*imu, *consumer_called("gtsam"), {"x", ""}, {});
   ASSERT_TRUE(sheet);
+  const auto& heading = sheet->heading;
+  EXPECT_NE(std::find(heading.begin(), heading.end(), "  intervals: 68 % confidence"),
+            heading.end());
   const study::Field& field = sheet->fields.front();
   EXPECT_EQ(field.key, "gyroscopeCovariance");
   ASSERT_EQ(field.values.size(), 3U);
