@@ -91,22 +91,22 @@ void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& cov
       continue;
     }
     const ParameterInfo about = parameters(latent.term.process)[parameter.parameter];
-    const auto error_at = [&](double power) {
-      ArrayModel moved = fit.model;
-      Latent& grown = moved.latents[parameter.latent];
-      if (grown.matrix()) {
-        grown.power(parameter.row, parameter.row) = power;
-      } else {
-        grown.set_scalar(power);
-      }
-      return std::sqrt(std::max(covariance_under(moved).matrix(at, at), 0.0));
-    };
-    const bool power = parameter.parameter == 0;
-    const double evidence =
-        power ? evidence_by_error(latent.term, value, value / error, error_at) : value / error;
-    parameter.estimate = interval(about, parameter.parameter, value, error, confidence, evidence);
-    if (power && parameter.estimate.observability == Observability::kUpperBound)
+    parameter.estimate =
+        interval(about, parameter.parameter, value, error, confidence, value / error);
+    if (parameter.parameter == 0 &&
+        parameter.estimate.observability == Observability::kUpperBound) {
+      const auto error_at = [&](double power) {
+        ArrayModel moved = fit.model;
+        Latent& grown = moved.latents[parameter.latent];
+        if (grown.matrix()) {
+          grown.power(parameter.row, parameter.row) = power;
+        } else {
+          grown.set_scalar(power);
+        }
+        return std::sqrt(std::max(covariance_under(moved).matrix(at, at), 0.0));
+      };
       parameter.estimate.upper = upper_bound(value, parameter.estimate.upper, z, error_at);
+    }
   }
 }
 
