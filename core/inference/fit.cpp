@@ -26,14 +26,16 @@ double error_of_power(const Model& model, std::span<const WaveletVariance> repli
   });
 }
 
+// Where nothing else of its process is estimated, the evidence for a power is the estimate over the
+// standard error that it would have if there were none.
 void fill_by_errors(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
                     const PowerError& power_error, Hertz rate) {
   const Model& model = fit.estimate.model;
   const std::vector<ParameterPlace> places = parameter_places(model);
   const auto evidence = [&](Eigen::Index column, double by_error) {
     const Term& term = model.terms[places[static_cast<std::size_t>(column)].term];
-    return evidence_by_error(term, values(term.process)[0], by_error,
-                             [&](double value) { return power_error(column, value); });
+    if (!alone(term)) return by_error;
+    return std::max(by_error, values(term.process)[0] / power_error(column, 0.0));
   };
   fill_intervals(fit, sets, covariance, power_error, evidence, rate);
 }

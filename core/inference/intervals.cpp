@@ -104,11 +104,6 @@ bool alone(const Term& term) {
   return std::all_of(term.given.begin() + 1, term.given.end(), [](bool one) { return one; });
 }
 
-double evidence_by_error(const Term& term, double value, double by_error,
-                         const std::function<double(double)>& error_at) {
-  return alone(term) && !clear(by_error) ? std::max(by_error, value / error_at(0.0)) : by_error;
-}
-
 double upper_bound(double value, double upper, double z,
                    const std::function<double(double)>& error_at) {
   constexpr int kRounds = 2;

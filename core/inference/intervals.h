@@ -43,9 +43,4 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
 /// Whether nothing else of its process is estimated beside a term's power.
 bool alone(const Term& term);
 
-/// The evidence for a power of a term by its estimate: where nothing else of its process was
-/// estimated, over its standard error if there were none. `by_error`: over that of the estimate.
-double evidence_by_error(const Term& term, double value, double by_error,
-                         const std::function<double(double)>& error_at);
-
 }  // namespace imunoise

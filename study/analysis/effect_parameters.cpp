@@ -63,7 +63,8 @@ void add_noise(const TriedTerm& tried, const Subject& subject, std::vector<Repor
     const auto inside = std::find(interior.begin(), interior.end(), static_cast<Eigen::Index>(i));
     const double error =
         inside == interior.end() ? 0.0 : covariance.standard_error(inside - interior.begin());
-    const double evidence = std::sqrt(2.0 * std::max(0.0, tried.likelihood_gain));
+    const double evidence = alone(term) ? std::sqrt(2.0 * std::max(0.0, tried.likelihood_gain))
+                                        : values(term.process)[0] / error;
     out.push_back(noise_number(term, places[i].parameter, error, evidence, subject.quantity));
     if (places[i].parameter + 1 < term.given.size()) continue;
     for (const DerivedQuantity& quantity : derived(term.process, subject.rate)) {

@@ -88,7 +88,8 @@ std::string horizon_words(const Horizon& horizon) {
   return fmt::format("{:g} to {:g} s", horizon.begin, horizon.end);
 }
 
-void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizon) {
+void make_conservative(AxisNoise& axis, Quantity quantity, const Consumer& to,
+                       const Horizon& horizon) {
   const Eigen::ArrayXd m = horizon_samples(axis.rate, horizon);
   Eigen::ArrayXd allan = 2.0 * variance(axis.noise, m);
   if (!axis.draws.empty())
@@ -107,10 +108,11 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Horizon& horizo
   axis.left_out.clear();
   axis.bound = white_and(bound.n, RandomWalk{bound.k * bound.k / axis.rate.value}, axis.rate);
   axis.coefficients = axis_noise(axis.channel, quantity, axis.rate, *axis.bound).coefficients;
-  axis.remarks.push_back(
-      fmt::format("{}: N and K bound the integrated error of the whole model over {}; they "
-                  "overstate it by a factor of up to {:.2f} ({:.2f} in the mean square)",
-                  axis.channel, horizon_words(horizon), bound.most, bound.usual));
+  axis.remarks.push_back(fmt::format(
+      "{}: N and K bound the integrated error of the whole model over {}; they "
+      "overstate it by a factor of up to {:.2f} ({:.2f} in the mean square){}",
+      axis.channel, horizon_words(horizon), bound.most, bound.usual,
+      to.takes_walk ? "" : "; this file has no place for K, and N alone bounds nothing"));
   if (axis.draws.empty()) return;
   const double average = std::sqrt((variance(*axis.bound, m) / variance(axis.noise, m)).maxCoeff());
   axis.remarks.push_back(fmt::format(
@@ -282,7 +284,7 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
     for (AxisNoise& axis : all.axes) {
       tell_draws(axis, options.conservative, axis.remarks);
       if (options.conservative) {
-        make_conservative(axis, all.quantity, options.horizon);
+        make_conservative(axis, all.quantity, to, options.horizon);
       } else if (to.holding == Holding::kDensities) {
         if (axis.hidden_walk) axis.k.value = 0.0;
         choose_bias(axis, to, options.horizon);
@@ -300,9 +302,6 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
     add_sensor(all, *into, to, options, out.heading);
   }
   out.heading.push_back(fmt::format("{} holds {}.", to.title, to.holds));
-  if (options.conservative && !to.takes_walk)
-    out.heading.push_back(
-        fmt::format("{} takes no K. N alone does not bound the error of the model.", to.title));
   if (!to.remark.empty()) out.heading.emplace_back(to.remark);
   if (to.holding == Holding::kStates)
     for (std::string& line : usage_words()) out.heading.push_back(std::move(line));

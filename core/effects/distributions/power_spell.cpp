@@ -99,16 +99,13 @@ PowerSpell without_gap(const Eigen::VectorXd& white, const PowerSpell& spell) {
   const PowerSpell gap = best_spell(white.segment(spell.begin, spell.size()));
   constexpr double kSurely = 5.0;  // nats
   if (!(gap.nats > std::log(kSpells) + kSurely)) return spell;
-  // Its power is that outside, and not that of the spell.
-  const double inside = static_cast<double>(spell.size());
-  const auto between = static_cast<double>(gap.size());
-  const double within = white.segment(spell.begin, spell.size()).squaredNorm();
-  const double all = white.squaredNorm();
-  const double outside = (all - within) / (static_cast<double>(white.size()) - inside);
-  const double in_gap = white.segment(spell.begin + gap.begin, gap.size()).squaredNorm();
-  const double sides = (within - in_gap) / (inside - between);
-  const double level = in_gap / between;
-  if (std::abs(std::log(level / sides)) < std::abs(std::log(level / outside))) return spell;
+  // Its power is that outside, and not that of the rest of the spell.
+  const auto mean = [&](Index begin, Index samples) {
+    return white.segment(begin, samples).squaredNorm() / static_cast<double>(samples);
+  };
+  const double outside = mean(spell.begin, spell.size()) / spell.ratio;
+  const double between = mean(spell.begin + gap.begin, gap.size());
+  if (std::abs(std::log(gap.ratio)) < std::abs(std::log(between / outside))) return spell;
   const PowerSpell first = power_spell(white, spell.begin, spell.begin + gap.begin);
   const PowerSpell second = power_spell(white, spell.begin + gap.end, spell.end);
   return first.nats > second.nats ? first : second;

@@ -17,8 +17,8 @@ drivers::CanFrame angular_rates() {
   return out;
 }
 
-// The rate that one second of frames gives: 100 a second, the first `late` of which lay in a queue
-// until the next one came.
+// The rate that imunoise takes from one second of frames at 100 Hz. The first `late` frames waited
+// in a queue and came together.
 double rate_heard(int late) {
   const drivers::CanChannels channels = *drivers::make_preset("mti600");
   FrameStreams streams = *FrameStreams::make(channels);
