@@ -49,13 +49,18 @@ std::shared_ptr<Subject> reshaped(
   const std::size_t count = out->replicates();
   out->reshaped_nats.resize(count, 0.0);
   std::vector<std::optional<Squares>> squares(count);  // where the distribution says what it gains
+  const std::vector<VarianceCourse> courses = variance_courses(current.regression);
   for_each_index(count, [&](std::size_t k) {
     const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
     const Eigen::VectorXd white =
         inverse_cosine_transform((current.cosines[k].array() / deviation).matrix());
-    const Reshaping how = reshape(white, k);
+    Eigen::VectorXd steady = white;
+    for (std::size_t m = 0; m < courses.size(); ++m)
+      take_out(current.fit.modulation[m], courses[m], k, steady);
+    const Reshaping how = reshape(steady, k);
+    if (how.nats)
+      squares[k] = {steady.squaredNorm(), (steady.array() * how.factor).matrix().squaredNorm()};
     const Eigen::VectorXd even = (white.array() * how.factor).matrix();
-    if (how.nats) squares[k] = {white.squaredNorm(), even.squaredNorm()};
     out->reshaped_nats[k] += how.nats.value_or(how.factor.log().sum());
     const Eigen::ArrayXd left = cosine_transform(even).array() * deviation;
     Eigen::VectorXd cosines =

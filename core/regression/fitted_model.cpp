@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "core/regression/current.h"
 #include "core/regression/uncertain_shape.h"
@@ -18,6 +20,27 @@ std::string place_of(const Subject& subject, std::size_t replicate) {
   return fmt::format("{} from {:.6g} s on", number, subject.begins(replicate));
 }
 
+// A fit to samples that some terms cleaned, given what modulates their power. What modulates it is
+// found under the model before them, which takes theirs for its own, and found again beside them.
+FittedModel beside_modulation(const std::vector<Modulation>& before,
+                              const std::function<FittedModel(std::vector<Modulation>)>& fit) {
+  constexpr int kMostTurns = 8;
+  constexpr double kSettled = 0.05;  // standard errors
+  FittedModel out = fit(before);
+  std::vector<Modulation> taken_out = before;
+  for (int turn = 1; turn < kMostTurns; ++turn) {
+    const std::vector<Modulation>& found = out.fit.modulation;
+    bool settled = true;
+    for (std::size_t m = 0; m < found.size(); ++m)
+      settled =
+          settled && std::abs(found[m].slope - taken_out[m].slope) < kSettled * found[m].error;
+    if (settled) break;
+    taken_out = found;
+    out = fit(taken_out);
+  }
+  return out;
+}
+
 }  // namespace
 
 FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullModel& start,
@@ -26,13 +49,18 @@ FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullMod
   for (const EffectTerm& term : start.effects) {
     if (term.effect->fit_with == nullptr) regression = regression.with(term);
   }
-  JointFit fit = joint_fit(regression, start.noise, progress);
-  for (const EffectTerm& term : start.effects) {
-    if (term.effect->cleaned == nullptr) continue;
-    regression = regression.on(term.effect->cleaned(term, current_of(regression, fit)));
-    fit = joint_fit(regression, fit.model.noise, progress);
-  }
-  FittedModel out{std::move(regression), std::move(fit)};
+  const JointFit first = joint_fit(regression, start.noise, progress);
+  FittedModel out = beside_modulation(first.modulation, [&](std::vector<Modulation> modulation) {
+    FittedModel cleaned{regression, first};
+    cleaned.fit.modulation = std::move(modulation);
+    for (const EffectTerm& term : start.effects) {
+      if (term.effect->cleaned == nullptr) continue;
+      const Current current = current_of(cleaned.regression, cleaned.fit);
+      cleaned.regression = cleaned.regression.on(term.effect->cleaned(term, current));
+      cleaned.fit = joint_fit(cleaned.regression, cleaned.fit.model.noise, progress);
+    }
+    return cleaned;
+  });
   for (const EffectTerm& term : start.effects) {
     if (term.effect->fit_with != nullptr)
       out = term.effect->fit_with(term, out.regression, out.fit);
@@ -43,11 +71,17 @@ FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullMod
 FittedModel fit_with(const Current& current, const EffectTerm& term) {
   if (term.effect->fit_with != nullptr)
     return term.effect->fit_with(term, current.regression, current.fit);
-  Regression grown = current.regression.with(term);
-  if (term.effect->cleaned != nullptr) grown = grown.on(term.effect->cleaned(term, current));
-  JointFit fit =
-      joint_fit(grown, current.fit.model.noise, {}, Begin::kAnywhere, current.fit.own_noise);
-  return {std::move(grown), std::move(fit)};
+  const Regression grown = current.regression.with(term);
+  const auto fitted = [&](const Regression& regression) {
+    return FittedModel{regression, joint_fit(regression, current.fit.model.noise, {},
+                                             Begin::kAnywhere, current.fit.own_noise)};
+  };
+  if (term.effect->cleaned == nullptr) return fitted(grown);
+  return beside_modulation(current.fit.modulation, [&](std::vector<Modulation> modulation) {
+    JointFit before = current.fit;
+    before.modulation = std::move(modulation);
+    return fitted(grown.on(term.effect->cleaned(term, current_of(current.regression, before))));
+  });
 }
 
 std::vector<ReportedNumber> coefficient_numbers(const FittedEffect& effect) {

@@ -30,7 +30,9 @@ Index pair_of(Index i, Index j) { return i * (i + 1) / 2 + j; }
 }  // namespace
 
 Regression::Regression(std::shared_ptr<const Subject> subject)
-    : subject_(std::move(subject)), replicates_(subject_->replicates()) {
+    : first_subject_(std::move(subject)),
+      subject_(first_subject_),
+      replicates_(subject_->replicates()) {
   std::iota(replicates_.begin(), replicates_.end(), 0);
   fill_moments();
 }

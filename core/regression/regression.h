@@ -39,6 +39,8 @@ class Regression {
 
   const Subject& subject() const { return *subject_; }
   const std::shared_ptr<const Subject>& shared_subject() const { return subject_; }
+  /// What it was made from, before on().
+  const std::shared_ptr<const Subject>& first_subject() const { return first_subject_; }
   /// The replicates that count, by their numbers.
   const std::vector<std::size_t>& replicates() const { return replicates_; }
   const std::vector<EffectTerm>& effects() const { return effects_; }
@@ -78,6 +80,7 @@ class Regression {
     Moments without(Eigen::Index first, Eigen::Index end) const;
   };
 
+  std::shared_ptr<const Subject> first_subject_;
   std::shared_ptr<const Subject> subject_;
   std::vector<EffectTerm> effects_;
   std::vector<CoefficientName> names_;

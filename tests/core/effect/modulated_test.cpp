@@ -4,9 +4,11 @@
 
 #include <cmath>
 
+#include "core/diagnosis/candidates.h"
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/known_effects.h"
 #include "core/regression/current.h"
+#include "core/support/random.h"
 #include "tests/core/diagnosis/subject_of.h"
 #include "tests/support/figures_alone.h"
 
@@ -40,6 +42,52 @@ TEST(Modulated, ExplainsReplicatesOfOtherTemperatures) {
   EXPECT_NEAR(slope, kPerKelvin, 5.0 * found.error / found.deviation);
   // Replicates differ by 18 % in power; afterwards by no more than chance, √(2/16384) = 1.1 %.
   for (const ReplicatePower& one : misfit_of(with).powers) EXPECT_NEAR(one.power, 1.0, 0.045);
+}
+
+// In replicate 3, the change lies where it is warm: what one of the two explains is not the
+// other's. Bound: four standard errors.
+TEST(Modulated, AndAChangeOfPowerKeepWhatIsTheirs) {
+  constexpr double kRatio = 2.5;
+  constexpr double kSlope = 0.05;  // per kelvin
+  const auto celsius = [](std::size_t, double s) { return 25.0 + 5.0 * wave(0.006, s); };
+  const auto loud = [](std::size_t k, double s) { return k == 2 && s > 20.0 && s < 80.0; };
+  RandomStream random(37);
+  const auto subject = subject_of({.model = "WN(sigma2=1e-12)",
+                                   .samples = 16'384,
+                                   .seed = 38,
+                                   .added =
+                                       [&](std::size_t k, double s) {
+                                         const double variance =
+                                             std::exp(kSlope * (celsius(k, s) - 25.0));
+                                         const double more = loud(k, s) ? kRatio : 1.0;
+                                         return std::sqrt(variance * more) * random.normal();
+                                       },
+                                   .temperature = celsius});
+  const std::string change = "power_change(replicate=3, from=20, to=80)";
+  const std::string follows = "modulated(temperature)";
+  const auto expect_both = [&](const FittedModel& found) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const FittedEffect effect{found, i};
+      const ReportedNumber number = fitted_numbers(effect).at(0);
+      if (number.name == "ratio") {
+        EXPECT_NEAR(std::log(number.value), std::log(kRatio), 4.0 * 0.03) << print(effect.term());
+      } else {
+        const Modulation& modulation = found.fit.modulation.front();
+        EXPECT_NEAR(number.value, kSlope, 4.0 * modulation.error / modulation.deviation);
+      }
+    }
+  };
+  expect_both(fitted(subject, "WN + " + follows + " + " + change));
+  expect_both(fitted(subject, "WN + " + change + " + " + follows));
+  // As a ladder adds one to the other.
+  for (const auto& [first, second] : {std::pair{change, follows}, std::pair{follows, change}}) {
+    const FittedModel one = fitted(subject, "WN + " + first);
+    const Current current = current_of(one.regression, one.fit);
+    const EffectTerm next = parse_full_model("WN + " + second, subject->rate)->effects.at(0);
+    const std::string_view cause = next.effect->causes.front().id;
+    const Suggestions with{{.cause = cause, .added = next, .score_nats = 1000.0}};
+    expect_both(try_all(current, with).at(0).fitted);
+  }
 }
 
 // A course as slow as this could be power that wanders by itself, which bursts explain, too. In
