@@ -15,11 +15,7 @@ struct Squares {
   double after = 0.0;
 };
 
-// Kurtosis less 3, each replicate against its own level; and of how many innovations.
-struct Tails {
-  double excess = 0.0;
-  double samples = 0.0;
-};
+}  // namespace
 
 Tails tails_of(const Innovations& innovations) {
   Tails out;
@@ -32,8 +28,6 @@ Tails tails_of(const Innovations& innovations) {
   out.excess = out.excess / out.samples - 3.0;
   return out;
 }
-
-}  // namespace
 
 bool worsens_tails(const Current& before, const FittedModel& after) {
   constexpr double kSurely = 4.0;  // standard errors

@@ -24,6 +24,13 @@ std::shared_ptr<Subject> reshaped(
     const Current& current,
     const std::function<Reshaping(const Eigen::VectorXd& white, std::size_t replicate)>& reshape);
 
+/// Excess kurtosis of innovations, each replicate against its own level; and of how many.
+struct Tails {
+  double excess = 0.0;
+  double samples = 0.0;
+};
+Tails tails_of(const Innovations& innovations);
+
 /// Whether the innovations of a fit with changing noise power have tails significantly further from
 /// normal ones than before it. Changing power makes large deviations more frequent. If the power
 /// changed without them, the spectrum of the model is wrong, and its innovations are not

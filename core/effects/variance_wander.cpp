@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/effect/columns.h"
+#include "core/effects/distributions/wandering_power.h"
 #include "core/effects/reshaped_noise.h"
 #include "core/search/search_view.h"
 
@@ -15,36 +16,20 @@ namespace {
 
 enum VarianceWanderParameter : std::size_t { kVarianceWanderTau, kVarianceWanderDeviation };
 
-// What a fit found of it.
-struct WanderingPower : Found {
-  double deviation = 0.0;  // of the logarithm of the power
+struct FoundWander : Found {
+  double deviation = 0.0;  // of the logarithm of the power,
+  double error = 0.0;      // and the standard error of its logarithm
 };
 
-// Nats that a course of the logarithm of the power gains over one power, were it known: more no
-// course that was found gains. The likelihood of the logarithms takes them for normal, and one far
-// below the others for less likely than it is.
-double gain_if_known(const Eigen::VectorXd& white, const Eigen::ArrayXd& course) {
-  const auto n = static_cast<double>(white.size());
-  const Eigen::ArrayXd squares = white.array().square();
-  const double evened = (squares * (-course).exp()).sum();
-  return 0.5 * (n * std::log(squares.sum() / evened) - course.sum());
-}
-
 std::shared_ptr<const Subject> of_steady_power(const EffectTerm& term, const Current& current) {
-  const auto view =
-      PowerView::of(innovations(current.regression, current.fit), current.subject().rate);
-  auto found = std::make_shared<WanderingPower>();
-  if (!view) {
-    auto same = std::make_shared<Subject>(current.subject());
-    same->keep(term, std::move(found));
-    return same;
-  }
-  const PowerView wandering = view->with_correlation_time(term[kVarianceWanderTau]);
-  found->deviation = wandering.deviation();
-  auto out = reshaped(current, [&](const Eigen::VectorXd& white, std::size_t k) {
-    const Eigen::ArrayXd course = wandering.course(k, white.size());
-    return Reshaping{(-0.5 * course).exp(),
-                     std::min(wandering.gain_in(k), gain_if_known(white, course))};
+  const auto powers = WanderingPower::of(innovations(current.regression, current.fit),
+                                         current.subject().rate, term[kVarianceWanderTau]);
+  auto found = std::make_shared<FoundWander>();
+  found->deviation = powers.deviation();
+  found->error = powers.deviation_error();
+  auto out = reshaped(current, [&](const Eigen::VectorXd& white, std::size_t) {
+    WanderingPower::Evened even = powers.evened(white);
+    return Reshaping{std::move(even.factor), even.nats};
   });
   out->keep(term, std::move(found));
   return out;
@@ -66,34 +51,39 @@ void simulate_variance_wander(const EffectTerm& term, const SimulatedReplicate& 
   }
 }
 
+// Normal noise of one power rarely looks like it.
+bool may_wander(const PowerView& power, const Innovations& all) {
+  constexpr double kNats = 3.0;
+  constexpr double kErrors = 3.0;
+  const Tails tails = tails_of(all);
+  return power.wander_gain() > kNats || tails.excess > kErrors * std::sqrt(24.0 / tails.samples);
+}
+
 Suggestions search_variance_wander(const SearchView& view) {
   const PowerView* const power = view.power();
   if (power == nullptr) return {};
-  // Beside the witness that explains most of it.
-  double gain = power->wander_gain();
+  // A share of what it gains is what the witness that explains most leaves of it.
+  constexpr double kLeast = 1e-3;  // nats
+  double share = 1.0;
   double most = 0.0;
   for (const PowerView::Explained& one : view.power_explained()) {
     if (!(one.gain > most)) continue;
     most = one.gain;
-    gain = one.left;
+    share = std::clamp(one.left / std::max(kLeast, power->wander_gain()), 0.0, 1.0);
   }
-  constexpr double kSurely = 3.0;  // nats
-  if (gain > kSurely) gain += std::max(0.0, power->normal_gain() - power->wander_gain());
   const Subject& subject = view.subject();
-  const double shortest = 2.0 / subject.rate.value;
-  // A power that moves within none of the replicates has a time as long as they are, or longer.
-  double longest = shortest;
-  for (std::size_t k = 0; k < subject.replicates(); ++k)
-    longest = std::max(longest, subject.seconds(k));
-  const double seconds = power->correlation_time();
-  if (!(seconds >= shortest)) gain = 0.0;
+  const Innovations& all = view.innovations();
+  WanderingPower powers;
+  if (may_wander(*power, all))
+    powers = WanderingPower::of(all, subject.rate, {}, power->correlation_time());
   constexpr double kPlaces = 8.0;  // separate correlation times
-  return {{.cause = "variance_wander",
-           .added =
-               EffectTerm(variance_wander(), "", {{"tau", std::clamp(seconds, shortest, longest)}}),
-           .score_nats = std::max(0.0, gain),
-           .power = true,
-           .search = {.log_places = std::log(kPlaces)}}};
+  const double shortest = 1.0 / subject.rate.value;
+  return {
+      {.cause = "variance_wander",
+       .added = EffectTerm(variance_wander(), "", {{"tau", std::max(shortest, powers.tau_s())}}),
+       .score_nats = std::max(0.0, share * powers.gain()),
+       .power = true,
+       .search = {.log_places = std::log(kPlaces)}}};
 }
 
 // The search knows what it gains beside a witness. Whatever it follows may be unrecorded.
@@ -104,9 +94,10 @@ void review_variance_wander(const Current& current, TriedTerm& tried) {
 }
 
 std::vector<ReportedNumber> variance_wander_numbers(const FittedEffect& effect) {
-  const auto* const found = effect.subject().found_by<WanderingPower>(effect.term());
+  const auto* const found = effect.subject().found_by<FoundWander>(effect.term());
   if (found == nullptr) return {};
-  return {{"deviation", found->deviation, "1"}};
+  const ReportedNumber deviation{"deviation", found->deviation, "1"};
+  return {std::isfinite(found->error) ? with_log_error(deviation, found->error) : deviation};
 }
 
 }  // namespace

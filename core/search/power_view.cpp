@@ -92,16 +92,7 @@ std::optional<PowerView> PowerView::of(const Innovations& innovations, Hertz rat
   if (!(squares > 0.0)) return std::nullopt;
   out.chance_ = out.fitted(white_power(kChance, true), nullptr);
   out.constant_ = out.fitted(white_power(squares / count, false), nullptr);
-  out.wander_ = out.wandering(nullptr, false);
-  out.normal_ = out.wandering(nullptr, true);
-  return out;
-}
-
-PowerView PowerView::with_correlation_time(double seconds) const {
-  PowerView out = *this;
-  out.phi_ = std::exp(-seconds_ / seconds);
-  out.wander_ = out.wandering(nullptr, false);
-  out.normal_ = out.wandering(nullptr, true);
+  out.wander_ = out.wandering(nullptr);
   return out;
 }
 
@@ -143,11 +134,10 @@ PowerView::Fit PowerView::fitted(const Model& start,
   return out;
 }
 
-PowerView::Fit PowerView::wandering(const std::vector<Eigen::VectorXd>* course, bool normal) const {
+PowerView::Fit PowerView::wandering(const std::vector<Eigen::VectorXd>* course) const {
   const double all = white_of(constant_.noise);
-  const double variance = normal ? std::max(0.1 * kChance, all - kChance) : 0.2 * all;
-  const Model white = normal ? chance_.noise : white_power(all - variance, false);
-  if (phi_) return fitted(wandering_power(white, variance, *phi_, true), course);
+  const double variance = 0.2 * all;
+  const Model white = white_power(all - variance, false);
   Fit best;
   best.log_likelihood = -INFINITY;
   const auto longest = static_cast<double>(replicates_.front().power.size()) / 4.0;
@@ -162,7 +152,7 @@ PowerView::Explained PowerView::explained(const VarianceCourse& course) const {
   const std::vector<Eigen::VectorXd> means = stretched(course);
   const double chance = fitted(chance_.noise, &means).log_likelihood;
   const double constant = fitted(constant_.noise, &means).log_likelihood;
-  const double wander = wandering(&means, false).log_likelihood;
+  const double wander = wandering(&means).log_likelihood;
   return {.gain = wander - wander_.log_likelihood,
           .alone = chance - chance_.log_likelihood,
           .left = wander - constant,
@@ -171,15 +161,8 @@ PowerView::Explained PowerView::explained(const VarianceCourse& course) const {
 
 double PowerView::wander_gain() const { return wander_.log_likelihood - constant_.log_likelihood; }
 
-double PowerView::normal_gain() const { return normal_.log_likelihood - chance_.log_likelihood; }
-
 double PowerView::correlation_time() const {
   return -seconds_ / std::log(std::max(1e-6, markov_of(wander_.noise).phi));
-}
-
-double PowerView::deviation() const {
-  const Ar1& markov = markov_of(normal_.noise);
-  return std::sqrt(markov.sigma2 / (1.0 - markov.phi * markov.phi));
 }
 
 PowerView::Spread PowerView::of_means() const {
@@ -219,24 +202,6 @@ bool PowerView::rules_out_wander() const {
   Model wandering = wandering_power(constant_.noise, variance * n / of_mean(phi, n), phi, true);
   wandering.terms.back().given[0] = true;
   return constant_.log_likelihood - fitted(wandering, nullptr).log_likelihood > kWanders;
-}
-
-Eigen::ArrayXd PowerView::course(std::size_t replicate, Index samples) const {
-  const Replicate& one = replicates_[replicate];
-  const Index n = one.power.size();
-  const Model markov{{Term(Process(markov_of(normal_.noise)))}};
-  const Eigen::ArrayXd share =
-      spectrum_of_cosines(markov, n) / spectrum_of_cosines(normal_.noise, n);
-  const Eigen::VectorXd smooth = inverse_cosine_transform((one.cosines.array() * share).matrix());
-  Eigen::ArrayXd out(samples);
-  for (Index t = 0; t < samples; ++t) out(t) = smooth(std::min(n - 1, t / kPowerStretch));
-  return out;
-}
-
-double PowerView::gain_in(std::size_t replicate) const {
-  const BandedPower power = power_of(replicates_[replicate].power);
-  const std::span<const BandedPower> alone(&power, 1);
-  return whittle_objective(chance_.noise, alone) - whittle_objective(normal_.noise, alone);
 }
 
 }  // namespace imunoise

@@ -30,14 +30,8 @@ class PowerView {
 
   /// Nats that wandering power gains over constant power, which tails or outliers may disturb.
   double wander_gain() const;
-  /// The same if the noise is normal at any one time: as any model of the power would gain them.
-  double normal_gain() const;
   /// Correlation time of the wandering power, s.
   double correlation_time() const;
-  /// Standard deviation of the logarithm of the power that wanders.
-  double deviation() const;
-  /// The same with this correlation time (s).
-  PowerView with_correlation_time(double seconds) const;
 
   /// How much more the mean power of replicates varies than that of constant power does, and the
   /// degrees of freedom that this is known with.
@@ -50,12 +44,6 @@ class PowerView {
   /// Power that wanders as slowly as a replicate is long, and makes replicates differ as they do,
   /// would show within them, and does not. For several replicates.
   bool rules_out_wander() const;
-
-  /// The course that wandering power took in a replicate, a number a sample (Wiener filter);
-  /// `samples`: so many. By its number among the innovations.
-  Eigen::ArrayXd course(std::size_t replicate, Eigen::Index samples) const;
-  /// Nats that wandering power gains in it.
-  double gain_in(std::size_t replicate) const;
 
  private:
   struct Replicate {
@@ -71,8 +59,8 @@ class PowerView {
   };
 
   Fit fitted(const Model& start, const std::vector<Eigen::VectorXd>* course) const;
-  // The best of some starts. `normal`: chance is that of normal noise.
-  Fit wandering(const std::vector<Eigen::VectorXd>* course, bool normal) const;
+  // The best of some starts.
+  Fit wandering(const std::vector<Eigen::VectorXd>* course) const;
   double mean_length() const;  // of a replicate, stretches
   std::vector<Eigen::VectorXd> stretched(const VarianceCourse& course) const;
 
@@ -80,9 +68,7 @@ class PowerView {
   std::vector<Replicate> replicates_;
   Fit chance_;    // white, of the variance that normal noise has
   Fit constant_;  // white
-  Fit wander_;    // a Markov process beside it,
-  Fit normal_;    // and beside the chance of normal noise
-  std::optional<double> phi_;
+  Fit wander_;    // a Markov process beside it
 };
 
 }  // namespace imunoise

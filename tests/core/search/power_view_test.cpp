@@ -153,8 +153,6 @@ TEST(Diagnose, PowerThatWandersByItself) {
   }
 }
 
-// What each distribution gains over the normal one is what a fit with it gains, wherever the level
-// of the noise settles.
 // Levels that differ between replicates and stay within them: no recording shows a time longer than
 // itself.
 TEST(VarianceWander, ItsTimeIsNoLongerThanTheReplicates) {
@@ -172,6 +170,8 @@ TEST(VarianceWander, ItsTimeIsNoLongerThanTheReplicates) {
   EXPECT_EQ(sought, 10);
 }
 
+// What each distribution gains over the normal one is what a fit with it gains, wherever the level
+// of the noise settles.
 TEST(Diagnose, HeavyTailsAndBurstsAreNoOutliers) {
   constexpr std::uint64_t kSeed = 8600;
   const std::pair<const char*, const char*> kinds[] = {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/regression/modulation.h"
+#include "core/support/units.h"
+
+namespace imunoise {
+
+/// Noise whose power wanders: its logarithm is a Markov process (stochastic volatility; Taylor
+/// 1982). A hidden Markov model on a grid of powers (Kitagawa 1987, J. Amer. Stat. Assoc. 82:1032),
+/// over stretches so short that the power hardly moves within them.
+class WanderingPower {
+ public:
+  /// The fit of most likelihood, of this correlation time (s) or of any; without gain where a
+  /// replicate is silent. `rate`: of the innovations. `guess`: a correlation time (s) to begin at,
+  /// beside a short one.
+  static WanderingPower of(const Innovations& innovations, Hertz rate,
+                           const std::optional<double>& tau = {},
+                           const std::optional<double>& guess = {});
+
+  double gain() const { return gain_; }  ///< nats over one power in each replicate
+  double tau_s() const { return tau_ / rate_; }
+  /// Standard deviation of the logarithm of the power,
+  double deviation() const { return deviation_; }
+  /// and the standard error of its logarithm; infinite where the likelihood has no peak.
+  double deviation_error() const { return deviation_error_; }
+
+  struct Evened {
+    /// Turns each innovation of a replicate into a normal number as wide as the replicate: the
+    /// number with the same tail probability, given all earlier innovations (Rosenblatt 1952, Ann.
+    /// Math. Stat. 23:470).
+    Eigen::ArrayXd factor;
+    double nats = 0.0;  ///< gained in this replicate
+  };
+  Evened evened(const Eigen::VectorXd& white) const;
+
+ private:
+  void sample(const Innovations& innovations);
+  double objective() const;  // nats of what was sampled
+  // `longest`: the longest correlation time (samples); 0: it is known.
+  void climb(const Innovations& innovations, double longest);
+  void settle();
+
+  double rate_ = 1.0;
+  double tau_ = 1.0;  // samples
+  double deviation_ = 0.5;
+  double deviation_error_ = INFINITY;
+  double gain_ = 0.0;
+  Eigen::Index stretch_ = 1;  // samples
+  // Runs of stretches that a fit looks at: sums of squares over the mean of their replicate.
+  // Whether the levels of replicates differ is another question.
+  std::vector<Eigen::ArrayXd> runs_;
+  double share_ = 1.0;  // of all samples
+};
+
+}  // namespace imunoise
