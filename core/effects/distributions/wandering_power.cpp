@@ -1,6 +1,8 @@
 #include "core/effects/distributions/wandering_power.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -26,7 +28,8 @@ constexpr double kShortestTau = 1.0;      // correlation time, samples
 // from one stretch to the next.
 class WanderGrid {
  public:
-  WanderGrid(double tau, double deviation, Index stretch) {
+  // `level`: mean power.
+  WanderGrid(double tau, double deviation, double level, Index stretch) {
     const double stays = std::exp(-static_cast<double>(stretch) / tau);
     const double step = std::sqrt(1.0 - stays * stays);
     constexpr double kFinest = 2.0 * kReach / (kMostPlaces - 2);
@@ -35,7 +38,8 @@ class WanderGrid {
         static_cast<Index>(std::ceil(2.0 * kReach / std::clamp(step, kFinest, kCoarsest))) + 1;
     const double apart = 2.0 * kReach / static_cast<double>(count - 1);
     const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(count, -kReach, kReach);
-    const Eigen::ArrayXd log_power = deviation * place - 0.5 * deviation * deviation;
+    const Eigen::ArrayXd log_power =
+        deviation * place - 0.5 * deviation * deviation + std::log(level);
     logarithm_ = log_power.cast<float>();
     inverse_ = (-log_power).exp().cast<float>();
     anywhere_ = normal_chances(place, 0.0, 1.0);
@@ -133,7 +137,7 @@ WanderingPower WanderingPower::of(const Innovations& innovations, Hertz rate,
     out.rate_ = rate.value;
     out.tau_ = std::clamp(samples, kShortestTau, longest);
     out.climb(innovations, tau ? 0.0 : longest);
-    out.settle();
+    out.settle(!tau);
     return out;
   };
   if (tau) return begun(*tau * rate.value);
@@ -144,16 +148,15 @@ WanderingPower WanderingPower::of(const Innovations& innovations, Hertz rate,
   return brief.gain() > lasting.gain() ? brief : lasting;
 }
 
-// Some runs of stretches that represent the whole.
-void WanderingPower::sample(const Innovations& innovations) {
-  constexpr Index kAll = 1 << 15;  // stretches
+// Some runs of stretches that represent the whole, so many in all.
+void WanderingPower::sample(const Innovations& innovations, Index wanted) {
   constexpr Index kRun = 1 << 11;  // stretches
   stretch_ = stretch_for(tau_);
   runs_.clear();
   double seen = 0.0;
   double all = 0.0;
   const auto replicates = static_cast<Index>(innovations.white.size());
-  const Index most = std::max<Index>(1, kAll / kRun / replicates);  // runs of a replicate
+  const Index most = std::max<Index>(1, wanted / kRun / replicates);  // runs of a replicate
   for (const Eigen::VectorXd& white : innovations.white) {
     const Index stretches = white.size() / stretch_;
     const bool whole = stretches <= most * kRun;
@@ -174,7 +177,7 @@ void WanderingPower::sample(const Innovations& innovations) {
 }
 
 double WanderingPower::objective() const {
-  const WanderGrid grid(tau_, deviation_, stretch_);
+  const WanderGrid grid(tau_, deviation_, level_, stretch_);
   const auto count = static_cast<double>(stretch_);
   std::vector<double> nats(runs_.size(), 0.0);
   for_each_index(runs_.size(), [&](std::size_t r) {
@@ -196,10 +199,13 @@ void WanderingPower::climb(const Innovations& innovations, double longest) {
     double lowest;
     double highest;
   };
-  std::vector<Number> numbers{{&deviation_, 1.6, kLeastDeviation, kMostDeviation}};
+  std::vector<Number> numbers{{&deviation_, 1.6, kLeastDeviation, kMostDeviation},
+                              {&level_, 1.1, 0.5, 2.0}};
   if (longest > 0.0) numbers.push_back({&tau_, 2.5, kShortestTau, longest});
   for (int round = 0; round < kRounds; ++round) {
-    sample(innovations);
+    constexpr Index kFew = 1 << 13;  // stretches
+    constexpr Index kMany = 1 << 16;
+    sample(innovations, 2 * round < kRounds ? kFew : kMany);
     double best = objective();
     for (Number& number : numbers) {
       for (const double factor : {number.factor, 1.0 / number.factor}) {
@@ -220,32 +226,45 @@ void WanderingPower::climb(const Innovations& innovations, double longest) {
   }
 }
 
-// Moves the deviation to the top of the parabola through the likelihoods beside it. Their curvature
-// gives its standard error; the correlation time is not known better.
-void WanderingPower::settle() {
-  constexpr double kStep = 0.05;  // of the logarithm of the deviation,
-  constexpr double kLong = 0.2;   // and of the correlation time
-  const double deviation = deviation_;
-  const double tau = tau_;
-  const auto nats_at = [&](double wider, double longer) {
-    deviation_ = deviation * std::exp(kStep * wider);
-    tau_ = tau * std::exp(kLong * longer);
+// Moves to the top of the parabola through the likelihoods around, whose curvature gives the
+// standard error of the deviation. The correlation time is not known better where it is not sought.
+void WanderingPower::settle(bool any_tau) {
+  constexpr Index kNumbers = 3;
+  const std::array<double*, kNumbers> numbers{&deviation_, &level_, &tau_};
+  const std::array<double, kNumbers> steps{0.05, 0.02, 0.2};  // of their logarithms
+  const std::array<double, kNumbers> before{deviation_, level_, tau_};
+  using Moves = Eigen::Vector<double, kNumbers>;
+  const auto nats_at = [&](const Moves& moves) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      *numbers[i] = before[i] * std::exp(steps[i] * moves(static_cast<Index>(i)));
     return objective() / share_;
   };
-  const double middle = nats_at(0.0, 0.0);
-  const double wider = nats_at(1.0, 0.0);
-  const double narrower = nats_at(-1.0, 0.0);
-  const double longer = nats_at(0.0, 1.0);
-  const double shorter = nats_at(0.0, -1.0);
-  const double bend = 2.0 * middle - wider - narrower;
-  const double bend_of_tau = 2.0 * middle - longer - shorter;
-  const double cross =
-      0.5 * (wider + narrower + longer + shorter - nats_at(1.0, 1.0) - nats_at(-1.0, -1.0)) -
-      middle;
-  const double alone = bend_of_tau > 0.0 ? bend - cross * cross / bend_of_tau : 0.0;
-  deviation_error_ = alone > 0.0 ? kStep / std::sqrt(alone) : INFINITY;
-  const double up = bend > 0.0 ? std::clamp(0.5 * (wider - narrower) / bend, -1.0, 1.0) : 0.0;
-  gain_ = nats_at(up, 0.0);
+  const double middle = nats_at(Moves::Zero());
+  Moves above;
+  Moves below;
+  for (Index i = 0; i < kNumbers; ++i) {
+    above(i) = nats_at(Moves::Unit(i));
+    below(i) = nats_at(-Moves::Unit(i));
+  }
+  Eigen::Matrix<double, kNumbers, kNumbers> bend;
+  for (Index i = 0; i < kNumbers; ++i) {
+    bend(i, i) = 2.0 * middle - above(i) - below(i);
+    for (Index j = 0; j < i; ++j) {
+      const Moves both = Moves::Unit(i) + Moves::Unit(j);
+      bend(i, j) = bend(j, i) =
+          0.5 * (above(i) + below(i) + above(j) + below(j) - nats_at(both) - nats_at(-both)) -
+          middle;
+    }
+  }
+  Moves up = Moves::Zero();
+  if (bend.llt().info() == Eigen::Success) {
+    deviation_error_ = steps[0] * std::sqrt(bend.inverse()(0, 0) / share_);
+    const Moves slope = 0.5 * (above - below);
+    const Index sought = any_tau ? kNumbers : kNumbers - 1;
+    up.head(sought) = bend.topLeftCorner(sought, sought).llt().solve(slope.head(sought));
+    up = up.cwiseMax(-1.0).cwiseMin(1.0);
+  }
+  gain_ = nats_at(up);
 }
 
 WanderingPower::Evened WanderingPower::evened(const Eigen::VectorXd& white) const {
@@ -254,7 +273,7 @@ WanderingPower::Evened WanderingPower::evened(const Eigen::VectorXd& white) cons
   constexpr double kRarest = 1e-280;  // chance that a double holds
   constexpr double kTiny = 1e-6;      // where the factor is that at 0
   constexpr float kNone = 1e-8F;      // chance that makes no difference
-  const WanderGrid grid(tau_, deviation_, stretch_);
+  const WanderGrid grid(tau_, deviation_, level_, stretch_);
   const Eigen::ArrayXd narrower = grid.inverse().cast<double>().sqrt();
   const double level = std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
   Chances chances = grid.anywhere();

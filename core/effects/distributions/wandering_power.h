@@ -39,15 +39,16 @@ class WanderingPower {
   Evened evened(const Eigen::VectorXd& white) const;
 
  private:
-  void sample(const Innovations& innovations);
+  void sample(const Innovations& innovations, Eigen::Index wanted);
   double objective() const;  // nats of what was sampled
   // `longest`: the longest correlation time (samples); 0: it is known.
   void climb(const Innovations& innovations, double longest);
-  void settle();
+  void settle(bool any_tau);
 
   double rate_ = 1.0;
   double tau_ = 1.0;  // samples
   double deviation_ = 0.5;
+  double level_ = 1.0;  // mean power, over that of the samples
   double deviation_error_ = INFINITY;
   double gain_ = 0.0;
   Eigen::Index stretch_ = 1;  // samples
