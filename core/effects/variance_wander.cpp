@@ -107,8 +107,8 @@ const Effect& variance_wander() {
       .name = "variance_wander",
       .title = "noise power that wanders",
       .meaning =
-          "The logarithm of the noise's power is a Markov process, whose course imunoise "
-          "finds in each replicate.",
+          "The logarithm of the noise's power is a Markov process, which imunoise follows in "
+          "each replicate.",
       .parameters = {{.name = "tau",
                       .meaning = "correlation time of the power",
                       .unit = "s",

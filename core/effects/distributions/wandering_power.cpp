@@ -1,6 +1,5 @@
 #include "core/effects/distributions/wandering_power.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <numeric>
 
 #include "core/support/distributions.h"
+#include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -257,11 +257,12 @@ void WanderingPower::settle(bool any_tau) {
     }
   }
   Moves up = Moves::Zero();
-  if (bend.llt().info() == Eigen::Success) {
-    deviation_error_ = steps[0] * std::sqrt(bend.inverse()(0, 0) / share_);
+  if (const PositiveInverse inverse = positive_inverse(bend);
+      std::isfinite(inverse.log_determinant)) {
+    deviation_error_ = steps[0] * std::sqrt(inverse.matrix(0, 0) / share_);
     const Moves slope = 0.5 * (above - below);
     const Index sought = any_tau ? kNumbers : kNumbers - 1;
-    up.head(sought) = bend.topLeftCorner(sought, sought).llt().solve(slope.head(sought));
+    up.head(sought) = solve_symmetric(bend.topLeftCorner(sought, sought), slope.head(sought));
     up = up.cwiseMax(-1.0).cwiseMin(1.0);
   }
   gain_ = nats_at(up);
