@@ -110,7 +110,7 @@ struct DaemonClient::Connection {
     if (done != CURLE_OK)
       return fail(
           fmt::format("{}: no answer ({}); check that imunoised runs and that you are in the group "
-                      "imunoise?",
+                      "imunoise",
                       place(), curl_easy_strerror(done)));
     long status = 0;
     curl_easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &status);

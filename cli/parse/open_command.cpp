@@ -56,6 +56,7 @@ std::vector<ParsedCommand> open_commands(CLI::App& program) {
       ->default_str("~/.local/share/imunoise/studies");
   open->add_option("--port", typed->port, "Port of 127.0.0.1 to listen on")
       ->type_name("NUMBER")
+      ->check(CLI::Range(1, 65'535))
       ->default_str("one that is free");
   open->add_flag("--no-browser", typed->no_browser, "Only print the address of the page");
   return {{open, [typed]() -> Arguments::Command { return arguments_from(*typed); }}};

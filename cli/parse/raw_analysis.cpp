@@ -1,10 +1,19 @@
 #include "cli/parse/raw_analysis.h"
 
+#include <algorithm>
+#include <array>
+
 namespace imunoise::cli {
 
 std::optional<std::filesystem::path> output_from(const std::string& option, const std::string& text,
                                                  const RawAnalysis& raw) {
   if (text.empty()) return std::nullopt;
+  const std::filesystem::path wanted(text);
+  static constexpr std::array kOtherPictures{".png", ".jpg", ".jpeg", ".pdf", ".eps", ".gif"};
+  if (std::find(kOtherPictures.begin(), kOtherPictures.end(), wanted.extension()) !=
+      kOtherPictures.end())
+    refuse(option, text + ": it writes no " + wanted.extension().string().substr(1) +
+                       "; browsers and Inkscape turn SVG and HTML into other formats");
   for (const std::string& file : raw.input.files) {
     std::error_code unknown;  // of what is not there yet
     if (std::filesystem::equivalent(file, text, unknown))

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <regex>
 #include <vector>
 
 #include "core/support/nearest_word.h"
@@ -58,6 +59,23 @@ std::string with_nearest_choice(std::string text) {
   return longer.empty() ? text : text + "; choose one of " + longer;
 }
 
+// "0.500000" as "0.5".
+std::string short_number(std::string text) {
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+// "--confidence: Value 95 not in range 0.500000 to 0.999900" in fewer words.
+std::string with_plain_range(const std::string& text) {
+  static const std::regex kRange("(.*): Value (.*) not in range (.*) to (.*)");
+  std::smatch found;
+  if (!std::regex_match(text, found, kRange)) return text;
+  return fmt::format("{}: {} is not between {} and {}", found.str(1), found.str(2),
+                     short_number(found.str(3)), short_number(found.str(4)));
+}
+
 std::string sentence(const CLI::App& program, const CLI::Error& error) {
   const CLI::App& at = *recognised(&program);
   const bool wants_command = at.get_require_subcommand_min() > 0;
@@ -66,7 +84,7 @@ std::string sentence(const CLI::App& program, const CLI::Error& error) {
     if (option) return unknown("option", word.substr(0, word.find('=')), options_of(at, program));
     if (wants_command) return unknown("command", word, commands_of(at));
   }
-  return with_nearest_choice(error.what());
+  return with_plain_range(with_nearest_choice(error.what()));
 }
 
 }  // namespace

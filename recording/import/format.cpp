@@ -64,6 +64,8 @@ Result<const ImportFormat*> detect_format(const std::filesystem::path& path) {
   const Result<std::size_t> got = file->read_at(0, bytes);
   if (!got) return tl::make_unexpected(got.error());
   const UnknownFile unknown{*file, {bytes.data(), *got}, path.extension()};
+  if (bytes[0] == '{')
+    return trouble("is JSON, no recording; results of imunoise go to imunoise export");
   for (const ImportFormat* const format : known_formats()) {
     if (format->begins != nullptr && format->begins(unknown.head)) return format;
   }

@@ -122,6 +122,8 @@ Result<PrintedFigure> parse_figure(const std::string& text, Quantity quantity) {
   const auto one = unit_value(*coefficient, unit, quantity);
   if (!one) {
     const CoefficientUnits known = coefficient_units(*coefficient, quantity);
+    if (unit.empty())
+      return fail(fmt::format("'{}' has no unit; add {} or {}", text, known.datasheet, known.si));
     return fail(fmt::format("'{}': '{}' is not a unit of {}; write {} or {}", text, unit,
                             known.symbol, known.datasheet, known.si));
   }

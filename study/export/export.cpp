@@ -229,9 +229,12 @@ void add_sensor(const SensorNoise& from, const SensorNoise& given, const Consume
 
 std::vector<std::string> origin_words(std::string_view of, const Consumer& to,
                                       const ExportSource& source) {
-  return {fmt::format("Noise of {} for {}, written by imunoise {}", of, to.title, IMUNOISE_VERSION),
-          fmt::format("source: {}{}", source.name,
-                      source.sha256.empty() ? "" : ", sha256 " + source.sha256)};
+  // A program, or a file of its own.
+  const std::string_view how = to.holding == Holding::kDensities ? "for" : "as";
+  return {
+      fmt::format("Noise of {} {} {}, written by imunoise {}", of, how, to.title, IMUNOISE_VERSION),
+      fmt::format("source: {}{}", source.name,
+                  source.sha256.empty() ? "" : ", sha256 " + source.sha256)};
 }
 
 }  // namespace
@@ -251,7 +254,10 @@ Result<ImuNoise> imu_noise(const std::vector<SourceFit>& fits) {
     axis->draws = moving_parameters(axis->noise, fit.spread());
     const bool twice = axis->axis != ' ' && !seen.emplace(unit->quantity, axis->axis).second;
     sensor->axes.push_back(std::move(*axis));
-    if (!twice && sensor->axes.size() <= 3) continue;
+    if (twice)
+      return fail(
+          fmt::format("{} is there twice; choose with --channel or --device", fit.channel()));
+    if (sensor->axes.size() <= 3) continue;
     return fail(fmt::format(
         "{} is one axis too many: an IMU has three of a kind; choose with --channel or --device",
         fit.channel()));
@@ -273,10 +279,7 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
   if (rule != AxisRule::kEach && to.holding != Holding::kDensities)
     return fail(fmt::format("{}: it has a model for each axis; omit --axis", to.title));
   Sheet out;
-  out.heading = {
-      fmt::format("Noise of an IMU for {}, written by imunoise {}", to.title, IMUNOISE_VERSION),
-      fmt::format("source: {}{}", source.name,
-                  source.sha256.empty() ? "" : ", sha256 " + source.sha256)};
+  out.heading = origin_words("an IMU", to, source);
   const std::pair<const SensorNoise*, SensorNoise*> sensors[] = {
       {&imu.gyro, &out.imu.gyro}, {&imu.accelerometer, &out.imu.accelerometer}};
   for (const auto& [from, into] : sensors) {

@@ -101,6 +101,12 @@ TEST_F(PlainFiles, WhatCannotBeIsRefusedInPlainWords) {
       {"wv a.csv --from 30 --until 10", "--from 30 is not before --until 10"},
       {"wv a.csv --channel wq", "did you mean"},
       {"export a.csv fit.json --to kalibr", "export one kind at a time"},
+      {"export fit.json fit.json --to csv", "wx is there twice"},
+      {"fit fit.json", "is JSON, no recording"},
+      {"fit a.csv --svg noise.png", "it writes no png"},
+      {"fit a.csv --confidence 95", "--confidence: 95 is not between 0.5 and 0.9999\n"},
+      {"open --port 99999", "--port: 99999 is not between 1 and 65535\n"},
+      {"datasheet a.csv --gyro N=0.3", "'N=0.3' has no unit"},
       {"export a.csv --to kf", "choose one of kf-gins, kf-json"},
       {"wv esc.csv --channel y", "\xef\xbf\xbd[31mred"}};
   for (const auto& [command, words] : cases) {
