@@ -277,6 +277,7 @@ WanderingPower::Evened WanderingPower::evened(const Eigen::VectorXd& white) cons
   const WanderGrid grid(tau_, deviation_, level_, stretch_);
   const Eigen::ArrayXd narrower = grid.inverse().cast<double>().sqrt();
   const double level = std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
+  const double median = std::sqrt(level_) * std::exp(-0.25 * deviation_ * deviation_);
   Chances chances = grid.anywhere();
   WanderGrid::Range likely = grid.whole();
   for (Index t = 0; t < white.size(); ++t) {
@@ -295,7 +296,9 @@ WanderingPower::Evened WanderingPower::evened(const Eigen::VectorXd& white) cons
         rarer += chance * normal_tail(size * narrower(j));
       }
     }
-    out.factor(t) = size < kTiny ? at_zero : -normal_quantile(std::max(rarer, kRarest)) / size;
+    const double narrowed =
+        size < kTiny ? at_zero : -normal_quantile(std::max(rarer, kRarest)) / size;
+    out.factor(t) = median * narrowed;
     out.nats += grid.see(chances, likely, size * size, 1.0);
   }
   return out;

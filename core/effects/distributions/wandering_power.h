@@ -30,9 +30,9 @@ class WanderingPower {
   double deviation_error() const { return deviation_error_; }
 
   struct Evened {
-    /// Turns each innovation of a replicate into a normal number as wide as the replicate: the
-    /// number with the same tail probability, given all earlier innovations (Rosenblatt 1952, Ann.
-    /// Math. Stat. 23:470).
+    /// Turns each innovation of a replicate into a normal number of the power in the middle, at the
+    /// mean of the logarithm: the number with the same tail probability, given all earlier
+    /// innovations (Rosenblatt 1952, Ann. Math. Stat. 23:470).
     Eigen::ArrayXd factor;
     double nats = 0.0;  ///< gained in this replicate
   };
