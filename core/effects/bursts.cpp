@@ -51,7 +51,7 @@ void simulate_bursts(const EffectTerm& term, const SimulatedReplicate& at,
 }
 
 Suggestions search_bursts(const SearchView& view) {
-  const TwoPowers powers = TwoPowers::of(view.innovations(), view.subject().rate);
+  const TwoPowers powers = TwoPowers::of(view.unmodulated(), view.subject().rate);
   const double gain = powers.gain();
   const BurstTimes times = powers.times();
   constexpr double kLeastRatio = 1.05;
@@ -65,6 +65,7 @@ Suggestions search_bursts(const SearchView& view) {
 // A few bursts may be the highest of a power that wanders.
 void review_bursts(const Current& current, TriedTerm& tried) {
   if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
+  tried.likelihood_gain = std::min(tried.likelihood_gain, tried.suggestion.score_nats);
   constexpr double kMany = 20.0;
   double seconds = 0.0;
   for (std::size_t k = 0; k < current.subject().replicates(); ++k)

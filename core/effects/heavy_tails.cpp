@@ -64,7 +64,7 @@ bool may_have_tails(const Current& current) {
 }
 
 Suggestions search_heavy_tails(const SearchView& view) {
-  const SizeCounts sizes = levelled_sizes(view.innovations().white);
+  const SizeCounts sizes = levelled_sizes(view.unmodulated().white);
   const Student best = best_student(sizes);
   const double gain = may_have_tails(view.current()) ? std::max(0.0, gain_of(sizes, best)) : 0.0;
   return {{.cause = "heavy_tails",
@@ -78,8 +78,9 @@ void review_heavy_tails(const Current& current, TriedTerm& tried) {
   const Innovations all = innovations(current.regression, current.fit);
   const SizeCounts sizes = levelled_sizes(all.white);
   const SizeCounts beside = levelled_sizes(beside_spells(all.white));
+  const double most = std::min(tried.likelihood_gain, tried.suggestion.score_nats);
   tried.likelihood_gain =
-      std::clamp(gain_of(beside, best_student(beside)), 0.0, std::max(0.0, tried.likelihood_gain));
+      std::clamp(gain_of(beside, best_student(beside)), 0.0, std::max(0.0, most));
   if (!compare_tails(sizes).rules_out_mixture()) tried.could_be.push_back("outliers");
 }
 

@@ -354,8 +354,8 @@ const Effect& power_change() {
                   .physics = "A machine ran or people worked near the bench for a while, or the "
                              "sensor itself grew noisy, or changed its range or its filter.",
                   .record_next =
-                      "nothing, if you know what happened then: keep the term; else the same "
-                      "again, with notes of what goes on nearby",
+                      "the same again, with notes of what goes on nearby; if you know what "
+                      "happened then, keep the term",
                   .looks_like = {"variance_wander", "bursts", "replicate_change"},
                   .family = "power_change"}},
       .fault = power_change_fault,

@@ -52,45 +52,44 @@ void simulate_variance_wander(const EffectTerm& term, const SimulatedReplicate& 
 }
 
 // Normal noise of one power rarely looks like it.
-bool may_wander(const PowerView& power, const Innovations& all) {
+bool may_wander(const PowerView* power, const Innovations& all) {
   constexpr double kNats = 3.0;
   constexpr double kErrors = 3.0;
   const Tails tails = tails_of(all);
-  return power.wander_gain() > kNats || tails.excess > kErrors * std::sqrt(24.0 / tails.samples);
+  return (power != nullptr && power->wander_gain() > kNats) ||
+         tails.excess > kErrors * std::sqrt(24.0 / tails.samples);
 }
 
 Suggestions search_variance_wander(const SearchView& view) {
-  const PowerView* const power = view.power();
-  if (power == nullptr) return {};
-  // A share of what it gains is what the witness that explains most leaves of it.
-  constexpr double kLeast = 1e-3;  // nats
-  double share = 1.0;
-  double most = 0.0;
-  for (const PowerView::Explained& one : view.power_explained()) {
-    if (!(one.gain > most)) continue;
-    most = one.gain;
-    share = std::clamp(one.left / std::max(kLeast, power->wander_gain()), 0.0, 1.0);
-  }
   const Subject& subject = view.subject();
-  const Innovations& all = view.innovations();
+  const Innovations& all = view.unmodulated();
+  const PowerView* const power = view.power();
+  constexpr double kPart = 0.1;  // of a replicate that is too short for a view
+  const double slow = power != nullptr ? power->correlation_time()
+                                       : kPart * subject.seconds(view.current().longest());
   WanderingPower powers;
-  if (may_wander(*power, all))
-    powers = WanderingPower::of(all, subject.rate, {}, power->correlation_time());
+  if (may_wander(power, all)) powers = WanderingPower::of(all, subject.rate, {}, slow);
   constexpr double kPlaces = 8.0;  // separate correlation times
   const double shortest = 1.0 / subject.rate.value;
   return {
       {.cause = "variance_wander",
        .added = EffectTerm(variance_wander(), "", {{"tau", std::max(shortest, powers.tau_s())}}),
-       .score_nats = std::max(0.0, share * powers.gain()),
+       .score_nats = std::max(0.0, powers.gain()),
        .power = true,
        .search = {.log_places = std::log(kPlaces)}}};
 }
 
-// The search knows what it gains beside a witness. Whatever it follows may be unrecorded.
+// Whatever it follows may be unrecorded.
 void review_variance_wander(const Current& current, TriedTerm& tried) {
   if (worsens_tails(current, tried.fitted)) tried.likelihood_gain = 0.0;
   tried.likelihood_gain = std::min(tried.likelihood_gain, tried.suggestion.score_nats);
   tried.could_be.push_back("modulated_variance");
+  // What lasts for a few samples only.
+  constexpr double kBrief = 16.0;     // samples, over which bursts are told
+  constexpr double kVeryBrief = 4.0;  // samples, over which whitening spreads each
+  const double tau = (*tried.term())[kVarianceWanderTau] * current.subject().rate.value;
+  if (tau < kBrief) tried.could_be.push_back("bursts");
+  if (tau < kVeryBrief) tried.could_be.push_back("heavy_tails");
 }
 
 std::vector<ReportedNumber> variance_wander_numbers(const FittedEffect& effect) {

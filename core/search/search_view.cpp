@@ -1,5 +1,7 @@
 #include "core/search/search_view.h"
 
+#include <algorithm>
+
 #include "core/support/parallel.h"
 
 namespace imunoise {
@@ -30,6 +32,20 @@ const std::vector<StepProducts>& SearchView::steps() const {
 const Innovations& SearchView::innovations() const {
   if (!innovations_) innovations_ = imunoise::innovations(current_.regression, current_.fit);
   return *innovations_;
+}
+
+const Innovations& SearchView::unmodulated() const {
+  if (unmodulated_) return *unmodulated_;
+  const std::vector<PowerView::Explained>& all = power_explained();
+  const auto best = std::max_element(all.begin(), all.end(),
+                                     [](const auto& a, const auto& b) { return a.gain < b.gain; });
+  constexpr double kSurely = 12.0;  // nats beside power that wanders by itself
+  if (best == all.end() || !(best->gain > kSurely)) return innovations();
+  unmodulated_ = innovations();
+  const auto number = static_cast<std::size_t>(best - all.begin());
+  const VarianceCourse course{subject().witnesses[number].samples};
+  take_out(modulation_by(course, *unmodulated_), course, *unmodulated_);
+  return *unmodulated_;
 }
 
 const PowerView* SearchView::power() const {

@@ -25,6 +25,9 @@ class SearchView {
   SlowView::Means over_time(const std::function<double(double seconds)>& function) const;
   const std::vector<StepProducts>& steps() const;
   const Innovations& innovations() const;
+  /// The same less what a witness makes of their power, if one does beyond doubt: it comes first,
+  /// and what else happens to the power is judged beside it.
+  const Innovations& unmodulated() const;
   /// Null where a replicate is too short for it.
   const PowerView* power() const;
   /// What each witness explains of the power's course, in their order; none without a power view.
@@ -35,6 +38,7 @@ class SearchView {
   mutable std::optional<SlowView> slow_;
   mutable std::optional<std::vector<StepProducts>> steps_;
   mutable std::optional<Innovations> innovations_;
+  mutable std::optional<Innovations> unmodulated_;
   mutable std::optional<std::optional<PowerView>> power_;
   mutable std::optional<std::vector<PowerView::Explained>> explained_;
 };

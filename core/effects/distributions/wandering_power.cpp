@@ -22,7 +22,7 @@ using Places = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, kMostPlac
 constexpr double kReach = 4.0;            // of the grid, standard deviations
 constexpr double kLeastDeviation = 0.01;  // deviation
 constexpr double kMostDeviation = 4.0;    // deviation
-constexpr double kShortestTau = 1.0;      // correlation time, samples
+constexpr double kShortestTau = 2.0;      // correlation time, samples
 
 // Powers at equal distances of their logarithm, over their mean, and how they follow each other
 // from one stretch to the next.
@@ -115,6 +115,28 @@ class WanderGrid {
   std::vector<Index> to_;  // from this place on
 };
 
+double mean_square(const Innovations& innovations) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (const Eigen::VectorXd& white : innovations.white) {
+    squares += white.squaredNorm();
+    count += static_cast<double>(white.size());
+  }
+  return squares / count;
+}
+
+// What a level of each replicate gains over a common one, less what as many numbers would by chance
+// (Schwarz 1978, Ann. Stat. 6:461).
+double levels_gain(const Innovations& innovations) {
+  const double all = mean_square(innovations);
+  double out = 0.0;
+  for (const Eigen::VectorXd& white : innovations.white) {
+    const auto n = static_cast<double>(white.size());
+    out -= 0.5 * n * std::log(white.squaredNorm() / n / all) + 0.5 * std::log(n);
+  }
+  return out + 0.5 * std::log(static_cast<double>(innovations.white.front().size()));
+}
+
 // The power hardly moves within a stretch if what is known of it is less sure than that.
 Index stretch_for(double tau) {
   Index out = 1;
@@ -133,12 +155,19 @@ WanderingPower WanderingPower::of(const Innovations& innovations, Hertz rate,
     longest = std::max(longest, static_cast<double>(white.size()));
   }
   const auto begun = [&](double samples) {
+    constexpr int kRounds = 5;
     WanderingPower out;
     out.rate_ = rate.value;
-    out.tau_ = std::clamp(samples, kShortestTau, longest);
-    out.climb(innovations, tau ? 0.0 : longest);
+    out.tau_ = tau ? samples : std::clamp(samples, kShortestTau, longest);
+    out.climb(innovations, 0, kRounds, tau ? 0.0 : longest);
+    WanderingPower alike = out;
     out.settle(!tau);
-    return out;
+    if (innovations.white.size() == 1) return out;
+    alike.common_ = mean_square(innovations);
+    alike.climb(innovations, kRounds - 3, kRounds, tau ? 0.0 : longest);
+    alike.settle(!tau);
+    alike.gain_ -= levels_gain(innovations);
+    return alike.gain() > out.gain() ? alike : out;
   };
   if (tau) return begun(*tau * rate.value);
   constexpr double kBrief = 5.0;  // samples
@@ -146,6 +175,10 @@ WanderingPower WanderingPower::of(const Innovations& innovations, Hertz rate,
   if (!guess || *guess * rate.value < 4.0 * kBrief) return brief;
   WanderingPower lasting = begun(*guess * rate.value);
   return brief.gain() > lasting.gain() ? brief : lasting;
+}
+
+double WanderingPower::level_in(const Eigen::VectorXd& white) const {
+  return common_ > 0.0 ? common_ : white.squaredNorm() / static_cast<double>(white.size());
 }
 
 // Some runs of stretches that represent the whole, so many in all.
@@ -162,7 +195,7 @@ void WanderingPower::sample(const Innovations& innovations, Index wanted) {
     const bool whole = stretches <= most * kRun;
     const Index count = whole ? 1 : most;
     const Index length = whole ? stretches : kRun;
-    const double mean = white.squaredNorm() / static_cast<double>(white.size());
+    const double mean = level_in(white);
     for (Index i = 0; i < count; ++i) {
       const Index first = i * (stretches / count);
       Eigen::ArrayXd squares(length);
@@ -191,8 +224,7 @@ double WanderingPower::objective() const {
 }
 
 // From one number to the next, by steps that become finer.
-void WanderingPower::climb(const Innovations& innovations, double longest) {
-  constexpr int kRounds = 5;
+void WanderingPower::climb(const Innovations& innovations, int from, int rounds, double longest) {
   struct Number {
     double* value;
     double factor;
@@ -202,10 +234,11 @@ void WanderingPower::climb(const Innovations& innovations, double longest) {
   std::vector<Number> numbers{{&deviation_, 1.6, kLeastDeviation, kMostDeviation},
                               {&level_, 1.1, 0.5, 2.0}};
   if (longest > 0.0) numbers.push_back({&tau_, 2.5, kShortestTau, longest});
-  for (int round = 0; round < kRounds; ++round) {
+  for (Number& number : numbers) number.factor = std::pow(number.factor, std::pow(0.5, from));
+  for (int round = from; round < rounds; ++round) {
     constexpr Index kFew = 1 << 13;  // stretches
     constexpr Index kMany = 1 << 16;
-    sample(innovations, 2 * round < kRounds ? kFew : kMany);
+    sample(innovations, 2 * round < rounds ? kFew : kMany);
     double best = objective();
     for (Number& number : numbers) {
       for (const double factor : {number.factor, 1.0 / number.factor}) {
@@ -276,7 +309,7 @@ WanderingPower::Evened WanderingPower::evened(const Eigen::VectorXd& white) cons
   constexpr float kNone = 1e-8F;      // chance that makes no difference
   const WanderGrid grid(tau_, deviation_, level_, stretch_);
   const Eigen::ArrayXd narrower = grid.inverse().cast<double>().sqrt();
-  const double level = std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
+  const double level = std::sqrt(level_in(white));
   const double median = std::sqrt(level_) * std::exp(-0.25 * deviation_ * deviation_);
   Chances chances = grid.anywhere();
   WanderGrid::Range likely = grid.whole();

@@ -39,11 +39,13 @@ class WanderingPower {
   Evened evened(const Eigen::VectorXd& white) const;
 
  private:
+  // `wanted`: stretches.
   void sample(const Innovations& innovations, Eigen::Index wanted);
   double objective() const;  // nats of what was sampled
   // `longest`: the longest correlation time (samples); 0: it is known.
-  void climb(const Innovations& innovations, double longest);
+  void climb(const Innovations& innovations, int from, int rounds, double longest);
   void settle(bool any_tau);
+  double level_in(const Eigen::VectorXd& white) const;
 
   double rate_ = 1.0;
   double tau_ = 1.0;  // samples
@@ -52,8 +54,9 @@ class WanderingPower {
   double deviation_error_ = INFINITY;
   double gain_ = 0.0;
   Eigen::Index stretch_ = 1;  // samples
-  // Runs of stretches that a fit looks at: sums of squares over the mean of their replicate.
-  // Whether the levels of replicates differ is another question.
+  // Mean square of all replicates; 0: of each its own, where that is likelier.
+  double common_ = 0.0;
+  // Runs of stretches that a fit looks at: sums of squares over that.
   std::vector<Eigen::ArrayXd> runs_;
   double share_ = 1.0;  // of all samples
 };

@@ -11,7 +11,9 @@ namespace {
 
 // "1.2 %", "230 %" of a relative deviation.
 std::string percent(double deviation) {
+  constexpr double kNothing = 0.001;
   const double size = 100.0 * std::abs(deviation);
+  if (size < kNothing) return fmt::format("less than {} %", kNothing);
   return size < 10.0 ? fmt::format("{:.2g} %", size) : fmt::format("{:.0f} %", size);
 }
 
