@@ -151,11 +151,9 @@ PowerView::Fit PowerView::wandering(const std::vector<Eigen::VectorXd>* course) 
 PowerView::Explained PowerView::explained(const VarianceCourse& course) const {
   const std::vector<Eigen::VectorXd> means = stretched(course);
   const double chance = fitted(chance_.noise, &means).log_likelihood;
-  const double constant = fitted(constant_.noise, &means).log_likelihood;
   const double wander = wandering(&means).log_likelihood;
   return {.gain = wander - wander_.log_likelihood,
           .alone = chance - chance_.log_likelihood,
-          .left = wander - constant,
           .steady = wander - chance < kWanders};
 }
 

@@ -23,7 +23,6 @@ class PowerView {
   struct Explained {
     double gain = 0.0;   ///< nats that it gains beside power that wanders by itself,
     double alone = 0.0;  ///< and were the power constant otherwise
-    double left = 0.0;   ///< nats that wandering power gains beside it
     bool steady = true;  ///< beside the course, the power is constant but for chance
   };
   Explained explained(const VarianceCourse& course) const;

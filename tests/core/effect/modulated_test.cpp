@@ -90,8 +90,8 @@ TEST(Modulated, AndAChangeOfPowerKeepWhatIsTheirs) {
   }
 }
 
-// A course as slow as this could be power that wanders by itself, which bursts explain, too. In
-// this Against that alone, this seed has 40 nats left.
+// A course as slow as this could be power that wanders by itself, which bursts explain, too.
+// Against that alone, this seed has 40 nats left.
 TEST(Modulated, ComesBeforeWhatExplainsLessOfASlowCourse) {
   FIGURES_ALONE();
   constexpr std::uint64_t kSeed = 36;
