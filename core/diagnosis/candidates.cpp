@@ -95,22 +95,43 @@ FittedModel fit_with(const Current& current, const Suggestion& suggestion) {
   return {std::move(regression), std::move(fit)};
 }
 
+double promised(const Suggestion& one) {
+  return -log_p_value(one.score_nats, one.dof, one.noise_dof, one.power, one.search);
+}
+
 std::vector<TriedTerm> try_all(const Current& current, const Suggestions& suggestions,
                                const Progress& progress) {
   // Terms that noise alone suggests are not worth a fit.
   constexpr double kWorthTrying = 2.0;  // nats
+  constexpr double kLittle = 5.0;       // nats
   std::vector<const Suggestion*> worth;
+  double most = 0.0;
   for (const Suggestion& one : suggestions) {
-    if (one.score_nats > kWorthTrying) worth.push_back(&one);
+    if (!(one.score_nats > kWorthTrying)) continue;
+    worth.push_back(&one);
+    most = std::max(most, promised(one));
   }
   std::vector<std::optional<TriedTerm>> tried(worth.size());
-  for_each_index(worth.size(), [&](std::size_t i) {
-    if (progress.stopped()) return;
+  const auto try_one = [&](std::size_t i) {
     Suggestion one = *worth[i];
     if (auto* term = std::get_if<EffectTerm>(&one.added))
       *term = rounded(*term, one.shape_error, current.subject().rate);
     tried[i] = tried_term(current, one);
-  });
+  };
+  // Not what others mask.
+  const auto try_from = [&](double least) {
+    for_each_index(worth.size(), [&](std::size_t i) {
+      if (!tried[i] && promised(*worth[i]) >= least && !progress.stopped()) try_one(i);
+    });
+  };
+  const auto best = [&] {
+    double out = 0.0;
+    for (const auto& one : tried) out = one ? std::max(out, one->gain) : out;
+    return out;
+  };
+  try_from(kMasked * most);
+  const double masked = kMasked * best();
+  try_from(masked > kLittle ? masked : -INFINITY);
   std::vector<TriedTerm> out;
   for (auto& one : tried) {
     if (one) out.push_back(std::move(*one));

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t kMostProofs = 8;  // candidates of a rung that may try to prove themselves
 constexpr double kStillThere = 0.5;     // of what a lead explained at the last look
-constexpr double kMasked = 0.01;        // of what was taken: less may look otherwise without that
 
 // The cause that a search names, and the witness.
 std::string found_by(const Suggestion& one) {
@@ -32,11 +31,6 @@ const Effect* effect_of(const Suggestion& one) {
 
 bool is_coupling(const Suggestion& one) { return one.coupling != MotionCoupling::kNone; }
 
-// Evidence if the fit bears the search out.
-double promised(const Suggestion& one) {
-  return -log_p_value(one.score_nats, one.dof, one.noise_dof, one.power, one.search);
-}
-
 bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
@@ -47,6 +41,13 @@ void add_unique(std::vector<const Effect*>& to, const Effect* one) {
 
 void append(Suggestions& to, Suggestions more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
+}
+
+// What a fit can hardly make enough of: it finds some times what a search promises, or a part of
+// it.
+void erase_hopeless(Suggestions& all, double least) {
+  constexpr double kHopeless = 0.1;
+  std::erase_if(all, [&](const Suggestion& one) { return promised(one) < -kHopeless * least; });
 }
 
 Eigen::Index samples_of(const Subject& subject) {
@@ -117,12 +118,13 @@ std::optional<RankedTerm> Climb::best_of(const Look& look, std::vector<TriedTerm
   return std::nullopt;
 }
 
-std::vector<TriedTerm> Climb::tried(const Look& look, const Suggestions& wanted,
-                                    const Progress& progress, bool again) const {
+std::vector<TriedTerm> Climb::tried(const Look& look, Suggestions wanted, const Progress& progress,
+                                    bool thorough) const {
+  if (!thorough) erase_hopeless(wanted, look.least(levels_));
   std::vector<TriedTerm> out = try_all(look.current, wanted, progress);
   test_placebos(out, look.current, look.least(levels_), Placebos::kSigns, progress);
-  name_shared_noise(out, look.searches, levels_.term, again ? std::vector<std::string>{} : refuted_,
-                    progress);
+  name_shared_noise(out, look.searches, levels_.term,
+                    thorough ? std::vector<std::string>{} : refuted_, progress);
   return out;
 }
 
@@ -137,8 +139,9 @@ std::optional<RankedTerm> Climb::by_beginnings(Look look, const Progress& progre
   const JointFit fit =
       joint_fit(part, current.fit.model.noise, {}, Begin::kAnywhere, current.fit.own_noise);
   const Current begun = current_of(part, fit);
-  const Suggestions all = search_all(begun, progress.part(0.0, 0.4));
+  Suggestions all = search_all(begun, progress.part(0.0, 0.4));
   look.searches = static_cast<double>(all.size());
+  erase_hopeless(all, look.least(levels_));
   const std::vector<TriedTerm> promising = try_all(begun, all, progress.part(0.4, 0.8));
   Suggestions wanted;
   std::vector<const Effect*> effects;
@@ -152,7 +155,7 @@ std::optional<RankedTerm> Climb::by_beginnings(Look look, const Progress& progre
     }
   }
   append(wanted, search_effects(current, effects, progress.part(0.8, 0.9)));
-  return best_of(look, tried(look, wanted, progress.part(0.9, 1.0)));
+  return best_of(look, tried(look, std::move(wanted), progress.part(0.9, 1.0)));
 }
 
 std::optional<RankedTerm> Climb::by_leads(Look look, const Progress& progress) {
@@ -170,7 +173,7 @@ std::optional<RankedTerm> Climb::by_leads(Look look, const Progress& progress) {
   std::erase_if(all, [&](const Suggestion& one) {
     return effect_of(one) == nullptr && lead_to(one) == nullptr;
   });
-  std::vector<TriedTerm> found = tried(look, all, progress.part(0.6, 0.9));
+  std::vector<TriedTerm> found = tried(look, std::move(all), progress.part(0.6, 0.9));
   // What explains far less than it did shows that the picture has changed.
   std::erase_if(found, [&](const TriedTerm& one) {
     const Lead* const lead = lead_to(one.suggestion);
@@ -194,7 +197,7 @@ std::optional<RankedTerm> Climb::by_everything(Look look, const Progress& progre
     const bool now = !refuted(one) && (first.size() < kFew || is_coupling(one));
     (now ? first : later).push_back(std::move(one));
   }
-  std::vector<TriedTerm> found = tried(look, first, progress.part(0.5, 0.7));
+  std::vector<TriedTerm> found = tried(look, std::move(first), progress.part(0.5, 0.7));
   leads_.clear();
   for (const TriedTerm& one : found) {
     if (one.log_p < look.least(levels_)) follow(one);

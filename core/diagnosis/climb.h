@@ -26,7 +26,7 @@ class Climb {
   /// `first`: what the first look found; its best term is taken. Of recordings of more than twice
   /// `beginning` samples, all replicates together, so many are looked at first.
   Climb(const Diagnosis& first, const FittedModel& model, double level,
-        Eigen::Index beginning = 1 << 20);
+        Eigen::Index beginning = 1 << 18);
 
   /// `heldout`: of the model, where it is known.
   NextTerm next(const FittedModel& model, const std::optional<HeldOut>& heldout = std::nullopt,
@@ -44,9 +44,9 @@ class Climb {
   std::optional<RankedTerm> by_beginnings(Look look, const Progress& progress);
   std::optional<RankedTerm> by_leads(Look look, const Progress& progress);
   std::optional<RankedTerm> by_everything(Look look, const Progress& progress);
-  /// `again`: what was refuted, too, is sought beside a coupling.
-  std::vector<TriedTerm> tried(const Look& look, const Suggestions& wanted,
-                               const Progress& progress, bool again = false) const;
+  /// `thorough`: also what promises little, and what was refuted, sought beside a coupling.
+  std::vector<TriedTerm> tried(const Look& look, Suggestions wanted, const Progress& progress,
+                               bool thorough = false) const;
   std::optional<RankedTerm> best_of(const Look& look, std::vector<TriedTerm> tried);
   const Lead* lead_to(const Suggestion& one) const;  ///< null: none
   void follow(const TriedTerm& one);

@@ -10,6 +10,7 @@
 #include "core/diagnosis/searches.h"
 #include "core/diagnosis/views/misfit.h"
 #include "core/effects/couplings.h"
+#include "core/support/parallel.h"
 
 namespace imunoise {
 namespace {
@@ -82,18 +83,26 @@ Suggestions like(const Suggestion& one, const Suggestions& sought) {
 
 SharedMotion shared_motion(const TriedTerm& noise, const std::vector<Coupling>& vibrations) {
   const Current with = current_of(noise.fitted.regression, noise.fitted.fit);
-  SharedMotion out;
-  if (vibrations.empty()) return out;
+  if (vibrations.empty()) return {};
   const Effect* const coupling = vibrations.front().tried->term()->effect;
   const Suggestions sought = search_effects(with, {&coupling, 1});
+  std::vector<SharedMotion> all;
+  std::vector<double> noise_dof;
   for (const Coupling& one : vibrations) {
-    for (const Suggestion& how : like(one.tried->suggestion, sought)) {
-      const double gain = fit_with(with, how).fit.log_likelihood - with.fit.log_likelihood;
-      const double log_p = log_p_value(gain, how.dof, one.tried->noise_dof, how.power, how.search);
-      if (log_p < out.log_p) out = {how, gain, log_p};
+    for (Suggestion& how : like(one.tried->suggestion, sought)) {
+      all.push_back({std::move(how)});
+      noise_dof.push_back(one.tried->noise_dof);
     }
   }
-  return out;
+  for_each_index(all.size(), [&](std::size_t i) {
+    const Suggestion& how = *all[i].with;
+    all[i].gain = fit_with(with, how).fit.log_likelihood - with.fit.log_likelihood;
+    all[i].log_p = log_p_value(all[i].gain, how.dof, noise_dof[i], how.power, how.search);
+  });
+  const auto best = std::min_element(
+      all.begin(), all.end(),
+      [](const SharedMotion& a, const SharedMotion& b) { return a.log_p < b.log_p; });
+  return best->log_p < 0.0 ? std::move(*best) : SharedMotion();
 }
 
 // Makes noise and a coupling one suggestion, with the evidence of both.

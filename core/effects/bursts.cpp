@@ -51,14 +51,17 @@ void simulate_bursts(const EffectTerm& term, const SimulatedReplicate& at,
 }
 
 Suggestions search_bursts(const SearchView& view) {
-  const TwoPowers powers = TwoPowers::of(view.unmodulated(), view.subject().rate);
-  const double gain = powers.gain();
+  const Innovations& all = view.unmodulated();
+  TwoPowers powers;
+  if (memory_of_power(all)) powers = TwoPowers::of(all, view.subject().rate);
   const BurstTimes times = powers.times();
   constexpr double kLeastRatio = 1.05;
+  const bool likely = powers.gain() > 0.0 && powers.ratio() > kLeastRatio &&
+                      !will_worsen_tails(all, powers.kurtosis_ratio());
   return {
       {.cause = "bursts",
        .added = EffectTerm(bursts(), "", {{"length", times.length_s}, {"every", times.every_s}}),
-       .score_nats = powers.ratio() > kLeastRatio ? std::max(0.0, gain) : 0.0,
+       .score_nats = likely ? powers.gain() : 0.0,
        .dof = 3.0}};
 }
 

@@ -147,8 +147,7 @@ Suggestions search_own_powers(const SearchView& view) {
 
 // Power that wanders slowly makes replicates differ, too.
 bool could_wander(const Current& current) {
-  const auto view =
-      PowerView::of(innovations(current.regression, current.fit), current.subject().rate);
+  const auto view = PowerView::of(innovations(current.regression, current.fit));
   return view && !view->rules_out_wander();
 }
 

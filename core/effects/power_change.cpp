@@ -299,7 +299,7 @@ void review_power_change(const Current& current, TriedTerm& tried) {
   if (events_in(current) + 1 < kMostEvents) next = next_beside(tried.fitted);
   if (next) tried.next_gain = next->nats;
   const FittedModel& all = next ? next->model : tried.fitted;
-  const auto power = PowerView::of(innovations(all.regression, all.fit), subject.rate);
+  const auto power = PowerView::of(innovations(all.regression, all.fit));
   constexpr double kSurely = 3.0;   // nats
   constexpr double kClearly = 8.0;  // nats
   if ((power && power->wander_gain() > kSurely) ||

@@ -15,6 +15,11 @@ struct Squares {
   double after = 0.0;
 };
 
+// Standard errors by which an excess kurtosis is further from 0 than one that was.
+double further_from_normal(double excess, const Tails& was) {
+  return (std::abs(excess) - std::abs(was.excess)) / std::sqrt(24.0 / was.samples);
+}
+
 }  // namespace
 
 Tails tails_of(const Innovations& innovations) {
@@ -33,7 +38,23 @@ bool worsens_tails(const Current& before, const FittedModel& after) {
   constexpr double kSurely = 4.0;  // standard errors
   const Tails was = tails_of(innovations(before.regression, before.fit));
   const Tails is = tails_of(innovations(after.regression, after.fit));
-  return std::abs(is.excess) - std::abs(was.excess) > kSurely * std::sqrt(24.0 / is.samples);
+  return further_from_normal(is.excess, was) > kSurely;
+}
+
+bool will_worsen_tails(const Innovations& before, double kurtosis_ratio) {
+  constexpr double kSurely = 8.0;  // standard errors: the fit may find something smaller
+  const Tails was = tails_of(before);
+  return further_from_normal((3.0 + was.excess) / kurtosis_ratio - 3.0, was) > kSurely;
+}
+
+std::optional<PowerMemory> memory_of_power(const Innovations& all) {
+  constexpr double kNats = 3.0;  // rarely so many by chance
+  std::optional<PowerMemory> out;
+  for (const PowerMemory& one : power_memory(all)) {
+    const bool more = one.nats > (out ? out->nats : kNats);
+    if (more && !will_worsen_tails(all, 1.0 + one.variance)) out = one;
+  }
+  return out;
 }
 
 std::shared_ptr<Subject> reshaped(

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/effects/distributions/power_memory.h"
 #include "core/regression/current.h"
 #include "core/regression/fitted_model.h"
 
@@ -36,5 +37,10 @@ Tails tails_of(const Innovations& innovations);
 /// changed without them, the spectrum of the model is wrong, and its innovations are not
 /// independent.
 bool worsens_tails(const Current& before, const FittedModel& after);
+/// Whether that is sure before a fit: the innovations' kurtosis is divided by `kurtosis_ratio`.
+bool will_worsen_tails(const Innovations& before, double kurtosis_ratio);
+/// The memory of their power that shows most, of those that will not worsen the tails if they are
+/// followed; none where chance explains it.
+std::optional<PowerMemory> memory_of_power(const Innovations& all);
 
 }  // namespace imunoise

@@ -51,30 +51,19 @@ void simulate_variance_wander(const EffectTerm& term, const SimulatedReplicate& 
   }
 }
 
-// Normal noise of one power rarely looks like it.
-bool may_wander(const PowerView* power, const Innovations& all) {
-  constexpr double kNats = 3.0;
-  constexpr double kErrors = 3.0;
-  const Tails tails = tails_of(all);
-  return (power != nullptr && power->wander_gain() > kNats) ||
-         tails.excess > kErrors * std::sqrt(24.0 / tails.samples);
-}
-
 Suggestions search_variance_wander(const SearchView& view) {
-  const Subject& subject = view.subject();
   const Innovations& all = view.unmodulated();
-  const PowerView* const power = view.power();
-  constexpr double kPart = 0.1;  // of a replicate that is too short for a view
-  const double slow = power != nullptr ? power->correlation_time()
-                                       : kPart * subject.seconds(view.current().longest());
+  const Hertz rate = view.subject().rate;
   WanderingPower powers;
-  if (may_wander(power, all)) powers = WanderingPower::of(all, subject.rate, {}, slow);
+  if (const auto memory = memory_of_power(all))
+    powers = WanderingPower::from(all, rate, memory->tau / rate.value);
+  const bool likely = powers.gain() > 0.0 && !will_worsen_tails(all, powers.kurtosis_ratio());
   constexpr double kPlaces = 8.0;  // separate correlation times
-  const double shortest = 1.0 / subject.rate.value;
+  const double shortest = 1.0 / rate.value;
   return {
       {.cause = "variance_wander",
        .added = EffectTerm(variance_wander(), "", {{"tau", std::max(shortest, powers.tau_s())}}),
-       .score_nats = std::max(0.0, powers.gain()),
+       .score_nats = likely ? powers.gain() : 0.0,
        .power = true,
        .search = {.log_places = std::log(kPlaces)}}};
 }

@@ -1,6 +1,7 @@
 // Regressions on stretches of the replicates.
 
 #include <algorithm>
+#include <map>
 
 #include "core/regression/regression.h"
 #include "core/spectrum/cosine_transform.h"
@@ -22,6 +23,20 @@ SharedVector cut(const VectorRef& x, Index begin, Index length, double& mean) {
 std::vector<SharedVector> transformed(const std::vector<SharedVector>& blocks) {
   std::vector<SharedVector> out(blocks.size());
   for_each_index(out.size(), [&](std::size_t b) { out[b] = cosine_transform(blocks[b]); });
+  return out;
+}
+
+// Places that a single piece has, and which.
+std::map<Index, std::size_t> alone(const Regressors& regressors) {
+  std::map<Index, std::size_t> out;
+  std::map<Index, int> having;
+  for (std::size_t p = 0; p < regressors.replicates.size(); ++p) {
+    for (const Index place : regressors.replicates[p].places) {
+      out[place] = p;
+      ++having[place];
+    }
+  }
+  std::erase_if(out, [&](const auto& one) { return having[one.first] > 1; });
   return out;
 }
 
@@ -53,6 +68,28 @@ Regression Regression::beginnings(Index samples) const {
   std::vector<const Witness*> witnesses;
   for (const Witness& one : subject_->witnesses) witnesses.push_back(&one);
   return of_pieces(pieces, subject_->parts, witnesses);
+}
+
+// The columns of an effect in one replicate, cut. A piece that a column does not reach has none.
+void Regression::cut_columns(std::size_t effect, std::size_t replicate,
+                             const std::vector<Piece>& pieces, Regressors& to) const {
+  constexpr double kNothing = 1e-12;
+  const Columns& columns = columns_[effect]->replicates[replicate];
+  const auto size = static_cast<Index>(columns.places.size());
+  double level = 0.0;
+  for (Index i = 0; i < size; ++i) {
+    Eigen::VectorXd samples = Eigen::VectorXd::Zero(subject_->length(replicate));
+    add_effect(effects_[effect], *subject_, replicate, columns, Eigen::VectorXd::Unit(size, i),
+               samples);
+    samples.array() -= samples.mean();
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      if (pieces[p].replicate != replicate) continue;
+      const SharedVector piece = cut(samples, pieces[p].begin, pieces[p].length, level);
+      if (!(piece.squaredNorm() > kNothing * samples.squaredNorm())) continue;
+      to.replicates[p].cosines.emplace_back(cosine_transform(piece));
+      to.replicates[p].places.push_back(columns.places[static_cast<std::size_t>(i)]);
+    }
+  }
 }
 
 Regression Regression::of_pieces(const std::vector<Piece>& pieces, std::vector<Part> parts,
@@ -92,32 +129,21 @@ Regression Regression::of_pieces(const std::vector<Piece>& pieces, std::vector<P
   if (one_replicate) {
     for (CoefficientName& name : out.names_) name.replicate = CoefficientName::kAll;
   }
+  std::vector<std::shared_ptr<Regressors>> made;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    auto made = std::make_shared<Regressors>();
-    made->replicates.resize(count);
-    for (std::size_t k = 0; k < subject_->replicates(); ++k) {
-      const Columns& columns = columns_[e]->replicates[k];
-      const auto size = static_cast<Index>(columns.places.size());
-      for (Index i = 0; i < size; ++i) {
-        Eigen::VectorXd samples = Eigen::VectorXd::Zero(subject_->length(k));
-        add_effect(effects_[e], *subject_, k, columns, Eigen::VectorXd::Unit(size, i), samples);
-        samples.array() -= samples.mean();
-        const Index place = columns.places[static_cast<std::size_t>(i)];
-        std::vector<std::size_t> felt;
-        for (std::size_t p = 0; p < count; ++p) {
-          if (pieces[p].replicate != k) continue;
-          const SharedVector piece = cut(samples, pieces[p].begin, pieces[p].length, level);
-          constexpr double kNothing = 1e-12;
-          if (!(piece.squaredNorm() > kNothing * samples.squaredNorm())) continue;
-          felt.push_back(p);
-          made->replicates[p].cosines.emplace_back(cosine_transform(piece));
-          made->replicates[p].places.push_back(place);
-        }
-        if (one_replicate && felt.size() == 1)
-          out.names_[static_cast<std::size_t>(first_[e] + place)].replicate = felt.front();
-      }
+    made.push_back(std::make_shared<Regressors>());
+    made.back()->replicates.resize(count);
+  }
+  const std::size_t replicates = subject_->replicates();
+  for_each_index(effects_.size() * replicates, [&](std::size_t i) {
+    cut_columns(i / replicates, i % replicates, pieces, *made[i / replicates]);
+  });
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (one_replicate) {
+      for (const auto& [place, piece] : alone(*made[e]))
+        out.names_[static_cast<std::size_t>(first_[e] + place)].replicate = piece;
     }
-    out.columns_.push_back(std::move(made));
+    out.columns_.push_back(std::move(made[e]));
   }
   out.fill_moments();
   return out;

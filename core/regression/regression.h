@@ -99,6 +99,8 @@ class Regression {
   // These as replicates, with the named witnesses. `parts`: where they lie.
   Regression of_pieces(const std::vector<Piece>& pieces, std::vector<Part> parts,
                        const std::vector<const Witness*>& witnesses) const;
+  void cut_columns(std::size_t effect, std::size_t replicate, const std::vector<Piece>& pieces,
+                   Regressors& to) const;
   void fill_moments();
   // Of what there are already, all but products with further columns.
   void extend_moments(std::size_t replicate);

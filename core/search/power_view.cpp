@@ -68,9 +68,8 @@ BandedPower power_of(const Eigen::VectorXd& x) {
 
 }  // namespace
 
-std::optional<PowerView> PowerView::of(const Innovations& innovations, Hertz rate) {
+std::optional<PowerView> PowerView::of(const Innovations& innovations) {
   PowerView out;
-  out.seconds_ = static_cast<double>(kPowerStretch) / rate.value;
   double squares = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < innovations.white.size(); ++i) {
@@ -158,10 +157,6 @@ PowerView::Explained PowerView::explained(const VarianceCourse& course) const {
 }
 
 double PowerView::wander_gain() const { return wander_.log_likelihood - constant_.log_likelihood; }
-
-double PowerView::correlation_time() const {
-  return -seconds_ / std::log(std::max(1e-6, markov_of(wander_.noise).phi));
-}
 
 PowerView::Spread PowerView::of_means() const {
   if (wander_.log_likelihood - chance_.log_likelihood < kWanders) return {1.0, INFINITY};

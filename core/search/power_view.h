@@ -6,7 +6,6 @@
 
 #include "core/model/model.h"
 #include "core/regression/modulation.h"
-#include "core/support/units.h"
 
 namespace imunoise {
 
@@ -16,8 +15,8 @@ namespace imunoise {
 /// that, as a walk is explained by another (Granger & Newbold 1974, J. Econometrics 2:111).
 class PowerView {
  public:
-  /// None where a replicate is too short. `rate`: of the innovations.
-  static std::optional<PowerView> of(const Innovations& innovations, Hertz rate);
+  /// None where a replicate is too short.
+  static std::optional<PowerView> of(const Innovations& innovations);
 
   /// What a course of the variance explains.
   struct Explained {
@@ -29,8 +28,6 @@ class PowerView {
 
   /// Nats that wandering power gains over constant power, which tails or outliers may disturb.
   double wander_gain() const;
-  /// Correlation time of the wandering power, s.
-  double correlation_time() const;
 
   /// How much more the mean power of replicates varies than that of constant power does, and the
   /// degrees of freedom that this is known with.
@@ -63,7 +60,6 @@ class PowerView {
   double mean_length() const;  // of a replicate, stretches
   std::vector<Eigen::VectorXd> stretched(const VarianceCourse& course) const;
 
-  double seconds_ = 0.0;  // of a stretch
   std::vector<Replicate> replicates_;
   Fit chance_;    // white, of the variance that normal noise has
   Fit constant_;  // white

@@ -49,7 +49,7 @@ const Innovations& SearchView::unmodulated() const {
 }
 
 const PowerView* SearchView::power() const {
-  if (!power_) power_.emplace(PowerView::of(innovations(), subject().rate));
+  if (!power_) power_.emplace(PowerView::of(innovations()));
   return *power_ ? &**power_ : nullptr;
 }
 

@@ -161,6 +161,14 @@ BurstTimes TwoPowers::times() const {
   return {each / change_[1], each / change_[1] + each / change_[0]};
 }
 
+double TwoPowers::kurtosis_ratio() const {
+  const double loud = change_[0] / (change_[0] + change_[1]);
+  const double mean = (1.0 - loud) * variance_[0] + loud * variance_[1];
+  const double square =
+      (1.0 - loud) * variance_[0] * variance_[0] + loud * variance_[1] * variance_[1];
+  return square / (mean * mean);
+}
+
 double TwoPowers::gain_in(std::size_t replicate) const {
   return replicates_.empty() ? 0.0 : replicates_[replicate].gain;
 }

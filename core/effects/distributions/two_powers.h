@@ -27,6 +27,8 @@ class TwoPowers {
   double gain_in(std::size_t replicate) const;
   BurstTimes times() const;
   double ratio() const { return variance_[1] / variance_[0]; }
+  /// Kurtosis of what has these powers, over that of normal numbers.
+  double kurtosis_ratio() const;
   /// The factor that turns each innovation of a replicate into a normal number of the smaller
   /// power: the number with the same tail probability, given all earlier innovations (Rosenblatt
   /// 1952, Ann. Math. Stat. 23:470). Later innovations must not count: they would make the power

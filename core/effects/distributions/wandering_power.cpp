@@ -145,35 +145,35 @@ Index stretch_for(double tau) {
 
 }  // namespace
 
-WanderingPower WanderingPower::of(const Innovations& innovations, Hertz rate,
-                                  const std::optional<double>& tau,
-                                  const std::optional<double>& guess) {
+WanderingPower WanderingPower::of(const Innovations& innovations, Hertz rate, double tau) {
+  return begun(innovations, rate, tau, false);
+}
+
+WanderingPower WanderingPower::from(const Innovations& innovations, Hertz rate, double tau) {
+  return begun(innovations, rate, tau, true);
+}
+
+WanderingPower WanderingPower::begun(const Innovations& innovations, Hertz rate, double tau,
+                                     bool any_tau) {
+  constexpr int kRounds = 5;
   double longest = 0.0;
   for (const Eigen::VectorXd& white : innovations.white) {
     if (!(white.squaredNorm() > 0.0)) return {};
     longest = std::max(longest, static_cast<double>(white.size()));
   }
-  const auto begun = [&](double samples) {
-    constexpr int kRounds = 5;
-    WanderingPower out;
-    out.rate_ = rate.value;
-    out.tau_ = tau ? samples : std::clamp(samples, kShortestTau, longest);
-    out.climb(innovations, 0, kRounds, tau ? 0.0 : longest);
-    WanderingPower alike = out;
-    out.settle(!tau);
-    if (innovations.white.size() == 1) return out;
-    alike.common_ = mean_square(innovations);
-    alike.climb(innovations, kRounds - 3, kRounds, tau ? 0.0 : longest);
-    alike.settle(!tau);
-    alike.gain_ -= levels_gain(innovations);
-    return alike.gain() > out.gain() ? alike : out;
-  };
-  if (tau) return begun(*tau * rate.value);
-  constexpr double kBrief = 5.0;  // samples
-  WanderingPower brief = begun(kBrief);
-  if (!guess || *guess * rate.value < 4.0 * kBrief) return brief;
-  WanderingPower lasting = begun(*guess * rate.value);
-  return brief.gain() > lasting.gain() ? brief : lasting;
+  const double samples = tau * rate.value;
+  WanderingPower out;
+  out.rate_ = rate.value;
+  out.tau_ = any_tau ? std::clamp(samples, kShortestTau, longest) : samples;
+  out.climb(innovations, 0, kRounds, any_tau ? longest : 0.0);
+  WanderingPower alike = out;
+  out.settle(any_tau);
+  if (innovations.white.size() == 1) return out;
+  alike.common_ = mean_square(innovations);
+  alike.climb(innovations, kRounds - 3, kRounds, any_tau ? longest : 0.0);
+  alike.settle(any_tau);
+  alike.gain_ -= levels_gain(innovations);
+  return alike.gain() > out.gain() ? alike : out;
 }
 
 double WanderingPower::level_in(const Eigen::VectorXd& white) const {

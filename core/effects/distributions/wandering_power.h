@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "core/regression/modulation.h"
@@ -15,12 +14,10 @@ namespace imunoise {
 /// over stretches so short that the power hardly moves within them.
 class WanderingPower {
  public:
-  /// The fit of most likelihood, of this correlation time (s) or of any; without gain where a
-  /// replicate is silent. `rate`: of the innovations. `guess`: a correlation time (s) to begin at,
-  /// beside a short one.
-  static WanderingPower of(const Innovations& innovations, Hertz rate,
-                           const std::optional<double>& tau = {},
-                           const std::optional<double>& guess = {});
+  /// The fit of most likelihood, of this correlation time (s), or of any, from this one on; without
+  /// gain where a replicate is silent. `rate`: of the innovations.
+  static WanderingPower of(const Innovations& innovations, Hertz rate, double tau);
+  static WanderingPower from(const Innovations& innovations, Hertz rate, double tau);
 
   double gain() const { return gain_; }  ///< nats over one power in each replicate
   double tau_s() const { return tau_ / rate_; }
@@ -28,6 +25,8 @@ class WanderingPower {
   double deviation() const { return deviation_; }
   /// and the standard error of its logarithm; infinite where the likelihood has no peak.
   double deviation_error() const { return deviation_error_; }
+  /// Kurtosis of what has this power, over that of normal numbers.
+  double kurtosis_ratio() const { return std::exp(deviation_ * deviation_); }
 
   struct Evened {
     /// Turns each innovation of a replicate into a normal number of the power in the middle, at the
@@ -39,6 +38,7 @@ class WanderingPower {
   Evened evened(const Eigen::VectorXd& white) const;
 
  private:
+  static WanderingPower begun(const Innovations& innovations, Hertz rate, double tau, bool any_tau);
   // `wanted`: stretches.
   void sample(const Innovations& innovations, Eigen::Index wanted);
   double objective() const;  // nats of what was sampled

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/candidates.h"
+#include "core/diagnosis/searches.h"
 #include "tests/core/diagnosis/subject_of.h"
 #include "tests/support/figures_alone.h"
 
@@ -126,6 +128,27 @@ TEST(Climb, TellsWhatNoCauseExplains) {
   EXPECT_FALSE(first.worth_adding);
   EXPECT_EQ(first.verdict, DiagnosisVerdict::kUnknown);
   EXPECT_EQ(Climb(first, start, kLevel).next(start).verdict, DiagnosisVerdict::kUnknown);
+}
+
+bool tries_a_step(const FittedModel& model) {
+  const Current current = current_of(model.regression, model.fit);
+  const std::vector<TriedTerm> tried = try_all(current, search_all(current));
+  return std::any_of(tried.begin(), tried.end(),
+                     [](const TriedTerm& one) { return one.cause == "step"; });
+}
+
+// A step of 25 nats beside a wave of 8,000: it is fitted once the wave is in the model.
+TEST(TryAll, LeavesWhatTheBestMasks) {
+  const auto subject =
+      subject_of({.model = "WN(sigma2=1)", .seed = 23, .added = [](std::size_t k, double s) {
+                    return wave(7.9, s) + (k == 0 && s > 80.0 ? 0.16 : 0.0);
+                  }});
+  const FittedModel start = fitted(subject, "WN");
+  EXPECT_FALSE(tries_a_step(start));
+  const Diagnosis first = diagnose(start, kLevel);
+  ASSERT_FALSE(first.effects.empty());
+  EXPECT_EQ(first.effects.front().tried.cause, "line");
+  EXPECT_TRUE(tries_a_step(first.effects.front().tried.fitted));
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST(WanderingPower, FindsItsTimeAndSize) {
     int held = 0;
     double log_tau = 0.0;
     for (std::uint64_t seed = 9300; seed < 9310; ++seed) {
-      const auto found = WanderingPower::of(wandering(tau, kDeviation, seed), kWanderRate, {}, tau);
+      const auto found =
+          WanderingPower::from(wandering(tau, kDeviation, seed), kWanderRate, 2.0 * tau);
       const double off = std::abs(std::log(found.deviation() / kDeviation));
       held += off < 1.96 * found.deviation_error() ? 1 : 0;
       log_tau += std::log(found.tau_s() / tau) / 10.0;
@@ -81,7 +82,7 @@ TEST(WanderingPower, LeavesNormalNumbersOfOnePower) {
 TEST(WanderingPower, OfASilentReplicateIsNothing) {
   Innovations noise = wandering(0.3, 1.0, 9330);
   noise.white[1].setZero();
-  const auto found = WanderingPower::of(noise, kWanderRate);
+  const auto found = WanderingPower::of(noise, kWanderRate, 0.3);
   EXPECT_EQ(found.gain(), 0.0);
   EXPECT_EQ(found.evened(noise.white[1]).factor.minCoeff(), 1.0);
 }

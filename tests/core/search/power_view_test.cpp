@@ -59,8 +59,7 @@ TEST(PowerView, AnUnrelatedCourseExplainsNothingBesideWanderingPower) {
   int alone = 0;
   int beside = 0;
   for (std::uint64_t i = 0; i < 40; ++i) {
-    const auto view =
-        PowerView::of(noise_of(courses(kSeed + 2 * i), 0.6, kSeed + 1000 + i), kPowerRate);
+    const auto view = PowerView::of(noise_of(courses(kSeed + 2 * i), 0.6, kSeed + 1000 + i));
     ASSERT_TRUE(view);
     const PowerView::Explained found = view->explained(courses(kSeed + 2 * i + 1));
     EXPECT_FALSE(found.steady);
@@ -95,8 +94,8 @@ TEST(PowerView, LevelsThatStayRuleOutAWander) {
   int wander = 0;
   for (std::uint64_t i = 0; i < 40; ++i) {
     for (const bool still : {true, false}) {
-      const auto view = PowerView::of(
-          noise_of(replicates_apart(kSeed + i, still), 0.5, kSeed + 1000 + i), kPowerRate);
+      const auto view =
+          PowerView::of(noise_of(replicates_apart(kSeed + i, still), 0.5, kSeed + 1000 + i));
       ASSERT_TRUE(view);
       (still ? stay : wander) += view->rules_out_wander() ? 1 : 0;
     }
@@ -109,7 +108,7 @@ TEST(PowerView, LevelsThatStayRuleOutAWander) {
 
 TEST(PowerView, TheCourseItselfExplainsAll) {
   const VarianceCourse course = courses(8300);
-  const auto view = PowerView::of(noise_of(course, 0.6, 8301), kPowerRate);
+  const auto view = PowerView::of(noise_of(course, 0.6, 8301));
   ASSERT_TRUE(view);
   const PowerView::Explained found = view->explained(course);
   EXPECT_TRUE(found.steady);
@@ -117,7 +116,7 @@ TEST(PowerView, TheCourseItselfExplainsAll) {
 }
 
 TEST(PowerView, OfSteadyNoiseNothingWanders) {
-  const auto view = PowerView::of(noise_of(courses(8400), 0.0, 8401), kPowerRate);
+  const auto view = PowerView::of(noise_of(courses(8400), 0.0, 8401));
   ASSERT_TRUE(view);
   EXPECT_LT(view->wander_gain(), 5.0);
   EXPECT_EQ(view->of_means().inflation, 1.0);
@@ -125,7 +124,7 @@ TEST(PowerView, OfSteadyNoiseNothingWanders) {
 
 TEST(PowerView, AReplicateThatIsTooShortGivesNone) {
   Innovations few{{0}, {Eigen::VectorXd::LinSpaced(200, -1.0, 1.0)}};
-  EXPECT_FALSE(PowerView::of(few, kPowerRate));
+  EXPECT_FALSE(PowerView::of(few));
 }
 
 // Beside an unrelated slow witness: neither that witness nor the replicates are named.
