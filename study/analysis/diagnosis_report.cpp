@@ -34,10 +34,11 @@ v1::Verdict verdict_of(DiagnosisVerdict from) {
   return v1::none;
 }
 
-std::string titles(const std::vector<std::string>& ids) {
-  std::string out;
-  for (const std::string& id : ids)
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", cause_info(id).title);
+// "tilt, sensitivity to acceleration or vibration of the bench".
+std::string either(std::string_view first, const std::vector<std::string>& others) {
+  std::string out(first);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    out += fmt::format("{}{}", i + 1 == others.size() ? " or " : ", ", cause_info(others[i]).title);
   return out;
 }
 
@@ -115,9 +116,9 @@ std::string summary_of(const Diagnosis& diagnosis, const Subject& subject) {
   if (diagnosis.verdict == DiagnosisVerdict::kFound)
     return fmt::format("Missing: {} ({}). {}", about.title, chance, about.physics);
   if (diagnosis.verdict == DiagnosisVerdict::kOneOf)
-    return fmt::format(
-        "An effect is missing: {}, or {}. These data cannot separate them. Record {}.{}",
-        about.title, titles(best.confused_with), about.record_next, beside(best, subject));
+    return fmt::format("An effect is missing: {}. These data cannot separate them. Record {}.{}",
+                       either(about.title, best.confused_with), about.record_next,
+                       beside(best, subject));
   return fmt::format(
       "Missing: {} ({}), but it does not explain everything. Add it and run the diagnosis "
       "again (--auto does this), and see where the model fails.",

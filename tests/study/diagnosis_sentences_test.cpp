@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <regex>
 #include <set>
 
 #include "core/effects/parse_full_model.h"
@@ -280,6 +281,19 @@ TEST(Ladder, ACouplingIsToldByWhatItAddsToTheSamples) {
   EXPECT_EQ(rms.unit(), "rad/s");
   EXPECT_LT(rms.lower(), kCoefficient * std::sqrt(squares));
   EXPECT_GT(rms.upper(), kCoefficient * std::sqrt(squares));
+}
+
+// Causes that the data cannot separate are a list: commas, and one "or".
+TEST(Diagnose, ListsWhatItCouldBe) {
+  DiagnoseOptions options;
+  options.model = "WN";
+  const auto recordings = three_of("WN(sigma2=1e-6) + AR1(sigma2=1e-7, phi=0.99)", 0.0, 1.0);
+  const auto report = diagnose_series(recordings, 0, options);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_EQ(report->verdict(), v1::one_of);
+  ASSERT_GT(report->candidates(0).confused_with_size(), 1);
+  const std::regex list("An effect is missing: [a-zA-Z -]+(, [a-zA-Z -]+)+ or [a-zA-Z -]+\\. .*");
+  EXPECT_TRUE(std::regex_match(report->summary(), list)) << report->summary();
 }
 
 }  // namespace
