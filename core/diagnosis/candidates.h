@@ -14,7 +14,7 @@ void best_first(std::vector<TriedTerm>& tried);
 /// Evidence if the fit bears the search out, nats.
 double promised(const Suggestion& one);
 
-/// Of what is taken. Less may look otherwise once that is in the model.
+/// A share of what is taken: less may look otherwise once that is in the model.
 inline constexpr double kMasked = 0.01;
 
 /// Every suggestion that is worth it, tried on the current model, best first. What promises less

@@ -43,8 +43,8 @@ void append(Suggestions& to, Suggestions more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
-// What a fit can hardly make enough of: it finds some times what a search promises, or a part of
-// it.
+// What a fit can hardly make enough of: it finds a part of what a search promises, or several times
+// that.
 void erase_hopeless(Suggestions& all, double least) {
   constexpr double kHopeless = 0.1;
   std::erase_if(all, [&](const Suggestion& one) { return promised(one) < -kHopeless * least; });

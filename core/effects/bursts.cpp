@@ -57,7 +57,7 @@ Suggestions search_bursts(const SearchView& view) {
   const BurstTimes times = powers.times();
   constexpr double kLeastRatio = 1.05;
   const bool likely = powers.gain() > 0.0 && powers.ratio() > kLeastRatio &&
-                      !will_worsen_tails(all, powers.kurtosis_ratio());
+                      !will_worsen_tails(tails_of(all), powers.kurtosis_ratio());
   return {
       {.cause = "bursts",
        .added = EffectTerm(bursts(), "", {{"length", times.length_s}, {"every", times.every_s}}),

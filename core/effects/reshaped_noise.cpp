@@ -41,18 +41,18 @@ bool worsens_tails(const Current& before, const FittedModel& after) {
   return further_from_normal(is.excess, was) > kSurely;
 }
 
-bool will_worsen_tails(const Innovations& before, double kurtosis_ratio) {
+bool will_worsen_tails(const Tails& before, double kurtosis_ratio) {
   constexpr double kSurely = 8.0;  // standard errors: the fit may find something smaller
-  const Tails was = tails_of(before);
-  return further_from_normal((3.0 + was.excess) / kurtosis_ratio - 3.0, was) > kSurely;
+  return further_from_normal((3.0 + before.excess) / kurtosis_ratio - 3.0, before) > kSurely;
 }
 
 std::optional<PowerMemory> memory_of_power(const Innovations& all) {
   constexpr double kNats = 3.0;  // rarely so many by chance
+  const Tails tails = tails_of(all);
   std::optional<PowerMemory> out;
   for (const PowerMemory& one : power_memory(all)) {
     const bool more = one.nats > (out ? out->nats : kNats);
-    if (more && !will_worsen_tails(all, 1.0 + one.variance)) out = one;
+    if (more && !will_worsen_tails(tails, 1.0 + one.variance)) out = one;
   }
   return out;
 }

@@ -38,7 +38,7 @@ Tails tails_of(const Innovations& innovations);
 /// independent.
 bool worsens_tails(const Current& before, const FittedModel& after);
 /// Whether that is sure before a fit: the innovations' kurtosis is divided by `kurtosis_ratio`.
-bool will_worsen_tails(const Innovations& before, double kurtosis_ratio);
+bool will_worsen_tails(const Tails& before, double kurtosis_ratio);
 /// The memory of their power that shows most, of those that will not worsen the tails if they are
 /// followed; none where chance explains it.
 std::optional<PowerMemory> memory_of_power(const Innovations& all);

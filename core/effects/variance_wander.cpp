@@ -57,7 +57,8 @@ Suggestions search_variance_wander(const SearchView& view) {
   WanderingPower powers;
   if (const auto memory = memory_of_power(all))
     powers = WanderingPower::from(all, rate, memory->tau / rate.value);
-  const bool likely = powers.gain() > 0.0 && !will_worsen_tails(all, powers.kurtosis_ratio());
+  const bool likely =
+      powers.gain() > 0.0 && !will_worsen_tails(tails_of(all), powers.kurtosis_ratio());
   constexpr double kPlaces = 8.0;  // separate correlation times
   const double shortest = 1.0 / rate.value;
   return {

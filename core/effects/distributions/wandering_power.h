@@ -14,9 +14,10 @@ namespace imunoise {
 /// over stretches so short that the power hardly moves within them.
 class WanderingPower {
  public:
-  /// The fit of most likelihood, of this correlation time (s), or of any, from this one on; without
-  /// gain where a replicate is silent. `rate`: of the innovations.
+  /// The fit of most likelihood of this correlation time (s); without gain where a replicate is
+  /// silent. `rate`: of the innovations.
   static WanderingPower of(const Innovations& innovations, Hertz rate, double tau);
+  /// The same of any correlation time; the search begins at this one.
   static WanderingPower from(const Innovations& innovations, Hertz rate, double tau);
 
   double gain() const { return gain_; }  ///< nats over one power in each replicate

@@ -5,29 +5,15 @@
 #include <cmath>
 
 #include "core/effects/distributions/wandering_power.h"
-#include "core/support/random.h"
+#include "core/effects/reshaped_noise.h"
+#include "tests/core/effect/wandering_noise.h"
 #include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
 
-// Two replicates of white noise whose log-variance is a Markov process.
 Innovations remembering(double tau, double deviation, std::uint64_t seed) {
-  constexpr Eigen::Index kSamples = 65'536;
-  RandomStream random(seed);
-  const double phi = std::exp(-1.0 / tau);
-  Innovations out;
-  for (std::size_t k = 0; k < 2; ++k) {
-    Eigen::VectorXd y(kSamples);
-    double course = random.normal();
-    for (double& x : y) {
-      x = random.normal() * std::exp(0.5 * deviation * course);
-      course = phi * course + std::sqrt(1.0 - phi * phi) * random.normal();
-    }
-    out.replicates.push_back(k);
-    out.white.push_back(std::move(y));
-  }
-  return out;
+  return wandering_noise(tau, deviation, seed, 65'536);
 }
 
 PowerMemory most_shown(const Innovations& noise) {
@@ -76,6 +62,19 @@ TEST(PowerMemory, OutliersRememberNothing) {
     white(1003) = -30.0;
   }
   EXPECT_LT(most_shown(noise).nats, 3.0);
+}
+
+// Neighbours that resemble each other, because a spectrum is wrong, have squares that do, but no
+// tails. They do not hide that the power wanders.
+TEST(PowerMemory, OfAWrongSpectrumDoesNotCount) {
+  Innovations noise = remembering(200.0, 0.1, 9480);
+  for (Eigen::VectorXd& white : noise.white) {
+    for (Eigen::Index t = 1; t < white.size(); ++t) white(t) += 0.3 * white(t - 1);
+  }
+  EXPECT_LT(most_shown(noise).tau, 10.0);
+  const auto found = memory_of_power(noise);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(std::log(found->tau / 200.0), 0.0, std::log(4.0));
 }
 
 TEST(PowerMemory, OfSilenceIsNone) {

@@ -6,8 +6,8 @@
 
 #include "core/diagnosis/candidates.h"
 #include "core/search/search_view.h"
-#include "core/support/random.h"
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/core/effect/wandering_noise.h"
 #include "tests/support/figures_alone.h"
 
 namespace imunoise {
@@ -15,24 +15,9 @@ namespace {
 
 constexpr Hertz kWanderRate{50.0};
 
-// White noise whose log-variance is a Markov process.
+// Correlation time in s.
 Innovations wandering(double tau, double deviation, std::uint64_t seed) {
-  constexpr std::size_t kReplicates = 2;
-  constexpr Eigen::Index kSamples = 16'384;
-  RandomStream random(seed);
-  const double phi = std::exp(-1.0 / (tau * kWanderRate.value));
-  Innovations out;
-  for (std::size_t k = 0; k < kReplicates; ++k) {
-    Eigen::VectorXd y(kSamples);
-    double course = random.normal();
-    for (double& x : y) {
-      x = random.normal() * std::exp(0.5 * deviation * course);
-      course = phi * course + std::sqrt(1.0 - phi * phi) * random.normal();
-    }
-    out.replicates.push_back(k);
-    out.white.push_back(std::move(y));
-  }
-  return out;
+  return wandering_noise(tau * kWanderRate.value, deviation, seed, 16'384);
 }
 
 // Of three samples to seven seconds. Of 10 intervals of 95 % at each, 7 hold the truth but for one
