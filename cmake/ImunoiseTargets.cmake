@@ -2,7 +2,8 @@
 
 find_program(IMUNOISE_CCACHE ccache)
 if(IMUNOISE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${IMUNOISE_CCACHE})
+  # It takes what a source includes from the compiler, and does not preprocess it once more.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 ${IMUNOISE_CCACHE})
 endif()
 
 add_library(imunoise_flags INTERFACE)

@@ -10,6 +10,7 @@
 #include "core/effects/known_effects.h"
 #include "core/regression/current.h"
 #include "tests/core/diagnosis/subject_of.h"
+#include "tests/support/figures_alone.h"
 
 namespace imunoise {
 namespace {
@@ -35,6 +36,7 @@ EffectTerm lagged(const Current& current) {
 
 // Of 100 intervals of 95 %, fewer than 85 hold the truth once in 27,000 times (binomial).
 TEST(UncertainShape, IntervalsHoldTheCoefficientBehindALag) {
+  FIGURES_ALONE();
   constexpr int kSets = 100;
   constexpr double kTruth = 0.4;
   const FullModel truth =
