@@ -111,7 +111,7 @@ std::optional<RankedTerm> Climb::best_of(const Look& look, std::vector<TriedTerm
     if (!(one.log_p < look.least(levels_))) continue;
     if (proofs++ == kMostProofs) break;
     RankedTerm out = ranked(std::move(one), look.searches);
-    out.heldout = held_out(out.tried.fitted);
+    hold_out(out);
     if (proven(out, look.heldout)) return out;
     refute(out.tried.suggestion);
   }

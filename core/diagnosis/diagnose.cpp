@@ -77,7 +77,7 @@ void prove(Diagnosis& out, double level, const Progress& progress) {
   for (; tried < out.effects.size() && passed < kProven && tried < kMostTried; ++tried) {
     RankedTerm& one = out.effects[tried];
     if (progress.stopped() || (tried >= kProven && !(one.familywise_p < level))) break;
-    one.heldout = held_out(one.tried.fitted);
+    hold_out(one);
     if (proven(one, out.heldout)) ++passed;
   }
   const auto end = out.effects.begin() + static_cast<std::ptrdiff_t>(tried);

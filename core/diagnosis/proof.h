@@ -18,6 +18,9 @@ struct RankedTerm {
 };
 
 RankedTerm ranked(TriedTerm tried, double searches);
+/// Holds replicates out for a term. Beside noise of changing power, a strong one is fitted anew
+/// first.
+void hold_out(RankedTerm& one);
 
 /// How the chance of a false alarm over everything that is tried is spent.
 struct Levels {

@@ -56,14 +56,32 @@ Regressors shaped(const Subject& subject, bool own, const std::vector<std::strin
 }
 
 Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
-  if (term.effect->regressors != nullptr) return term.effect->regressors(term, subject);
-  return {std::vector<Columns>(subject.replicates()), {}};
+  if (term.effect->regressors == nullptr) return {std::vector<Columns>(subject.replicates()), {}};
+  auto made = std::make_shared<const Regressors>(term.effect->regressors(term, subject));
+  return *made_even(std::move(made), subject, 0);
+}
+
+std::shared_ptr<const Regressors> made_even(std::shared_ptr<const Regressors> columns,
+                                            const Subject& subject, std::size_t known) {
+  if (known == subject.evenings.size() || columns->coefficients.empty()) return columns;
+  auto out = std::make_shared<Regressors>(*columns);
+  std::vector<std::pair<std::size_t, SharedVector*>> each;
+  for (std::size_t k = 0; k < out->replicates.size(); ++k) {
+    out->replicates[k].samples.clear();
+    for (SharedVector& one : out->replicates[k].cosines) each.emplace_back(k, &one);
+  }
+  for_each_index(each.size(), [&](std::size_t i) {
+    const auto [replicate, cosines] = each[i];
+    for (std::size_t e = known; e < subject.evenings.size(); ++e)
+      *cosines = made_even(*subject.evenings[e], replicate, *cosines);
+  });
+  return out;
 }
 
 void add_effect(const EffectTerm& term, const Subject& subject, std::size_t replicate,
                 const Columns& columns, const Eigen::VectorXd& coefficients, Eigen::VectorXd& to) {
   if (coefficients.size() == 0) return;
-  if (term.effect->add != nullptr) {
+  if (term.effect->add != nullptr && subject.evenings.empty()) {
     term.effect->add(term, subject, replicate, coefficients, to);
     return;
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,13 @@ struct Regressors {
   std::vector<CoefficientName> coefficients;
 };
 
+/// As they are beside what made the subject's power even.
 /// Precondition: the effect's witness exists and its replicate too, see check().
 Regressors regressors_of(const EffectTerm& term, const Subject& subject);
+
+/// Regressors beside the first `known` evenings of a subject, made even by the others, too.
+std::shared_ptr<const Regressors> made_even(std::shared_ptr<const Regressors> columns,
+                                            const Subject& subject, std::size_t known);
 
 /// Adds an effect to one replicate: its `columns` there as samples, up to a constant each, times
 /// coefficients, one a column.

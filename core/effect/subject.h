@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/effect/effect_term.h"
+#include "core/effect/evening.h"
 #include "core/signal/signal.h"
 #include "core/spectrum/banded_power.h"
 #include "core/support/progress.h"
@@ -75,6 +76,8 @@ struct Subject {
   /// Nats of each replicate by which its likelihood exceeds that of its samples as normal numbers,
   /// where a term changed their distribution; empty: none did.
   std::vector<double> reshaped_nats{};
+  /// What made these samples of even power, in this order; see regressors_of().
+  std::vector<std::shared_ptr<const Evening>> evenings{};
 
   std::size_t replicates() const { return samples.size(); }
   /// Samples in a replicate.

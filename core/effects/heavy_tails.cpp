@@ -33,8 +33,9 @@ std::shared_ptr<const Subject> of_normal_tails(const EffectTerm& term, const Cur
   const SizeCounts sizes = levelled_sizes(innovations(current.regression, current.fit).white);
   const Student student = student_of(sizes, term[kHeavyTailsDof]);
   const NormalFromStudent table(student);
+  const double slope = table.slope(sizes);
   return reshaped(current, [&](const Eigen::VectorXd& white, std::size_t) {
-    Reshaping out{Eigen::ArrayXd(white.size()), 0.0};
+    Reshaping out{Eigen::ArrayXd(white.size()), 0.0, slope};
     const double level = level_of(white);
     for (Eigen::Index t = 0; t < white.size(); ++t) {
       const double size = std::abs(white(t)) / level;

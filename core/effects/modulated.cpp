@@ -59,27 +59,14 @@ Suggestions search_modulated(const SearchView& view) {
   return out;
 }
 
-// A term that made something of the power without the modulation took part of it for its own. The
-// others find theirs anew, too, but keep their order only where none of them fits itself.
-void find_anew(const Current& current, TriedTerm& tried) {
-  const Regression& regression = current.regression;
-  const auto fits_itself = [](const EffectTerm& term) { return term.effect->fit_with != nullptr; };
-  if (regression.first_subject() == regression.shared_subject() ||
-      std::any_of(regression.effects().begin(), regression.effects().end(), fits_itself))
-    return;
-  FullModel start = current.fit.model;
-  start.effects.push_back(*tried.term());
-  FittedModel anew = fit_full_model(regression.first_subject(), start);
-  if (anew.fit.log_likelihood > tried.fitted.fit.log_likelihood) tried.fitted = std::move(anew);
-}
-
 // Differences between replicates are few, and another cause may make them: they are part of the
 // fit, and no evidence.
-void review_modulated(const Current& current, TriedTerm& tried) {
+void review_modulated(const Current&, TriedTerm& tried) {
   tried.against_wander = true;
   const Suggestion& found = tried.suggestion;
   constexpr double kSurely = 12.0;  // nats
-  if (std::min(tried.likelihood_gain, found.score_nats) > kSurely) find_anew(current, tried);
+  if (std::min(tried.likelihood_gain, found.score_nats) > kSurely)
+    tried.fitted = found_anew(std::move(tried.fitted));
   tried.likelihood_gain = std::min(tried.likelihood_gain, found.score_nats * found.inflation);
 }
 

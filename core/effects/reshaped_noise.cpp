@@ -20,6 +20,16 @@ double further_from_normal(double excess, const Tails& was) {
   return (std::abs(excess) - std::abs(was.excess)) / std::sqrt(24.0 / was.samples);
 }
 
+// What effects are multiplied by. Where the power hardly changes, one number loses hardly any
+// information, and columns of one octave stay within it.
+Eigen::VectorXd of_effects(const Reshaping& how) {
+  constexpr double kHardly = 0.01;  // of the information
+  const double mean = how.factor.mean();
+  const bool steady = how.factor.square().mean() < (1.0 + kHardly) * mean * mean;
+  if (how.slope || steady) return Eigen::VectorXd::Constant(1, how.slope.value_or(mean));
+  return how.factor;
+}
+
 }  // namespace
 
 Tails tails_of(const Innovations& innovations) {
@@ -65,6 +75,10 @@ std::shared_ptr<Subject> reshaped(
   out->reshaped_nats.resize(count, 0.0);
   std::vector<std::optional<Squares>> squares(count);  // where the distribution says what it gains
   const std::vector<VarianceCourse> courses = variance_courses(current.regression);
+  auto evening = std::make_shared<Evening>();
+  evening->noise = current.fit.own_noise;
+  if (evening->noise.empty()) evening->noise = {current.fit.model.noise};
+  evening->factor.resize(count);
   for_each_index(count, [&](std::size_t k) {
     const Eigen::ArrayXd deviation = current.spectrum[k].sqrt();
     const Eigen::VectorXd white =
@@ -73,16 +87,19 @@ std::shared_ptr<Subject> reshaped(
     for (std::size_t m = 0; m < courses.size(); ++m)
       take_out(current.fit.modulation[m], courses[m], k, steady);
     const Reshaping how = reshape(steady, k);
+    if ((how.factor == 1.0).all()) return;
     if (how.nats)
       squares[k] = {steady.squaredNorm(), (steady.array() * how.factor).matrix().squaredNorm()};
-    const Eigen::VectorXd even = (white.array() * how.factor).matrix();
     out->reshaped_nats[k] += how.nats.value_or(how.factor.log().sum());
-    const Eigen::ArrayXd left = cosine_transform(even).array() * deviation;
-    Eigen::VectorXd cosines =
-        (out->cosines[k].array() + left - current.cosines[k].array()).matrix();
+    evening->factor[k] = of_effects(how);
+    Eigen::VectorXd cosines = cosine_transform((white.array() * how.factor).matrix());
+    cosines.array() *= deviation;
+    if (!current.regression.coefficients().empty())
+      cosines += made_even(*evening, k, out->cosines[k] - current.cosines[k]);
     out->samples[k] = inverse_cosine_transform(cosines);
     out->cosines[k] = std::move(cosines);
   });
+  out->evenings.push_back(std::move(evening));
   // The samples as normal numbers, whose level a fit finds anew, become more likely by so much;
   // what the distribution gains counts instead.
   Squares all;

@@ -16,11 +16,14 @@ struct Reshaping {
   /// What the distribution behind it gains over the normal one; absent for normal numbers as wide
   /// as the factors say, whose likelihood needs no other word.
   std::optional<double> nats{};
+  /// Where a factor depends on its innovation alone: how much the normal number changes with the
+  /// innovation, on average. Absent: the factors are those of the noise's power.
+  std::optional<double> slope{};
 };
 
-/// The subject with the innovations of what a fit leaves multiplied by a factor each, and the nats
-/// of that in its reshaped_nats. `reshape`: of a replicate whose innovations are given; called by
-/// several threads.
+/// The subject with the innovations of what a fit leaves multiplied by a factor each, the nats of
+/// that in its reshaped_nats, and what it makes of effects in its evenings. `reshape`: of a
+/// replicate whose innovations are given; called by several threads.
 std::shared_ptr<Subject> reshaped(
     const Current& current,
     const std::function<Reshaping(const Eigen::VectorXd& white, std::size_t replicate)>& reshape);

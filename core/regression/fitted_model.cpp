@@ -84,6 +84,16 @@ FittedModel fit_with(const Current& current, const EffectTerm& term) {
   });
 }
 
+FittedModel found_anew(FittedModel model) {
+  const Regression& regression = model.regression;
+  const auto fits_itself = [](const EffectTerm& term) { return term.effect->fit_with != nullptr; };
+  if (regression.first_subject() == regression.shared_subject() ||
+      std::any_of(regression.effects().begin(), regression.effects().end(), fits_itself))
+    return model;
+  FittedModel anew = fit_full_model(regression.first_subject(), model.fit.model);
+  return anew.fit.log_likelihood > model.fit.log_likelihood ? anew : model;
+}
+
 std::vector<ReportedNumber> coefficient_numbers(const FittedEffect& effect) {
   const Regression& regression = effect.model.regression;
   const EffectCoefficients& found = effect.model.fit.effects;

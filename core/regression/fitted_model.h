@@ -22,6 +22,11 @@ FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullMod
 /// A fitted model with one term more.
 FittedModel fit_with(const Current& current, const EffectTerm& term);
 
+/// What followed the power or the distribution of the noise while the last term was not there took
+/// part of it for the noise. The model with all that found anew, where a fit says that it is more
+/// likely; as it was where terms would change their order.
+FittedModel found_anew(FittedModel model);
+
 /// An effect of a fitted model, by its number.
 struct FittedEffect {
   const FittedModel& model;

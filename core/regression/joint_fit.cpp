@@ -103,15 +103,4 @@ std::vector<VarianceCourse> variance_courses(const Regression& regression) {
   return out;
 }
 
-Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Index n) {
-  const Bands bands(n);
-  const Eigen::ArrayXd level = spectrum(noise, bands.frequency);
-  Eigen::ArrayXd out(n - 1);
-  for (Index b = 0; b < bands.size(); ++b) {
-    const Index begin = bands.edges[static_cast<std::size_t>(b)];
-    out.segment(begin, bands.edges[static_cast<std::size_t>(b) + 1] - begin).setConstant(level(b));
-  }
-  return out;
-}
-
 }  // namespace imunoise

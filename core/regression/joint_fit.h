@@ -44,8 +44,4 @@ Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit,
 /// The courses that the effects say the variance follows, in their order.
 std::vector<VarianceCourse> variance_courses(const Regression& regression);
 
-/// Spectrum of a noise model at the coefficients 1 … n-1 of a cosine transform of length n, taken
-/// as straight within each band. Unit² per cycle/sample.
-Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Eigen::Index n);
-
 }  // namespace imunoise

@@ -111,6 +111,16 @@ Regression Regression::of_pieces(const std::vector<Piece>& pieces, std::vector<P
     }
     to.cosines = transformed(to.samples);
   }
+  for (const auto& one : subject_->evenings) {
+    auto made = std::make_shared<Evening>();
+    for (const Piece& at : pieces) {
+      made->noise.push_back(one->noise_of(at.replicate));
+      const SharedVector& all = one->factor[at.replicate];
+      made->factor.push_back(
+          all.size() < 2 ? all : SharedVector(all.segment(at.begin, at.length).eval()));
+    }
+    subject->evenings.push_back(std::move(made));
+  }
   const auto shares = [&](const std::vector<double>& nats) {
     std::vector<double> out;
     for (const Piece& at : pieces) {

@@ -147,7 +147,9 @@ Regression Regression::of(const std::vector<std::size_t>& replicates) const {
 
 Regression Regression::on(std::shared_ptr<const Subject> subject) const {
   Regression out = *this;
+  const std::size_t known = subject_->evenings.size();
   out.subject_ = std::move(subject);
+  for (auto& one : out.columns_) one = made_even(std::move(one), *out.subject_, known);
   out.fill_moments();
   return out;
 }
@@ -288,7 +290,8 @@ Eigen::VectorXd Regression::residual_samples(const Eigen::VectorXd& coefficients
     Eigen::VectorXd own(static_cast<Index>(columns.places.size()));
     for (std::size_t i = 0; i < columns.places.size(); ++i)
       own(static_cast<Index>(i)) = -coefficients(first_[e] + columns.places[i]);
-    if (effects_[e].effect->add != nullptr || !columns.samples.empty()) {
+    const bool in_time = effects_[e].effect->add != nullptr && subject_->evenings.empty();
+    if (in_time || !columns.samples.empty()) {
       add_effect(effects_[e], *subject_, replicate, columns, own, out);
     } else {
       factors.segment(at, own.size()) = own;

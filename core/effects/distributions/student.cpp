@@ -108,6 +108,18 @@ NormalFromStudent::NormalFromStudent(const Student& student) {
   }
 }
 
+double NormalFromStudent::slope(const SizeCounts& sizes) const {
+  const auto normal = [&](std::size_t i) { return factor_[i] * SizeCounts::size(i); };
+  double sum = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 1; i + 1 < factor_.size(); ++i) {
+    sum += sizes.count[i] * (normal(i + 1) - normal(i - 1)) /
+           (SizeCounts::size(i + 1) - SizeCounts::size(i - 1));
+    all += sizes.count[i];
+  }
+  return sum / all;
+}
+
 double student_number(double dof, RandomStream& random) {
   // Bailey 1994, Math. Comp. 62:779: the polar method.
   for (;;) {

@@ -38,6 +38,8 @@ class NormalFromStudent {
  public:
   explicit NormalFromStudent(const Student& student);
   double factor(double size) const { return factor_[SizeCounts::place(size)]; }
+  /// How much the normal number changes with Student's, on average over numbers of these sizes.
+  double slope(const SizeCounts& sizes) const;
 
  private:
   std::array<double, SizeCounts::kSizes> factor_{};
