@@ -31,14 +31,17 @@ Regressors telegraph_regressors(const EffectTerm& term, const Subject& subject) 
   });
 }
 
-// The courses are sought under the noise of the fit, and again under that which they leave: noise
-// that took their place hides them.
-FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regression,
-                               const JointFit& fit) {
+struct Weighed {
+  FittedModel model;
+  double worth;  // log-likelihood less what the places of jumps cost
+};
+
+// The courses are sought under a noise, and again under that which they leave: noise that took
+// their place hides them.
+Weighed sought_under(JointFit under, const EffectTerm& term, const Regression& regression,
+                     const std::vector<Model>& own_noise) {
   constexpr int kRounds = 3;
-  JointFit under = fit;
-  std::optional<FittedModel> best;
-  double most = 0.0;
+  std::optional<Weighed> best;
   for (int round = 0; round < kRounds; ++round) {
     TwoLevels found = find_two_levels(step_products(current_of(regression, under)));
     auto subject = std::make_shared<Subject>(regression.subject());
@@ -48,15 +51,40 @@ FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regress
     const double price = log_places(found.courses);
     subject->keep(term, std::make_shared<FoundCourses>(std::move(found.courses)));
     Regression grown = regression.on(subject).with(term);
-    JointFit with = joint_fit(grown, under.model.noise, {}, Begin::kAnywhere, fit.own_noise);
+    JointFit with = joint_fit(grown, under.model.noise, {}, Begin::kAnywhere, own_noise);
     under = {.model = {with.model.noise, regression.effects()},
              .effects = regression.under(with.model.noise)};
     const double worth = with.log_likelihood - price;
-    if (best && worth < most + 1e-6) break;
-    most = worth;
-    best = FittedModel{std::move(grown), std::move(with)};
+    if (best && worth < best->worth + 1e-6) break;
+    best = Weighed{{std::move(grown), std::move(with)}, worth};
   }
   return std::move(*best);
+}
+
+// The fit with white noise almost alone: strong jumps make noise that walks of themselves, under
+// which only the jumps' edges show.
+JointFit almost_white(JointFit fit) {
+  constexpr double kAlmost = 1e-6;
+  for (Term& term : fit.model.noise.terms) {
+    if (std::holds_alternative<WhiteNoise>(term.process)) continue;
+    std::vector<double> all = values(term.process);
+    all.front() *= kAlmost;
+    set_values(term.process, all);
+  }
+  fit.own_noise.clear();
+  return fit;
+}
+
+FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regression,
+                               const JointFit& fit) {
+  Weighed best = sought_under(fit, term, regression, fit.own_noise);
+  const auto& noise = fit.model.noise.terms;
+  const bool white = std::any_of(noise.begin(), noise.end(), [](const Term& one) {
+    return std::holds_alternative<WhiteNoise>(one.process);
+  });
+  if (!white || noise.size() == 1) return std::move(best.model);
+  Weighed other = sought_under(almost_white(fit), term, regression, fit.own_noise);
+  return other.worth > best.worth ? std::move(other.model) : std::move(best.model);
 }
 
 void simulate_telegraph(const EffectTerm& term, const SimulatedReplicate& at,

@@ -145,6 +145,15 @@ double log_choices(double places, double chosen) {
   return std::lgamma(places + 1.0) - std::lgamma(chosen + 1.0) - std::lgamma(places - chosen + 1.0);
 }
 
+void count_places(TwoLevels& found) {
+  found.jumps = 0;
+  for (Course& one : found.courses) {
+    found.jumps += one.jumps.size();
+    one.log_places =
+        std::log(2.0) + log_choices(kGrid - 1.0, static_cast<double>(one.jumps.size()));
+  }
+}
+
 TwoLevels climb_all(const std::vector<Grid>& grids, double height, double price) {
   TwoLevels out{.courses = std::vector<Course>(grids.size()), .height = height};
   constexpr int kRounds = 8;
@@ -155,35 +164,36 @@ TwoLevels climb_all(const std::vector<Grid>& grids, double height, double price)
     if (!weigh(out, grids)) break;
     if (std::abs(out.height - before) < 1e-6 * before) break;
   }
-  for (Course& one : out.courses) {
-    out.jumps += one.jumps.size();
-    one.log_places =
-        std::log(2.0) + log_choices(kGrid - 1.0, static_cast<double>(one.jumps.size()));
-  }
+  count_places(out);
   return out;
 }
 
-// Moves every jump to its best time next to the grid's place.
+void to_samples(TwoLevels& found, const std::vector<StepProducts>& replicates) {
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    for (Index& jump : found.courses[k].jumps) jump = Grid::time_of(jump, replicates[k].size());
+  }
+}
+
+// Moves every jump to its best time within a cell of the grid.
 void refine(TwoLevels& found, const std::vector<StepProducts>& replicates) {
   constexpr Index kParts = 8;
   for_each_index(replicates.size(), [&](std::size_t k) {
     const StepProducts& steps = replicates[k];
     Course& course = found.courses[k];
-    for (Index& jump : course.jumps) jump = Grid::time_of(jump, steps.size());
     const auto worth = [&] {
       const Fit fit = fit_of(course, steps);
       return found.height * (fit.product - 0.5 * found.height * fit.information);
     };
     const Index cell = steps.size() / kGrid;
     const Index stride = std::max<Index>(1, cell / kParts);
-    for (std::size_t i = 0; i < course.jumps.size(); ++i) {
-      const Index first = std::max(course.jumps[i] - cell, i > 0 ? course.jumps[i - 1] + 1 : 1);
+    const auto shift = [&](std::size_t i, Index reach, Index by) {
+      const Index first = std::max(course.jumps[i] - reach, i > 0 ? course.jumps[i - 1] + 1 : 1);
       const Index last =
-          std::min(course.jumps[i] + cell,
+          std::min(course.jumps[i] + reach,
                    i + 1 < course.jumps.size() ? course.jumps[i + 1] - 1 : steps.size() - 1);
       Index best = course.jumps[i];
       double most = worth();
-      for (Index t = first; t <= last; t += stride) {
+      for (Index t = first; t <= last; t += by) {
         course.jumps[i] = t;
         if (const double one = worth(); one > most) {
           most = one;
@@ -191,9 +201,67 @@ void refine(TwoLevels& found, const std::vector<StepProducts>& replicates) {
         }
       }
       course.jumps[i] = best;
+    };
+    for (std::size_t i = 0; i < course.jumps.size(); ++i) {
+      shift(i, cell, stride);
+      // A jump that stands out of the noise is known to the sample.
+      for (Index by = stride; by > 1; by = (by + 1) / 2) shift(i, by, std::max<Index>(1, by / 2));
     }
   });
   weigh(found, replicates);
+}
+
+// The best flip of less than a cell within one level, from one sample to another.
+Flip best_brief(const StepProducts& steps, const Eigen::VectorXd& left, Index begin, Index end,
+                double change) {
+  const Index cell = steps.size() / kGrid;
+  Flip best;
+  for (Index length = 1; length <= cell; length += 1 + length / 4) {
+    for (Index i = begin + 1; i + length < end; ++i) {
+      const Index j = i + length;
+      const double pulse =
+          steps.information(i, i) + steps.information(j, j) - 2.0 * steps.information(i, j);
+      const double worth = change * (left(i) - left(j)) - 0.5 * change * change * pulse;
+      if (worth > best.worth) best = {i, j, worth};
+    }
+  }
+  return best;
+}
+
+// Levels far apart show dwells that are shorter than the grid: one between two jumps at a time.
+void add_brief(TwoLevels& found, const std::vector<StepProducts>& replicates) {
+  constexpr int kRounds = 4;
+  for_each_index(replicates.size(), [&](std::size_t k) {
+    const StepProducts& steps = replicates[k];
+    Course& course = found.courses[k];
+    const Index n = steps.size();
+    const double price = 2.0 * std::log(static_cast<double>(n));
+    const Index middle = n / 2;
+    const double longest =
+        2.0 * (steps.information(middle, middle) - steps.information(middle, middle + n / kGrid));
+    if (0.5 * found.height * found.height * longest < price) return;
+    for (int round = 0; round < kRounds; ++round) {
+      Eigen::VectorXd left(n + 1);
+      for (Index t = 0; t <= n; ++t) left(t) = steps.product(t);
+      double up = course.start < 0.0 ? found.height : -found.height;
+      for (const Index jump : course.jumps) {
+        for (Index t = 0; t <= n; ++t) left(t) -= up * steps.information(t, jump);
+        up = -up;
+      }
+      std::vector<Index> more;
+      double level = course.start;
+      for (std::size_t s = 0; s <= course.jumps.size(); ++s, level = -level) {
+        const Index begin = s == 0 ? 0 : course.jumps[s - 1];
+        const Index end = s == course.jumps.size() ? n : course.jumps[s];
+        const Flip flip = best_brief(steps, left, begin, end, -2.0 * level * found.height);
+        if (flip.worth > price) more.insert(more.end(), {flip.from, flip.to});
+      }
+      if (more.empty()) return;
+      course.jumps.insert(course.jumps.end(), more.begin(), more.end());
+      std::sort(course.jumps.begin(), course.jumps.end());
+    }
+  });
+  count_places(found);
 }
 
 // How many places each jump could as well have, the others where they are: the sum of likelihoods
@@ -278,7 +346,11 @@ TwoLevels find_two_levels(const std::vector<StepProducts>& replicates) {
       if (best.courses.empty() || worth(found) > worth(best)) best = std::move(found);
     }
   }
+  to_samples(best, replicates);
   refine(best, replicates);
+  const std::size_t known = best.jumps;
+  add_brief(best, replicates);
+  if (best.jumps > known) refine(best, replicates);
   widen(best, replicates);
   for (std::size_t k = 0; k < best.courses.size(); ++k)
     best.courses[k].cosines = cosine_transform(samples_of(best.courses[k], replicates[k].size()));

@@ -84,6 +84,41 @@ TEST(TwoLevels, KnownJumpsAreFoundWhereTheyAre) {
   EXPECT_NEAR(trial.fit.effects.value(0), 0.8, 4.0 * error);
 }
 
+// The walk of the model takes strong jumps for its own: only their edges are left.
+TEST(TwoLevels, StrongJumpsAreNotTheWalks) {
+  constexpr std::size_t kJumps = 20 + 20 + 21 + 20;  // one each 7 or 9 s
+  const auto often = [](std::size_t k, double s) {
+    return std::fmod(s + 3.0 * static_cast<double>(k), 16.0) < 7.0 ? 1.0 : 0.0;
+  };
+  for (const double height : {2.0, 5.0, 20.0}) {
+    const FittedModel trial = with_telegraph(fitted(subject_of(
+        {.seed = 27, .added = [&](std::size_t k, double s) { return height * often(k, s); }})));
+    std::size_t jumps = 0;
+    for (const TwoLevelCourse& one : courses_of(trial)) jumps += one.jumps.size();
+    EXPECT_EQ(jumps, kJumps) << height;
+    const double error = std::sqrt(trial.fit.effects.covariance(0, 0));
+    EXPECT_NEAR(trial.fit.effects.value(0), height, 4.0 * error) << height;
+  }
+}
+
+// Levels far apart show dwells of 0.1 s, too: a third of a place of the grid.
+TEST(TwoLevels, BriefDwellsAreFound) {
+  const auto briefly = [](std::size_t k, double s) {
+    const double at = std::fmod(s + 3.0 * static_cast<double>(k), 16.0);
+    return at < 7.0 || (at > 11.0 && at < 11.1) ? 1.0 : 0.0;
+  };
+  const FittedModel trial = with_telegraph(fitted(subject_of(
+      {.seed = 28, .added = [&](std::size_t k, double s) { return 10.0 * briefly(k, s); }})));
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::vector<Index> jumps;
+    for (Index t = 1; t < 8192; ++t) {
+      const double before = static_cast<double>(t - 1) / 50.0;
+      if (briefly(k, static_cast<double>(t) / 50.0) != briefly(k, before)) jumps.push_back(t);
+    }
+    EXPECT_EQ(courses_of(trial)[k].jumps, jumps) << k;
+  }
+}
+
 TEST(TwoLevels, NoiseHasNone) {
   for (const std::uint64_t seed : {23U, 24U, 25U}) {
     const FittedModel plain = fitted(subject_of({.seed = seed}));
