@@ -36,14 +36,24 @@ struct Weighed {
   double worth;  // log-likelihood less what the places of jumps cost
 };
 
+// Levels that stand out of white noise, and few jumps between them.
+bool stands_out(const TwoLevels& found, double white_deviation) {
+  constexpr double kStrong = 1.5;
+  constexpr double kMostJumps = 64.0;  // of a replicate, which has 512 places
+  return found.height > kStrong * white_deviation &&
+         static_cast<double>(found.jumps) < kMostJumps * static_cast<double>(found.courses.size());
+}
+
 // The courses are sought under a noise, and again under that which they leave: noise that took
-// their place hides them.
-Weighed sought_under(JointFit under, const EffectTerm& term, const Regression& regression,
-                     const std::vector<Model>& own_noise) {
+// their place hides them. With a deviation of white noise, none where they do not stand out of it.
+std::optional<Weighed> sought_under(JointFit under, const EffectTerm& term,
+                                    const Regression& regression,
+                                    const std::vector<Model>& own_noise, double white_deviation) {
   constexpr int kRounds = 3;
   std::optional<Weighed> best;
   for (int round = 0; round < kRounds; ++round) {
     TwoLevels found = find_two_levels(step_products(current_of(regression, under)));
+    if (white_deviation > 0.0 && !stands_out(found, white_deviation)) break;
     auto subject = std::make_shared<Subject>(regression.subject());
     subject->own_nats.resize(subject->replicates(), 0.0);
     for (std::size_t k = 0; k < subject->replicates(); ++k)
@@ -58,7 +68,15 @@ Weighed sought_under(JointFit under, const EffectTerm& term, const Regression& r
     if (best && worth < best->worth + 1e-6) break;
     best = Weighed{{std::move(grown), std::move(with)}, worth};
   }
-  return std::move(*best);
+  return best;
+}
+
+double white_power(const Model& noise) {
+  double out = 0.0;
+  for (const Term& term : noise.terms) {
+    if (std::holds_alternative<WhiteNoise>(term.process)) out += values(term.process).front();
+  }
+  return out;
 }
 
 // The fit with white noise almost alone: strong jumps make noise that walks of themselves, under
@@ -77,14 +95,17 @@ JointFit almost_white(JointFit fit) {
 
 FittedModel fit_with_telegraph(const EffectTerm& term, const Regression& regression,
                                const JointFit& fit) {
-  Weighed best = sought_under(fit, term, regression, fit.own_noise);
-  const auto& noise = fit.model.noise.terms;
-  const bool white = std::any_of(noise.begin(), noise.end(), [](const Term& one) {
-    return std::holds_alternative<WhiteNoise>(one.process);
-  });
-  if (!white || noise.size() == 1) return std::move(best.model);
-  Weighed other = sought_under(almost_white(fit), term, regression, fit.own_noise);
-  return other.worth > best.worth ? std::move(other.model) : std::move(best.model);
+  constexpr double kShare = 0.1;     // of the innovations' power that is white
+  constexpr double kClearly = 10.0;  // nats
+  std::optional<Weighed> best = sought_under(fit, term, regression, fit.own_noise, 0.0);
+  const Model& noise = fit.model.noise;
+  const double white = white_power(noise);
+  const double all = innovation_deviation(noise);
+  if (noise.terms.size() > 1 && white > kShare * all * all) {
+    auto other = sought_under(almost_white(fit), term, regression, fit.own_noise, std::sqrt(white));
+    if (other && other->worth > best->worth + kClearly) best = std::move(other);
+  }
+  return std::move(best->model);
 }
 
 void simulate_telegraph(const EffectTerm& term, const SimulatedReplicate& at,
@@ -100,9 +121,9 @@ void simulate_telegraph(const EffectTerm& term, const SimulatedReplicate& at,
   }
 }
 
-// With fewer jumps it is a step.
+// With one jump it is a step.
 Suggestions search_telegraph(const SearchView& view) {
-  constexpr std::size_t kFewestJumps = 3;
+  constexpr std::size_t kFewestJumps = 2;
   const EffectTerm term(telegraph());
   const auto& effects = view.current().regression.effects();
   if (std::find(effects.begin(), effects.end(), term) != effects.end()) return {};
@@ -123,6 +144,13 @@ bool levels_show(const TriedTerm& tried) {
   const EffectCoefficients& found = tried.fitted.fit.effects;
   const double explained = 0.5 * found.value(at) * found.value(at) / found.covariance(at, at);
   return kThird * explained > tried.suggestion.search.log_places;
+}
+
+// A level that is taken once, in one replicate, may be anything that comes and goes.
+bool comes_and_goes_once(const std::vector<TwoLevelCourse>& courses) {
+  std::size_t jumps = 0;
+  for (const TwoLevelCourse& one : courses) jumps += one.jumps.size();
+  return jumps <= 2;
 }
 
 bool leaves_once(const std::vector<TwoLevelCourse>& courses) {
@@ -153,7 +181,7 @@ void review_telegraph(const Current& current, TriedTerm& tried) {
   tried.suggestion.search.log_places = log_places(courses);
   // A level that is left and never taken again was no level of two.
   if (leaves_once(courses)) tried.cause = "step";
-  if (!levels_show(tried)) tried.could_be.push_back("step");
+  if (!levels_show(tried) || comes_and_goes_once(courses)) tried.could_be.push_back("step");
   // Dwells too short to be seen move the levels between the others a little.
   constexpr double kLittle = 0.05;
   constexpr double kMoreThanTwo = 0.01;

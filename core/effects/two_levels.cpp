@@ -174,16 +174,29 @@ void to_samples(TwoLevels& found, const std::vector<StepProducts>& replicates) {
   }
 }
 
+// What it is worth that one jump is at a sample, the others where they are; up to a constant.
+double worth_at(Index at, std::size_t which, const Course& course, const StepProducts& steps,
+                double height) {
+  double up = course.start < 0.0 ? 1.0 : -1.0;
+  double own = 0.0;
+  double across = 0.0;
+  for (std::size_t i = 0; i < course.jumps.size(); ++i, up = -up) {
+    if (i == which) {
+      own = up;
+    } else {
+      across += up * steps.information(at, course.jumps[i]);
+    }
+  }
+  return height *
+         (own * steps.product(at) - height * (own * across + 0.5 * steps.information(at, at)));
+}
+
 // Moves every jump to its best time within a cell of the grid.
 void refine(TwoLevels& found, const std::vector<StepProducts>& replicates) {
   constexpr Index kParts = 8;
   for_each_index(replicates.size(), [&](std::size_t k) {
     const StepProducts& steps = replicates[k];
     Course& course = found.courses[k];
-    const auto worth = [&] {
-      const Fit fit = fit_of(course, steps);
-      return found.height * (fit.product - 0.5 * found.height * fit.information);
-    };
     const Index cell = steps.size() / kGrid;
     const Index stride = std::max<Index>(1, cell / kParts);
     const auto shift = [&](std::size_t i, Index reach, Index by) {
@@ -192,10 +205,9 @@ void refine(TwoLevels& found, const std::vector<StepProducts>& replicates) {
           std::min(course.jumps[i] + reach,
                    i + 1 < course.jumps.size() ? course.jumps[i + 1] - 1 : steps.size() - 1);
       Index best = course.jumps[i];
-      double most = worth();
+      double most = worth_at(best, i, course, steps, found.height);
       for (Index t = first; t <= last; t += by) {
-        course.jumps[i] = t;
-        if (const double one = worth(); one > most) {
+        if (const double one = worth_at(t, i, course, steps, found.height); one > most) {
           most = one;
           best = t;
         }
@@ -236,9 +248,8 @@ void add_brief(TwoLevels& found, const std::vector<StepProducts>& replicates) {
     Course& course = found.courses[k];
     const Index n = steps.size();
     const double price = 2.0 * std::log(static_cast<double>(n));
-    const Index middle = n / 2;
     const double longest =
-        2.0 * (steps.information(middle, middle) - steps.information(middle, middle + n / kGrid));
+        2.0 * (steps.information(n / 2, n / 2) - steps.information(n / 2, n / 2 + n / kGrid));
     if (0.5 * found.height * found.height * longest < price) return;
     for (int round = 0; round < kRounds; ++round) {
       Eigen::VectorXd left(n + 1);
@@ -273,15 +284,10 @@ void widen(TwoLevels& found, const std::vector<StepProducts>& replicates) {
     const StepProducts& steps = replicates[k];
     Course& course = found.courses[k];
     const double cell = static_cast<double>(steps.size()) / kGrid;
-    const auto worth = [&](const Course& one) {
-      const Fit fit = fit_of(one, steps);
-      return found.height * (fit.product - 0.5 * found.height * fit.information);
-    };
-    const double best = worth(course);
     for (std::size_t i = 0; i < course.jumps.size(); ++i) {
       const Index first = i > 0 ? course.jumps[i - 1] + 1 : 1;
       const Index last = i + 1 < course.jumps.size() ? course.jumps[i + 1] - 1 : steps.size() - 1;
-      Course moved = course;
+      const double best = worth_at(course.jumps[i], i, course, steps, found.height);
       // Near its best time in steps of one sample, then in wider and wider ones.
       double sum = 1.0;
       for (const Index direction : {-1, 1}) {
@@ -290,8 +296,9 @@ void widen(TwoLevels& found, const std::vector<StepProducts>& replicates) {
         for (Index n = 0; n < kTimes && done < room; ++n) {
           const Index stride = std::min(room - done, 1 + done / 16);
           done += stride;
-          moved.jumps[i] = course.jumps[i] + direction * done;
-          sum += static_cast<double>(stride) * std::exp(std::min(0.0, worth(moved) - best));
+          const double moved =
+              worth_at(course.jumps[i] + direction * done, i, course, steps, found.height);
+          sum += static_cast<double>(stride) * std::exp(std::min(0.0, moved - best));
         }
       }
       course.log_width += std::log(sum / cell);

@@ -91,7 +91,7 @@ std::string integral_name(const std::string& unit) {
 
 // Of one view: "1.2 % off in the spectrum: ".
 std::string size_in(const v1::ErrorView& view) {
-  const std::string number = fmt::format("{:.2g}", view.value());
+  const std::string number = rough(view.value());
   if (view.view() == "averaging_times") return number + " % off in the Allan deviation: ";
   if (view.view() == "single_waves") return "A wave " + number + " dB over the noise: ";
   if (view.view() == "noise_over_time") return number + " % off in the power over time: ";
@@ -166,7 +166,7 @@ std::string consequence_of(const v1::Rung& rung, const v1::Rung& best, double sh
 }
 
 std::string best_words(double promised, bool forecast) {
-  const std::string best = forecast ? "The best model so far" : "The best model";
+  const std::string best = forecast ? "The best model so far" : "The best of these models";
   if (!(promised > 0.0)) return best + ".";
   return fmt::format("{}; what it does not explain is worth {:.0f} nats on held-out data.", best,
                      promised);
