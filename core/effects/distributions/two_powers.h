@@ -37,8 +37,9 @@ class TwoPowers {
 
  private:
   struct Replicate {
-    Eigen::ArrayXd power;  // mean squares of the stretches, over their mean
-    double mean = 1.0;
+    Eigen::ArrayXd power;  // mean squares of the stretches, in a unit
+    double unit = 1.0;
+    double level = 1.0;   // mean of its powers
     Eigen::ArrayXd loud;  // chance that the stretch has the larger power
     double likelihood = 0.0;
     double gain = 0.0;
@@ -48,10 +49,16 @@ class TwoPowers {
 
   void expect(Replicate& one) const;
   void maximise(bool times);
-  void climb(bool times);
+  enum class Levels { kOwn, kCommon };
+  bool cut(const Innovations& innovations, Eigen::Index stretch, Levels levels);
+  TwoPowers of_one_level(const Innovations& innovations, bool times) const;
+  void climb(bool times, int steps);
+  void sharpen(const Innovations& innovations, bool times);
   double likelihood() const;
+  double stretch_s() const;
 
   double rate_ = 1.0;
+  Eigen::Index stretch_ = 1;  // samples
   std::vector<Replicate> replicates_;
   double variance_[2] = {1.0, 4.0};  // the smaller, the larger
   double change_[2] = {0.01, 0.1};   // chances to leave each, a stretch

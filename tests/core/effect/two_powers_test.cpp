@@ -10,8 +10,9 @@ namespace {
 
 constexpr Eigen::Index kBurstingSamples = 1 << 18;
 
-// Noise whose power is `ratio` times as large in bursts of 64 samples, one in four of the time.
-Innovations bursting(double ratio, unsigned seed) {
+// Noise whose power is `ratio` times as large in bursts of so many samples, one in four of the
+// time. They begin and end at multiples of `grid` samples.
+Innovations bursting(double ratio, unsigned seed, double length = 64.0, Eigen::Index grid = 16) {
   Innovations out;
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -20,7 +21,8 @@ Innovations bursting(double ratio, unsigned seed) {
     Eigen::VectorXd& white = out.white.emplace_back(kBurstingSamples);
     bool loud = false;
     for (Eigen::Index t = 0; t < kBurstingSamples; ++t) {
-      if (t % 16 == 0 && uniform(random) < (loud ? 16.0 / 64.0 : 16.0 / 192.0)) loud = !loud;
+      const double chance = static_cast<double>(grid) / (loud ? length : 3.0 * length);
+      if (t % grid == 0 && uniform(random) < chance) loud = !loud;
       white(t) = normal(random) * (loud ? std::sqrt(ratio) : 1.0);
     }
     out.replicates.push_back(k);
@@ -54,6 +56,20 @@ TEST(TwoPowers, LeaveNormalNumbersOfBurstsThatAreUncertain) {
       EXPECT_NEAR(beside / n / (variance * variance), 1.0, kMany * std::sqrt(12.0 / n));
       EXPECT_NEAR(variance, 1.0, 0.05) << "the smaller power";
     }
+  }
+}
+
+// Bursts that begin and end anywhere. Half a million loud samples tell the ratio to 0.3 %; edges
+// that are known to two samples or so move it by 2 %.
+TEST(TwoPowers, HaveTheirRatioWhereverTheyBegin) {
+  for (const double length : {100.0, 200.0, 2000.0}) {
+    const TwoPowers powers = TwoPowers::of(bursting(9.0, 20261128U, length, 1), Hertz{100.0});
+    EXPECT_NEAR(powers.ratio(), 9.0, 0.03 * 9.0) << length;
+    // The standard error of a mean of so many exponential times, four times.
+    const double reach = 4.0 * std::sqrt(4.0 * length / (4.0 * kBurstingSamples));
+    EXPECT_NEAR(powers.times().length_s, length / 100.0, reach * length / 100.0) << length;
+    EXPECT_NEAR(powers.times().every_s, 4.0 * length / 100.0, reach * 4.0 * length / 100.0)
+        << length;
   }
 }
 
