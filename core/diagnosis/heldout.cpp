@@ -106,15 +106,21 @@ std::optional<HeldOut> held_out(const FittedModel& fitted) {
     for (std::size_t i = 0; i < count; ++i) {
       if (i != k) others.push_back(i);
     }
-    const JointFit fit = joint_fit(shared.of(others), fitted.fit.model.noise, {}, Begin::kNear);
+    const Regression rest = shared.of(others);
+    const JointFit fit = joint_fit(rest, fitted.fit.model.noise, {}, Begin::kNear);
     const Model& noise = fit.model.noise;
     const Regression one = all.of({k});
     out.samples[k] = all.subject().length(k);
-    const Eigen::VectorXd at = one.under(noise, fit.effects.value).value;
+    const Eigen::VectorXd at = one.under(noise, fit.effects.value, rest).value;
     // What the replicate itself gave: a coefficient costs a nat.
     const auto& own_nats = all.subject().own_nats;
     double own = own_nats.empty() ? 0.0 : own_nats[k];
-    for (const CoefficientName& name : all.coefficients()) own += name.replicate == k ? 1.0 : 0.0;
+    const auto& names = all.coefficients();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool shared_by_all = names[i].replicate == CoefficientName::kAll;
+      const bool here = names[i].replicate == k;
+      own += here || (shared_by_all && !rest.shows(static_cast<Index>(i))) ? 1.0 : 0.0;
+    }
     out.nats[k] = log_likelihood_of(one, at, noise) - own + modulation_gain(one, fit, at);
     if (!single && own_noise != effects.end())
       out.nats[k] += own_noise_gain(*own_noise, noise, fitted.fit.own_noise[k],

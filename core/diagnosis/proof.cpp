@@ -6,29 +6,19 @@
 
 namespace imunoise {
 
-namespace {
-
-// Clearly: so that effects are weighed by it.
-bool power_changes(const Subject& subject) {
-  const auto weighs = [](const std::shared_ptr<const Evening>& one) {
-    return std::any_of(one->factor.begin(), one->factor.end(),
-                       [](const SharedVector& factor) { return factor.size() > 1; });
-  };
-  return std::any_of(subject.evenings.begin(), subject.evenings.end(), weighs);
-}
-
-}  // namespace
-
 RankedTerm ranked(TriedTerm tried, double searches) {
   const double chance = std::min(1.0, searches * std::exp(tried.log_p));
   return {std::move(tried), chance, {}, {}};
 }
 
 void hold_out(RankedTerm& one) {
-  constexpr double kStrong = 30.0;  // nats: 8 standard errors, of which a tenth may be missing
+  // Nats. The coefficient of a weaker term loses less than half a standard error.
+  constexpr double kStrong = 30.0;
   TriedTerm& tried = one.tried;
-  if (tried.term() != nullptr && tried.likelihood_gain > kStrong &&
-      power_changes(tried.fitted.regression.subject()))
+  const auto& evenings = tried.fitted.regression.subject().evenings;
+  const bool weighted = std::any_of(evenings.begin(), evenings.end(),
+                                    [](const auto& evening) { return evening->weights_samples(); });
+  if (weighted && tried.term() != nullptr && tried.likelihood_gain > kStrong)
     tried.fitted = found_anew(std::move(tried.fitted));
   one.heldout = held_out(tried.fitted);
 }

@@ -18,8 +18,7 @@ struct RankedTerm {
 };
 
 RankedTerm ranked(TriedTerm tried, double searches);
-/// Holds replicates out for a term. Beside noise of changing power, a strong one is fitted anew
-/// first.
+/// Fills in `heldout`. Beside noise of changing power, a strong term gets a new fit first.
 void hold_out(RankedTerm& one);
 
 /// How the chance of a false alarm over everything that is tried is spent.

@@ -57,25 +57,22 @@ Regressors shaped(const Subject& subject, bool own, const std::vector<std::strin
 
 Regressors regressors_of(const EffectTerm& term, const Subject& subject) {
   if (term.effect->regressors == nullptr) return {std::vector<Columns>(subject.replicates()), {}};
-  auto made = std::make_shared<const Regressors>(term.effect->regressors(term, subject));
-  return *made_even(std::move(made), subject, 0);
+  return made_even(term.effect->regressors(term, subject), subject, 0);
 }
 
-std::shared_ptr<const Regressors> made_even(std::shared_ptr<const Regressors> columns,
-                                            const Subject& subject, std::size_t known) {
-  if (known == subject.evenings.size() || columns->coefficients.empty()) return columns;
-  auto out = std::make_shared<Regressors>(*columns);
+Regressors made_even(Regressors columns, const Subject& subject, std::size_t known) {
+  if (known == subject.evenings.size()) return columns;
   std::vector<std::pair<std::size_t, SharedVector*>> each;
-  for (std::size_t k = 0; k < out->replicates.size(); ++k) {
-    out->replicates[k].samples.clear();
-    for (SharedVector& one : out->replicates[k].cosines) each.emplace_back(k, &one);
+  for (std::size_t k = 0; k < columns.replicates.size(); ++k) {
+    columns.replicates[k].samples.clear();
+    for (SharedVector& one : columns.replicates[k].cosines) each.emplace_back(k, &one);
   }
   for_each_index(each.size(), [&](std::size_t i) {
     const auto [replicate, cosines] = each[i];
     for (std::size_t e = known; e < subject.evenings.size(); ++e)
       *cosines = made_even(*subject.evenings[e], replicate, *cosines);
   });
-  return out;
+  return columns;
 }
 
 void add_effect(const EffectTerm& term, const Subject& subject, std::size_t replicate,

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,8 +38,7 @@ struct Regressors {
 Regressors regressors_of(const EffectTerm& term, const Subject& subject);
 
 /// Regressors beside the first `known` evenings of a subject, made even by the others, too.
-std::shared_ptr<const Regressors> made_even(std::shared_ptr<const Regressors> columns,
-                                            const Subject& subject, std::size_t known);
+Regressors made_even(Regressors columns, const Subject& subject, std::size_t known);
 
 /// Adds an effect to one replicate: its `columns` there as samples, up to a constant each, times
 /// coefficients, one a column.

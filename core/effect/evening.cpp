@@ -1,11 +1,18 @@
 #include "core/effect/evening.h"
 
+#include <algorithm>
+
 #include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
 
 namespace imunoise {
 
 using Index = Eigen::Index;
+
+bool Evening::weights_samples() const {
+  return std::any_of(factor.begin(), factor.end(),
+                     [](const SharedVector& one) { return one.size() > 1; });
+}
 
 Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Index n) {
   const Bands bands(n);

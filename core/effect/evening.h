@@ -9,13 +9,16 @@
 
 namespace imunoise {
 
-/// How noise of changing power became even: samples are whitened, multiplied by a factor each, and
-/// coloured again. So is what is added to the noise, and a fit weighs each sample by its power.
+/// How a term made noise of changing power even: it whitens the samples, multiplies each by a
+/// factor, and colours them again. The same happens to what effects add, so that a fit weights each
+/// sample by its power.
 struct Evening {
   std::vector<Model> noise;  ///< what whitens: of each replicate, or one for all
   /// A replicate each: of each sample, a single one of all, or none where nothing changes.
   std::vector<SharedVector> factor;
 
+  /// Whether the power changes clearly in any replicate, so that samples have weights of their own.
+  bool weights_samples() const;
   const Model& noise_of(std::size_t replicate) const {
     return noise[noise.size() == 1 ? 0 : replicate];
   }

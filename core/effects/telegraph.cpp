@@ -215,7 +215,8 @@ std::vector<ReportedNumber> telegraph_numbers(const FittedEffect& effect) {
     seconds += subject.seconds(k);
   }
   out.push_back({"jumps", jumps, "1"});
-  if (!leaves_once(*courses)) out.push_back({"dwell_s", seconds / jumps, "s"});
+  if (!leaves_once(*courses) && !comes_and_goes_once(*courses))
+    out.push_back({"dwell_s", seconds / jumps, "s"});
   return out;
 }
 

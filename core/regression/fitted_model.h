@@ -22,9 +22,10 @@ FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullMod
 /// A fitted model with one term more.
 FittedModel fit_with(const Current& current, const EffectTerm& term);
 
-/// What followed the power or the distribution of the noise while the last term was not there took
-/// part of it for the noise. The model with all that found anew, where a fit says that it is more
-/// likely; as it was where terms would change their order.
+/// A term that followed the power or the distribution of the noise before an effect was in the
+/// model took part of this effect for noise. Fits all terms anew from the first samples, and
+/// returns the more likely of both fits. Returns the model as it is if it has a term that fits
+/// itself (a telegraph noise): such terms would change their order.
 FittedModel found_anew(FittedModel model);
 
 /// An effect of a fitted model, by its number.

@@ -1,5 +1,6 @@
 #include "core/regression/regression.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -149,7 +150,10 @@ Regression Regression::on(std::shared_ptr<const Subject> subject) const {
   Regression out = *this;
   const std::size_t known = subject_->evenings.size();
   out.subject_ = std::move(subject);
-  for (auto& one : out.columns_) one = made_even(std::move(one), *out.subject_, known);
+  if (out.subject_->evenings.size() > known) {
+    for (auto& one : out.columns_)
+      one = std::make_shared<const Regressors>(made_even(*one, *out.subject_, known));
+  }
   out.fill_moments();
   return out;
 }
@@ -180,23 +184,41 @@ EffectCoefficients Regression::under(const Model& noise) const {
   return {covariance * normal.moment, covariance};
 }
 
-EffectCoefficients Regression::under(const Model& noise, const Eigen::VectorXd& shared) const {
+EffectCoefficients Regression::under(const Model& noise, const Eigen::VectorXd& shared,
+                                     const Regression& others) const {
   if (names_.empty()) return {Eigen::VectorXd(0), Eigen::MatrixXd(0, 0)};
   Normal normal = normal_equations(noise);
   Eigen::VectorXd known = Eigen::VectorXd::Zero(shared.size());
+  std::vector<Index> told;
   for (Index i = 0; i < known.size(); ++i) {
-    if (names_[static_cast<std::size_t>(i)].replicate == CoefficientName::kAll)
-      known(i) = shared(i);
+    const bool by_all = names_[static_cast<std::size_t>(i)].replicate == CoefficientName::kAll;
+    if (!by_all || !others.shows(i)) continue;
+    known(i) = shared(i);
+    told.push_back(i);
   }
   normal.moment -= normal.gram * known;
-  for (Index i = 0; i < known.size(); ++i) {
-    if (names_[static_cast<std::size_t>(i)].replicate != CoefficientName::kAll) continue;
+  for (const Index i : told) {
     normal.gram.row(i).setZero();
     normal.gram.col(i).setZero();
     normal.moment(i) = 0.0;
   }
   const Eigen::MatrixXd covariance = pseudo_inverse(normal.gram).matrix;
   return {known + covariance * normal.moment, covariance};
+}
+
+bool Regression::shows(Index coefficient) const {
+  constexpr double kNothing = 1e-9;  // of what all replicates have of it
+  const auto power = [&](const Moments& at) {
+    const auto place = std::find(at.places.begin(), at.places.end(), coefficient);
+    if (place == at.places.end()) return 0.0;
+    const auto column = static_cast<Index>(place - at.places.begin()) + 1;
+    return (at.product.col(pair_of(column, column)) * at.bands.count).sum();
+  };
+  double here = 0.0;
+  for (const std::size_t k : replicates_) here += power(*moments_[k]);
+  double all = 0.0;
+  for (const auto& one : moments_) all += power(*one);
+  return here > kNothing * all;
 }
 
 std::vector<BandedPower> Regression::residual(const Eigen::VectorXd& coefficients) const {

@@ -50,8 +50,13 @@ class Regression {
 
   /// Generalised least squares under a noise model (a weighting of each band by 1/spectrum).
   EffectCoefficients under(const Model& noise) const;
-  /// The same where the coefficients that several replicates share are known.
-  EffectCoefficients under(const Model& noise, const Eigen::VectorXd& shared) const;
+  /// The same with the coefficients that `others`, further replicates, share with these: known are
+  /// those that the others show.
+  EffectCoefficients under(const Model& noise, const Eigen::VectorXd& shared,
+                           const Regression& others) const;
+  /// Whether the replicates that count show a coefficient: two levels that only one replicate
+  /// visits have a height there alone.
+  bool shows(Eigen::Index coefficient) const;
   /// Power that the coefficients leave in every replicate, as it is: for likelihoods.
   std::vector<BandedPower> residual(const Eigen::VectorXd& coefficients) const;
   /// The same with the degrees of freedom that the coefficients took away: for estimating noise.

@@ -1,4 +1,4 @@
-// Effects beside noise whose power changes: what they add is weighed by the noise's power.
+// Effects beside noise whose power changes: a fit weights samples by the noise's power.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,6 @@ namespace {
 constexpr int kSets = 12;
 const std::string kWhite = "WN(sigma2=1)";
 constexpr double kTruth = 0.1;
-constexpr double kReach = 1.959964;  // standard errors of an interval of 95 %
 
 double lively(std::size_t k, double s) {
   return wave(0.3, s + 5.0 * static_cast<double>(k)) + wave(0.05, s) + wave(2.0, s);
@@ -44,7 +43,7 @@ double error_beside(const std::string& simulated, const std::string& fitted_powe
   const EffectTerm term = model_of("WN + witness(temperature)").effects.front();
   const FittedModel both = found_anew(fit_with(current_of(even.regression, even.fit), term));
   const ReportedNumber found = fitted_numbers({both, 1}).at(0);
-  deviation = (*found.upper - *found.lower) / (2.0 * kReach);
+  deviation = (*found.upper - *found.lower) / (2.0 * interval_reach());
   return (found.value - kTruth) / deviation;
 }
 
@@ -108,7 +107,7 @@ TEST(EvenPower, TheOrderOfTermsDoesNotMatter) {
       fit_full_model(subject, model_of("WN + witness(temperature) + " + power));
   const ReportedNumber one = fitted_numbers({later, 1}).at(0);
   const ReportedNumber other = fitted_numbers({at_once, 0}).at(0);
-  const double deviation = (*one.upper - *one.lower) / (2.0 * kReach);
+  const double deviation = (*one.upper - *one.lower) / (2.0 * interval_reach());
   EXPECT_NEAR(one.value, other.value, 0.1 * deviation);
   EXPECT_NEAR(later.fit.log_likelihood, at_once.fit.log_likelihood, 1.0);
 }
@@ -128,10 +127,17 @@ TEST(EvenPower, BeginningsSayTheSame) {
   const double deviation = std::sqrt(cut.under(noise).covariance(0, 0));
   EXPECT_NEAR(made.under(noise).value(0), half, 0.05 * deviation);
   EXPECT_NEAR(half, all, 4.0 * deviation);
-  const std::vector<BandedPower> by_bands = pooled(cut.residual(cut.under(noise).value));
-  const Eigen::VectorXd left = cut.residual_cosines(cut.under(noise).value, 0);
-  EXPECT_GT(by_bands.size(), 0U);
-  EXPECT_LT(left.squaredNorm(), cut.subject().cosines[0].squaredNorm());
+  // What is left has the same power by bands, by coefficients, and by samples.
+  for (const Regression& one : {whole, cut, even.regression.with(term)}) {
+    const Eigen::VectorXd at = one.under(noise).value;
+    const BandedPower bands = one.residual(at)[0];
+    const double power = one.residual_cosines(at, 0).squaredNorm();
+    EXPECT_NEAR((bands.power * bands.count).sum(), power, 1e-9 * power);
+  }
+  const Regression grown = even.regression.with(term);
+  const Eigen::VectorXd at = grown.under(noise).value;
+  const Eigen::VectorXd cosines = cosine_transform(grown.residual_samples(at, 0));
+  EXPECT_NEAR((cosines - grown.residual_cosines(at, 0)).norm(), 0.0, 1e-9 * cosines.norm());
 }
 
 }  // namespace

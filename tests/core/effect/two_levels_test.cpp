@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "core/diagnosis/heldout.h"
 #include "core/effects/known_effects.h"
 #include "core/spectrum/cosine_transform.h"
 #include "tests/core/diagnosis/subject_of.h"
@@ -117,6 +118,26 @@ TEST(TwoLevels, BriefDwellsAreFound) {
     }
     EXPECT_EQ(courses_of(trial)[k].jumps, jumps) << k;
   }
+}
+
+// Only one replicate shows the height: that replicate tells it, and pays for it.
+TEST(TwoLevels, OneVisitIsHeldOutWithItsOwnHeight) {
+  const auto subject = subject_of({.seed = 30, .added = [](std::size_t k, double s) {
+                                     return k == 0 && s > 45.0 && s < 46.0 ? 5.0 : 0.0;
+                                   }});
+  const FittedModel plain = fitted(subject);
+  const FittedModel trial = with_telegraph(plain);
+  const double gained = held_out(trial)->nats[0] - held_out(plain)->nats[0];
+  // 0.5·5²·50 nats of the visit's samples, less the level beside it, and less its times.
+  EXPECT_GT(gained, 100.0);
+}
+
+// Under white noise almost alone, a Markov process would be hundreds of jumps.
+TEST(TwoLevels, AMarkovProcessIsNotHundredsOfJumps) {
+  const FittedModel trial = with_telegraph(
+      fitted(subject_of({.model = "WN(sigma2=1) + AR1(phi=0.9, sigma2=0.3)", .seed = 29})));
+  for (const TwoLevelCourse& one : courses_of(trial)) EXPECT_LT(one.jumps.size(), 64U);
+  EXPECT_TRUE(std::isfinite(more_levels(trial, courses_of(trial)).statistic));
 }
 
 TEST(TwoLevels, NoiseHasNone) {
