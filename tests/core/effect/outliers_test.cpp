@@ -32,35 +32,57 @@ TEST(Outliers, NoiseHasNone) {
   EXPECT_LT(gain(subject_of(made), 3.5), 3.0);
 }
 
-// 0.3 % of the samples with deviations of 5 added: half of them stand out, and together they are
-// worth what the mixture is that they were drawn from, which an observer knows.
-TEST(Outliers, ManySmallOnesAreWorthTheirMixture) {
-  constexpr double kShare = 0.003;
-  constexpr double kSize = 5.0;
+// A share of the samples with deviations added; what they are worth to an observer who knows the
+// mixture that they were drawn from.
+struct Disturbed {
+  std::shared_ptr<const Subject> subject;
+  double known = 0.0;  // nats
+};
+
+Disturbed disturbed(double share, double size, std::uint64_t seed) {
   constexpr Eigen::Index kSamples = 16'384;
-  RandomStream random(33);
-  std::vector<Eigen::VectorXd> disturbed(4, Eigen::VectorXd::Zero(kSamples));
-  for (Eigen::VectorXd& x : disturbed) {
-    for (Eigen::Index i = 0; i < std::lround(kShare * static_cast<double>(kSamples)); ++i)
-      x(static_cast<Eigen::Index>(random.engine()() % kSamples)) += kSize * random.normal();
+  RandomStream random(seed);
+  std::vector<Eigen::VectorXd> added(4, Eigen::VectorXd::Zero(kSamples));
+  for (Eigen::VectorXd& x : added) {
+    for (Eigen::Index i = 0; i < std::lround(share * static_cast<double>(kSamples)); ++i)
+      x(static_cast<Eigen::Index>(random.engine()() % kSamples)) += size * random.normal();
   }
-  MadeSubject made{.model = "WN(sigma2=1)", .samples = kSamples, .seed = 34};
+  MadeSubject made{.model = "WN(sigma2=1)", .samples = kSamples, .seed = seed + 1};
   const double rate = subject_of(made)->rate.value;
-  made.added = [&](std::size_t k, double s) { return disturbed[k](std::lround(s * rate)); };
-  const std::shared_ptr<const Subject> subject = subject_of(made);
-  const Contamination truth{kShare, std::sqrt(1.0 + kSize * kSize)};
+  made.added = [&](std::size_t k, double s) { return added[k](std::lround(s * rate)); };
+  Disturbed out{subject_of(made)};
+  const Contamination truth{share, std::sqrt(1.0 + size * size)};
   double squares = 0.0;
   double samples = 0.0;
-  double known = 0.0;
-  for (const SharedVector& x : subject->samples) {
-    for (const double z : x) known += truth.log_ratio(z) - 0.5 * z * z;
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    const SharedVector& x = out.subject->samples[k];
+    for (const double one : x) {
+      const double z = one + added[k].mean();  // subjects have the mean 0
+      out.known += truth.log_ratio(z) - 0.5 * z * z;
+    }
     squares += x.squaredNorm();
     samples += static_cast<double>(x.size());
   }
-  known += 0.5 * samples * (1.0 + std::log(squares / samples));
-  const double got = gain(subject, 4.0);
-  EXPECT_GT(got, 0.93 * known);
-  EXPECT_LT(got, known + 5.0);  // its own numbers fit better, by ½ χ²
+  out.known += 0.5 * samples * (1.0 + std::log(squares / samples));
+  return out;
+}
+
+// 0.3 % of the samples with deviations of 5 added: half of them stand out, and together they are
+// worth what the mixture is.
+TEST(Outliers, ManySmallOnesAreWorthTheirMixture) {
+  const Disturbed made = disturbed(0.003, 5.0, 33);
+  const double got = gain(made.subject, 4.0);
+  EXPECT_GT(got, 0.93 * made.known);
+  EXPECT_LT(got, made.known + 5.0);  // its own numbers fit better, by ½ χ²
+}
+
+// Strong ones make the noise look louder, and hide the weaker. They gain no less than the mixture;
+// a little more, because a rare one costs the same whatever its size.
+TEST(Outliers, StrongOnesHideNone) {
+  for (const std::uint64_t seed : {35U, 37U, 39U}) {
+    const Disturbed made = disturbed(0.003, 200.0, seed);
+    EXPECT_GT(gain(made.subject, 4.8), made.known - 15.0) << "seed " << seed;
+  }
 }
 
 TEST(Contamination, FollowsFromWhatIsBeyondAThreshold) {
