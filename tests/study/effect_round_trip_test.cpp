@@ -46,6 +46,7 @@ const std::vector<Example>& examples() {
       {"witness(heat, coefficient=0.1)"},
       {"witness(heat, lag=20, coefficient=0.1)"},
       {"witness(heat, to=0.5, coefficient=0.1)"},
+      {"witness(heat, noise=0.01, coefficient=0.1)"},
       // The noise of a fit has the mean power; what is written holds where the first replicate is.
       {"modulated(heat, log_variance_slope=0.05)", 0.0, 1.28},
       {"telegraph(height=3, dwell=30)", 0.5},            // of some 100 jumps
