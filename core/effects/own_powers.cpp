@@ -2,11 +2,13 @@
 
 #include "core/effects/own_powers.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/regression/own_ratios.h"
 #include "core/search/search_view.h"
 #include "core/search/shape_spread.h"
+#include "core/support/distributions.h"
 #include "core/support/parallel.h"
 
 namespace imunoise::effects {
@@ -14,6 +16,8 @@ namespace imunoise::effects {
 const Effect& own_powers();
 
 namespace {
+
+using Index = Eigen::Index;
 
 enum OwnPowersParameter : std::size_t { kOwnPowersSpread, kOwnPowersShapes };
 
@@ -151,9 +155,43 @@ bool could_wander(const Current& current) {
   return view && !view->rules_out_wander();
 }
 
+// The logarithm of each replicate's power is a straight line over the means of a witness, but for
+// what chance leaves: with two replicates it always is.
+bool follows_means(const Innovations& innovations, const Witness& channel) {
+  const auto count = static_cast<Index>(innovations.white.size());
+  if (count < 3 || channel.levels.empty()) return false;
+  Eigen::ArrayXd power(count);   // logarithms
+  Eigen::ArrayXd weight(count);  // 1/variance
+  Eigen::ArrayXd level(count);
+  for (Index i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto samples = static_cast<double>(innovations.white[at].size());
+    power(i) = std::log(innovations.white[at].squaredNorm() / samples);
+    weight(i) = 0.5 * samples;
+    level(i) = channel.levels[innovations.replicates[at]];
+  }
+  level -= (weight * level).sum() / weight.sum();
+  power -= (weight * power).sum() / weight.sum();
+  const double square = (weight * level.square()).sum();
+  if (!(square > 0.0)) return false;
+  const double slope = (weight * level * power).sum() / square;
+  const double left = (weight * (power - slope * level).square()).sum();
+  constexpr double kChance = 0.01;
+  return chi_square_tail(left, static_cast<double>(count - 2)) > kChance;
+}
+
+bool could_follow(const Current& current) {
+  const Innovations all = innovations(current.regression, current.fit);
+  const std::vector<Witness>& channels = current.subject().witnesses;
+  return std::any_of(channels.begin(), channels.end(),
+                     [&](const Witness& one) { return follows_means(all, one); });
+}
+
 // Slow: of the noise that each replicate has of its own, white noise alone explains less than half.
 void review_own_powers(const Current& current, TriedTerm& tried) {
   if (could_wander(current)) tried.could_be.push_back("variance_wander");
+  if (!with_shapes(*tried.term()) && could_follow(current))
+    tried.could_be.push_back("modulated_variance");
   const Regression& regression = tried.fitted.regression;
   const Model& noise = current.fit.model.noise;
   Model held = noise;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -43,6 +44,36 @@ const TriedTerm& best(const Diagnosis& diagnosis) { return diagnosis.effects.at(
 std::string added(const TriedTerm& tried) {
   if (tried.term() != nullptr) return print(*tried.term());
   return std::string(info(std::get<NoiseChange>(tried.suggestion.added).added).name);
+}
+
+// Powers of four replicates whose temperature is `kelvin`, on a straight line or not.
+Diagnosis of_powers(const std::vector<double>& logarithms, const std::vector<double>& kelvin) {
+  const Model white = *parse_model("WN(sigma2=1)", Hertz{50.0});
+  std::vector<std::vector<double>> noise;
+  for (std::uint32_t k = 0; k < 4; ++k) noise.push_back(simulate(white, 8192, 57, k));
+  return diagnose(fitted(subject_of(
+      {.model = "RW(gamma2=1e-5)",
+       .seed = 58,
+       .added =
+           [&](std::size_t k, double s) {
+             return std::exp(0.5 * logarithms[k]) *
+                    noise[k][static_cast<std::size_t>(std::lround(s * 50.0))];
+           },
+       .temperature = [&](std::size_t k, double s) { return kelvin[k] + 0.01 * wave(0.4, s); }})));
+}
+
+bool could_be(const TriedTerm& tried, std::string_view cause) {
+  return std::find(tried.could_be.begin(), tried.could_be.end(), cause) != tried.could_be.end();
+}
+
+TEST(OwnPowers, MayFollowAChannelThatTheirReplicatesDifferIn) {
+  const std::vector<double> kelvin{290.0, 300.0, 295.0, 310.0};
+  const Diagnosis straight = of_powers({0.0, 0.2, 0.1, 0.4}, kelvin);
+  EXPECT_EQ(best(straight).cause, "replicate_change");
+  EXPECT_TRUE(could_be(best(straight), "modulated_variance"));
+  const Diagnosis crooked = of_powers({0.0, 0.2, 0.4, 0.1}, kelvin);
+  EXPECT_EQ(best(crooked).cause, "replicate_change");
+  EXPECT_FALSE(could_be(best(crooked), "modulated_variance"));
 }
 
 TEST(OwnPowers, AWindowThatIsNoMultipleOfTheIntervalIsAFilterOfFreeTap) {
