@@ -6,6 +6,7 @@
 #include "core/diagnosis/causes.h"
 #include "core/diagnosis/missing_noise.h"
 #include "core/inference/parameter_covariance.h"
+#include "core/regression/free_ends.h"
 #include "core/support/linear_algebra.h"
 #include "core/support/parallel.h"
 
@@ -92,7 +93,7 @@ FittedModel fit_with(const Current& current, const Suggestion& suggestion) {
   if (change.shared) regression = regression.with(*change.shared);
   JointFit fit = joint_fit(regression, change.start, {}, Begin::kAnywhere,
                            own_starts(current.fit, change.start));
-  return {std::move(regression), std::move(fit)};
+  return beside_free_ends({std::move(regression), std::move(fit)});
 }
 
 double promised(const Suggestion& one) {

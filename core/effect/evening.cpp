@@ -15,6 +15,11 @@ bool Evening::weights_samples() const {
 }
 
 Eigen::ArrayXd spectrum_of_cosines(const Model& noise, Index n) {
+  if (most_taps(noise) > 0) {  // zeros are narrower than bands
+    const auto last = static_cast<double>(n - 1);
+    const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(n - 1, 1.0, last);
+    return spectrum(noise, Frequencies(0.5 / static_cast<double>(n) * k));
+  }
   const Bands bands(n);
   const Eigen::ArrayXd level = spectrum(noise, bands.frequency);
   Eigen::ArrayXd out(n - 1);

@@ -73,6 +73,8 @@ struct Subject {
   /// Nats that numbers found in a replicate itself (outliers, jumps) would gain by chance; empty:
   /// none were sought.
   std::vector<double> own_nats{};
+  /// Samples at each end of a replicate that are not what was measured, see free_ends().
+  Eigen::Index free_ends = 0;
   /// Nats of each replicate by which its likelihood exceeds that of its samples as normal numbers,
   /// where a term changed their distribution; empty: none did.
   std::vector<double> reshaped_nats{};

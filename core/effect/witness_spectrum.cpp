@@ -43,13 +43,15 @@ WitnessSpectrum::WitnessSpectrum(const std::vector<SharedVector>& cosines) {
   }
 }
 
+double WitnessSpectrum::frequency(Index band) const {
+  const double octave = static_cast<double>(band) / static_cast<double>(kPerOctave);
+  return 0.5 / static_cast<double>(longest_) * std::exp2(octave);
+}
+
 std::vector<Index> WitnessSpectrum::edges(Index samples) const {
-  const double first = 0.5 / static_cast<double>(longest_);  // cycles per sample
   std::vector<Index> out;
-  for (Index b = 0; b < power_.size(); ++b) {
-    const double octave = static_cast<double>(b) / static_cast<double>(kPerOctave);
-    out.push_back(coefficients_below(first * std::exp2(octave), samples));
-  }
+  for (Index b = 0; b < power_.size(); ++b)
+    out.push_back(coefficients_below(frequency(b), samples));
   out.push_back(samples - 1);
   return out;
 }

@@ -19,6 +19,8 @@ class WitnessSpectrum {
   explicit WitnessSpectrum(const std::vector<SharedVector>& cosines);
 
   Index bands() const { return power_.size(); }
+  /// Where a band begins, cycles per sample.
+  double frequency(Index band) const;
   /// Place of the first coefficient of each band in the transform of so many samples, and the end.
   std::vector<Index> edges(Index samples) const;
   /// Share of each band that is signal, from 0 to 1, where each sample has white noise of this

@@ -34,6 +34,12 @@ void take_octaves(const BandGains& gains, Suggestion& one) {
   one.search = best.search;
 }
 
+// A bench tilts over minutes; what is faster is vibration.
+std::string_view motion_up_to(double hertz) {
+  constexpr double kFastestTilt = 0.1;  // Hz
+  return hertz > kFastestTilt ? "common_vibration" : "tilt";
+}
+
 // The witness less noise of its own, where that explains clearly more than the whole of it.
 void add_noisy(const Current& current, const Witness& channel, Suggestions& out) {
   constexpr double kClearly = 6.0;  // nats: chance gains them once in 2,000
@@ -52,7 +58,7 @@ void add_noisy(const Current& current, const Witness& channel, Suggestions& out)
     one.shape_error = 0.5 * best.log_error;
   }
   if (may_share_motion(subject.quantity, channel)) {
-    one.cause = "common_vibration";
+    one.cause = motion_up_to(best.to * subject.rate.value);
     one.coupling = MotionCoupling::kBand;
   }
   out.push_back(std::move(one));
@@ -86,12 +92,8 @@ void add_static(const Current& current, const Witness& channel, Suggestions& out
     }
   }
   take_octaves(gains, slow.score_nats > fast.score_nats ? slow : fast);
-  // A bench tilts over minutes; what is faster is vibration.
-  constexpr double kFastestTilt = 0.1;  // Hz
-  for (Suggestion* const one : {&slow, &fast}) {
-    const double to = std::get<EffectTerm>(one->added)[kWitnessTo];
-    one->cause = to > kFastestTilt ? "common_vibration" : "tilt";
-  }
+  for (Suggestion* const one : {&slow, &fast})
+    one->cause = motion_up_to(std::get<EffectTerm>(one->added)[kWitnessTo]);
   out.push_back(std::move(slow));
   out.push_back(std::move(fast));
 }

@@ -71,6 +71,12 @@ Eigen::MatrixXd jacobian(const Model& model, HalfWidths m) {
   return out;
 }
 
+int most_taps(const Model& model) {
+  int out = 0;
+  for (const Term& term : model.terms) out = std::max(out, taps(term.process));
+  return out;
+}
+
 double innovation_deviation(const Model& model) {
   const Frequencies frequency(Eigen::ArrayXd::LinSpaced(1024, 0.5, 1023.5) / 2048.0);
   return std::exp(0.5 * spectrum(model, frequency).log().mean());

@@ -93,6 +93,8 @@ Eigen::MatrixXd jacobian(const Model& model, HalfWidths m);
 /// Two-sided spectrum of the sum at frequencies in cycles per sample, unit² per cycle/sample. A
 /// ramp has none.
 Eigen::ArrayXd spectrum(const Model& model, const Frequencies& frequency);
+/// Of the longest filter of finite memory in it; 0 without one.
+int most_taps(const Model& model);
 /// Standard deviation of its innovations, from the mean logarithm of the spectrum (Szegő and
 /// Kolmogorov: Brockwell & Davis 1991, Theorem 5.8.1).
 double innovation_deviation(const Model& model);

@@ -11,6 +11,25 @@ concept Structured = requires(const P p) {
   { P::with_structure(1) } -> std::same_as<P>;
 };
 
+// Noise through a filter of finitely many taps. Its spectrum may be zero somewhere, and is not
+// straight over a band there.
+template <class P>
+concept HasZeros = requires(const P p) {
+  p.filter().taps();
+};
+
+// The mean of such a spectrum over each band, in place of its value in the middle: by two points
+// that scatter as the band's frequencies do (Gauss and Legendre), exact for cubic polynomials.
+template <class P>
+void average_over_bands(const P& process, const Frequencies& f, Eigen::ArrayXd& out) {
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const double off = f.deviation(i);
+    if (off == 0.0) continue;
+    out(i) =
+        0.5 * (process.spectrum(Frequency(f(i) - off)) + process.spectrum(Frequency(f(i) + off)));
+  }
+}
+
 template <class... P>
 std::vector<Process> one_of_each(const std::variant<P...>*) {
   return {Process(P{})...};
@@ -39,6 +58,17 @@ Eigen::ArrayXXd shape_jacobian(const Process& process, HalfWidths m) {
 double spectrum(const Process& process, const Frequency& f) {
   return std::visit([&](const auto& p) { return p.spectrum(f); }, process);
 }
+int taps(const Process& process) {
+  return std::visit(
+      [](const auto& p) {
+        if constexpr (HasZeros<std::decay_t<decltype(p)>>) {
+          return static_cast<int>(p.filter().taps().size());
+        } else {
+          return 0;
+        }
+      },
+      process);
+}
 Eigen::ArrayXd spectrum(const Process& process, const Frequencies& f) {
   return std::visit(
       [&](const auto& p) -> Eigen::ArrayXd {
@@ -47,6 +77,7 @@ Eigen::ArrayXd spectrum(const Process& process, const Frequencies& f) {
         } else {
           Eigen::ArrayXd out(f.size());
           for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = p.spectrum(f.at(i));
+          if constexpr (HasZeros<std::decay_t<decltype(p)>>) average_over_bands(p, f, out);
           return out;
         }
       },

@@ -37,7 +37,10 @@ void set_values(Process& process, std::span<const double> values);
 Eigen::ArrayXd shape(const Process& process, HalfWidths m);
 Eigen::ArrayXXd shape_jacobian(const Process& process, HalfWidths m);
 double spectrum(const Process& process, const Frequency& f);
-/// At many frequencies, cycles per sample.
+/// Of noise through a filter of finite memory; 0 of others.
+int taps(const Process& process);
+/// At many frequencies, cycles per sample. Where these are middles of bands and the spectrum may
+/// have zeros, means over the bands.
 Eigen::ArrayXd spectrum(const Process& process, const Frequencies& f);
 SumCovariance sum_covariance(const Process& process);
 std::vector<DerivedQuantity> derived(const Process& process, Hertz rate);

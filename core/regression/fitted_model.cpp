@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/regression/current.h"
+#include "core/regression/free_ends.h"
 #include "core/regression/uncertain_shape.h"
 #include "core/support/distributions.h"
 
@@ -49,9 +50,11 @@ FittedModel fit_full_model(std::shared_ptr<const Subject> subject, const FullMod
   for (const EffectTerm& term : start.effects) {
     if (term.effect->fit_with == nullptr) regression = regression.with(term);
   }
-  const JointFit first = joint_fit(regression, start.noise, progress);
-  FittedModel out = beside_modulation(first.modulation, [&](std::vector<Modulation> modulation) {
-    FittedModel cleaned{regression, first};
+  const FittedModel first =
+      beside_free_ends({regression, joint_fit(regression, start.noise, progress)});
+  const std::vector<Modulation>& before = first.fit.modulation;
+  FittedModel out = beside_modulation(before, [&](std::vector<Modulation> modulation) {
+    FittedModel cleaned = first;
     cleaned.fit.modulation = std::move(modulation);
     for (const EffectTerm& term : start.effects) {
       if (term.effect->cleaned == nullptr) continue;
@@ -73,8 +76,8 @@ FittedModel fit_with(const Current& current, const EffectTerm& term) {
     return term.effect->fit_with(term, current.regression, current.fit);
   const Regression grown = current.regression.with(term);
   const auto fitted = [&](const Regression& regression) {
-    return FittedModel{regression, joint_fit(regression, current.fit.model.noise, {},
-                                             Begin::kAnywhere, current.fit.own_noise)};
+    return beside_free_ends({regression, joint_fit(regression, current.fit.model.noise, {},
+                                                   Begin::kAnywhere, current.fit.own_noise)});
   };
   if (term.effect->cleaned == nullptr) return fitted(grown);
   return beside_modulation(current.fit.modulation, [&](std::vector<Modulation> modulation) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/spectrum/bands.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/support/parallel.h"
 
@@ -79,14 +78,8 @@ Innovations innovations(const Regression& regression, const JointFit& fit) {
 
 Eigen::VectorXd innovations(const Regression& regression, const JointFit& fit, std::size_t k) {
   Eigen::VectorXd left = regression.residual_cosines(fit.effects.value, k);
-  const Bands bands(left.size() + 1);
-  const Eigen::ArrayXd level =
-      spectrum(fit.own_noise.empty() ? fit.model.noise : fit.own_noise[k], bands.frequency);
-  for (Index b = 0; b < bands.size(); ++b) {
-    const Index begin = bands.edges[static_cast<std::size_t>(b)];
-    left.segment(begin, bands.edges[static_cast<std::size_t>(b) + 1] - begin) /=
-        std::sqrt(level(b));
-  }
+  const Model& noise = fit.own_noise.empty() ? fit.model.noise : fit.own_noise[k];
+  left.array() /= spectrum_of_cosines(noise, left.size() + 1).sqrt();
   Eigen::VectorXd out = rough_inverse_cosine_transform(left);  // white: no digits to lose
   const std::vector<VarianceCourse> courses = variance_courses(regression);
   for (std::size_t m = 0; m < fit.modulation.size(); ++m)

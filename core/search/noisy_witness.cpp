@@ -59,6 +59,13 @@ NoisyWitness noisy_witness(const Current& current, const std::vector<SharedVecto
       (2.0 * best.gain - at(best.variance * kFiner).gain - at(best.variance / kFiner).gain) /
       std::pow(std::log(kFiner), 2);
   if (curvature > 0.0) best.log_error = 1.0 / std::sqrt(curvature);
+  constexpr double kMost = 0.95;
+  const Eigen::ArrayXd known = spectrum.signal(best.variance).square() * all.square;
+  double below = 0.0;
+  for (Index b = 0; b < known.size() && below < kMost * best.information; ++b) {
+    below += known(b);
+    best.to = spectrum.frequency(b + 1);
+  }
   return best;
 }
 

@@ -14,6 +14,7 @@ struct NoisyWitness {
   double gain = 0.0;         ///< nats that one coefficient of the rest explains
   double information = 0.0;  ///< 1/variance of that coefficient
   double log_error = 0.0;    ///< standard error of the logarithm of `variance`
+  double to = 0.0;           ///< 95 % of the information lie below it, cycles per sample
 };
 
 /// `cosines`: the witness, one cosine_transform() a replicate.

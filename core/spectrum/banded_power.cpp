@@ -73,8 +73,11 @@ BandedPower in_wider_bands(const BandedPower& fine) {
     }
     return out;
   };
-  return {joined(fine.frequency.cycles(), true),
-          joined(fine.count, false),
+  Eigen::ArrayXd count = joined(fine.count, false);
+  const double apart = 0.5 / static_cast<double>(fine.samples);
+  Eigen::ArrayXd deviation = ((count.square() - 1.0) / 12.0).sqrt() * apart;
+  return {Frequencies(joined(fine.frequency.cycles(), true), std::move(deviation)),
+          std::move(count),
           joined(fine.power, true),
           joined(fine.ramp_cross, true),
           joined(fine.ramp_power, true),

@@ -34,23 +34,32 @@ class Frequencies {
  public:
   Frequencies() = default;
   Frequencies(Eigen::ArrayXd cycles)  // NOLINT(google-explicit-constructor): see Frequency
-      : of_(std::make_shared<const Numbers>(std::move(cycles))) {}
+      : Frequencies(std::move(cycles), Eigen::ArrayXd()) {}
+  /// Middles of bands, and the standard deviation of the frequencies in each.
+  Frequencies(Eigen::ArrayXd cycles, Eigen::ArrayXd deviation)
+      : of_(std::make_shared<const Numbers>(std::move(cycles), std::move(deviation))) {}
 
   Eigen::Index size() const { return of_ ? of_->cycles.size() : 0; }
   /// In cycles per sample.
   double operator()(Eigen::Index i) const { return of_->cycles(i); }
   Frequency at(Eigen::Index i) const { return {of_->cycles(i), of_->sine(i), of_->cosine(i)}; }
+  /// How far the frequencies of a band scatter, cycles per sample; 0 where one stands alone.
+  double deviation(Eigen::Index i) const {
+    return of_->deviation.size() == 0 ? 0.0 : of_->deviation(i);
+  }
   /// All of them. Precondition: there are some.
   const Eigen::ArrayXd& cycles() const { return of_->cycles; }
   const Eigen::ArrayXd& half_sines() const { return of_->sine; }
 
  private:
   struct Numbers {
-    explicit Numbers(Eigen::ArrayXd f)
+    Numbers(Eigen::ArrayXd f, Eigen::ArrayXd scatter)
         : cycles(std::move(f)),
+          deviation(std::move(scatter)),
           sine((std::numbers::pi * cycles).sin()),
           cosine((std::numbers::pi * cycles).cos()) {}
     Eigen::ArrayXd cycles;
+    Eigen::ArrayXd deviation;
     Eigen::ArrayXd sine;
     Eigen::ArrayXd cosine;
   };
