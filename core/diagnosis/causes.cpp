@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "core/diagnosis/missing_noise.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/effects/known_effects.h"
 
 namespace imunoise {

@@ -8,7 +8,7 @@
 #include "core/diagnosis/placebo.h"
 #include "core/diagnosis/searches.h"
 #include "core/diagnosis/shared_noise.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/support/distributions.h"
 
 namespace imunoise {
@@ -92,11 +92,15 @@ std::optional<DetectionLimit> limit_of(const Suggestion& one, double level, Hert
   if (!(one.information > 0.0)) return std::nullopt;
   const double needed = gain_needed(level, one.dof, one.power, one.search);
   const double nine_in_ten = normal_quantile(0.9);
-  DetectionLimit out{std::string(one.cause), one.added, "power",
+  DetectionLimit out{std::string(one.cause),
+                     one.added,
+                     {},
                      (std::sqrt(2.0 * needed) + nine_in_ten) / std::sqrt(one.information)};
   if (auto* term = std::get_if<EffectTerm>(&out.added)) {
     *term = rounded(*term, one.shape_error, rate);
     out.parameter = term->effect->coefficient;
+  } else {
+    out.parameter = parameters(std::get<NoiseChange>(one.added).added)[0].name;
   }
   return out;
 }

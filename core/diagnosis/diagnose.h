@@ -16,7 +16,7 @@ enum class DiagnosisVerdict {
 struct DetectionLimit {
   std::string cause;
   AddedTerm added;        ///< where the search came nearest to seeing one
-  std::string parameter;  ///< "power", or the effect's coefficient
+  std::string parameter;  ///< the power of noise, "sigma2", or the effect's coefficient
   double value = 0.0;
 };
 

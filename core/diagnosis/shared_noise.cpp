@@ -9,7 +9,7 @@
 #include "core/diagnosis/missing_noise.h"
 #include "core/diagnosis/searches.h"
 #include "core/diagnosis/views/misfit.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/support/parallel.h"
 
 namespace imunoise {

@@ -64,11 +64,13 @@ Witness without_noise(const Witness& witness, double variance) {
   Witness out = witness;
   out.cosines.resize(out.samples.size());
   for_each_index(out.samples.size(), [&](std::size_t k) {
-    if (witness.cosines.empty()) out.cosines[k] = cosine_transform(witness.samples[k]);
+    if (witness.cosines.empty() && out.samples[k].size() > 0)
+      out.cosines[k] = cosine_transform(out.samples[k]);
   });
   const WitnessSpectrum spectrum(out.cosines);
   const Eigen::ArrayXd signal = spectrum.signal(variance);
   for_each_index(out.samples.size(), [&](std::size_t k) {
+    if (out.samples[k].size() == 0) return;  // a simulation has one replicate at a time
     Eigen::VectorXd cosines = out.cosines[k];
     const std::vector<Index> edge = spectrum.edges(cosines.size() + 1);
     for (Index b = 0; b < signal.size(); ++b) {

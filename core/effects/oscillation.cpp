@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "core/effect/columns.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/effects/distributions/wandering_tone.h"
 #include "core/effects/draws.h"
 #include "core/search/noise_bump.h"

@@ -7,7 +7,7 @@
 
 #include "core/effect/columns.h"
 #include "core/effect/filters.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/search/lagged_witness.h"
 #include "core/search/search_view.h"
 #include "core/spectrum/cosine_transform.h"

@@ -1,6 +1,6 @@
 // witness: proportional to another channel, as it is, filtered, or behind a lag.
 
-#include "core/effects/witness.h"
+#include "core/effects/couplings/witness.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/effect/columns.h"
 #include "core/effect/filters.h"
 #include "core/effect/witness_spectrum.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/spectrum/cosine_transform.h"
 
 namespace imunoise::effects {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,6 +36,12 @@ class Signal {
   double value(std::size_t i) const {
     return offset_ +
            scale_ * std::visit([i](auto s) { return static_cast<double>(s[i]); }, samples_);
+  }
+  /// Whether all samples are the same. Their mean taken off may leave rounding, no zeros.
+  bool never_changes() const {
+    return std::visit(
+        [](auto s) { return std::all_of(s.begin(), s.end(), [&](auto x) { return x == s[0]; }); },
+        samples_);
   }
   /// The contiguous part [begin, begin + count).
   Signal part(std::size_t begin, std::size_t count) const {

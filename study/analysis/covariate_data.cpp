@@ -79,9 +79,9 @@ Result<std::vector<CovariateBin>> measure_bins(const Series& series, const Covar
     };
     auto measured = measure(runs, options, progress.part(share(b), share(b + 1)));
     if (!measured) return tl::unexpected(measured.error());
-    const bool changes = std::any_of(measured->begin(), measured->end(),
-                                     [](const auto& one) { return (one.variance > 0.0).any(); });
-    if (!changes) {
+    const bool still = std::all_of(runs.replicates.begin(), runs.replicates.end(),
+                                   [](const Signal& one) { return one.never_changes(); });
+    if (still) {
       return fail(fmt::format(
           "{} never changes where {} is about {}: the sensor is stuck there or was not connected; "
           "leave that place out with --bins, or the channel with --channel",

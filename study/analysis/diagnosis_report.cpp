@@ -7,7 +7,7 @@
 
 #include "core/diagnosis/causes.h"
 #include "core/diagnosis/views/run_off.h"
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 #include "core/inference/normal_scores.h"
 #include "study/analysis/effect_parameters.h"
 #include "study/analysis/less_effects.h"
@@ -152,9 +152,22 @@ double slowest_wave(const Effect& effect, const Subject& subject) {
 std::string printed(const AddedTerm& added) {
   if (const auto* term = std::get_if<EffectTerm>(&added)) return print(*term);
   const auto& change = std::get<NoiseChange>(added);
-  Model alone;
-  alone.terms.emplace_back(change.added);
+  const Model alone{{Term(change.added)}};
   return change.shared ? fmt::format("{} + {}", print(alone), print(*change.shared)) : print(alone);
+}
+
+// What a detection limit is of: of noise, its power at this shape.
+std::string limited(const AddedTerm& added) {
+  const auto* const change = std::get_if<NoiseChange>(&added);
+  if (change == nullptr) return printed(added);
+  Term term(change->added);
+  std::vector<double> numbers = values(term.process);
+  for (std::size_t p = 1; p < numbers.size(); ++p) {
+    numbers[p] = std::stod(fmt::format("{:.6g}", numbers[p]));
+    term.given[p] = true;
+  }
+  set_values(term.process, numbers);
+  return print(Model{{std::move(term)}});
 }
 
 void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::DiagnosisReport& to) {
@@ -178,7 +191,7 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
                                    : unit_of(Dimension::kPower, subject.quantity));
     if (term != nullptr && term->effect->witness) limit.set_witness(term->witness);
     const bool anywhere = term != nullptr && term->effect->anywhere;
-    if (!anywhere) limit.set_term(printed(from.added));
+    if (!anywhere) limit.set_term(limited(from.added));
     if (term != nullptr && term->effect->fewest_periods > 0.0)
       limit.set_lowest_hz(slowest_wave(*term->effect, subject));
   }

@@ -25,11 +25,11 @@ std::string default_model_note(std::string_view done, std::string_view model) {
 Result<void> check_replicates(const Series& series, const std::vector<WaveletVariance>& measured) {
   for (std::size_t k = 0; k < measured.size(); ++k) {
     const Eigen::ArrayXd& own = measured[k].variance;
-    if ((own == 0.0).all()) {
+    if ((own == 0.0).all() || series.replicates[k].never_changes()) {
       return fail(fmt::format(
           "{}: {} never changes, so it has no noise to model; check that the channel is in use. "
           "--channel chooses others",
-          series.channel, series.names[k]));
+          series.names[k], series.channel));
     }
     for (std::size_t other = 0; other < k; ++other) {
       const Eigen::ArrayXd& before = measured[other].variance;

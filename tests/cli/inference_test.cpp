@@ -230,8 +230,14 @@ TEST_F(Inference, RefuseWithTheWayOut) {
   refused("test s_1.h5", 1, "--split-into 6");
   refused("test s_1.h5 s_2.h5 s_1.h5", 1, "have the same samples");
   simulate("WN(sigma2=0)", "--replicates 2 --out still.h5");
+  for (const std::string name : {"same_1.csv", "same_2.csv"}) {
+    std::ofstream file(folder_ / name);  // the mean of many 3.2 is not 3.2
+    file << "gyro_x [rad/s]\n";
+    for (int t = 0; t < 5000; ++t) file << "3.2\n";
+  }
   for (const std::string command : {"test", "select"}) {
-    refused(command + " still_?.h5 --model WN", 1, "still_1 never changes");
+    refused(command + " still_?.h5 --model WN", 1, "still_1: x never changes");
+    refused(command + " same_?.csv --rate 1 --model WN", 1, "same_1: gyro_x never changes");
     refused(command + " s_?.h5 --model 'WN + ?'", 1, "  WN + ?\n       ^");
     refused(command + " s_?.h5 --model ''", 1, "expected the name of a process");
     refused(command + " s_?.h5 --model '8*AR1'", 1, "16 free parameters");

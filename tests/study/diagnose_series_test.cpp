@@ -57,6 +57,10 @@ TEST(Diagnose, LimitsTellWhichCouplingTheyAreOf) {
     if (one.effect() == "line") {
       EXPECT_EQ(one.term(), "") << "any frequency is meant";
     }
+    if (one.effect() == "gauss_markov") {
+      EXPECT_EQ(one.parameter(), "sigma2");
+      EXPECT_TRUE(one.term().starts_with("AR1(phi=")) << "a power has no meaning without a shape";
+    }
     if (one.effect() == "rate_ramp") ramps.insert(one.term());
     if (one.witness() != "temperature") continue;
     EXPECT_TRUE(units.emplace(one.term(), one.unit()).second) << one.term() << " twice";

@@ -45,8 +45,7 @@ Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octav
     }
     if (progress.stopped()) return fail("stopped");
     for (std::size_t i = 0; i < sensors.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      if ((out.back().of(at, at) > 0.0).any()) continue;
+      if (!signals[i].never_changes()) continue;
       return fail(
           fmt::format("{}: {} never changes: the sensor is stuck or was not connected; "
                       "leave it out with --channel",

@@ -75,10 +75,25 @@ ReportedNumber size_of(const FittedModel& model, std::size_t effect) {
   return numbers.empty() ? ReportedNumber{} : numbers.front();
 }
 
-// Of noise: its first coefficient, which grows with the root of its power.
-ReportedNumber size_of_noise(const FittedModel& model, std::size_t term) {
-  for (const ReportedNumber& one : noise_coefficients(model, term)) return one;
-  return {};
+// Of noise: its deviation, or its first coefficient, which grows with the root of its power. Of a
+// peak also where it is: "RES at 13.01 Hz".
+struct NoiseSize {
+  ReportedNumber size{};
+  std::string place{};
+};
+
+NoiseSize size_of_noise(const FittedModel& model, std::size_t term) {
+  const std::string unit(si_symbol(model.regression.subject().quantity));
+  const std::vector<ReportedNumber> all = noise_coefficients(model, term);
+  const auto in = [&](const std::string& wanted) {
+    return std::find_if(all.begin(), all.end(),
+                        [&](const ReportedNumber& one) { return one.unit == wanted; });
+  };
+  NoiseSize out;
+  if (!all.empty()) out.size = in(unit) == all.end() ? all.front() : *in(unit);
+  if (const auto peak = in("Hz"); peak != all.end())
+    out.place = " at " + report::number(peak->value, 4, report::Digits::kPlain) + " Hz";
+  return out;
 }
 
 // "RES + witness(b)": what one rung added, apart.
@@ -96,6 +111,7 @@ std::vector<std::string> parts_of(const std::string& added) {
 // What the last model has of it, and how large that is.
 struct Kept {
   std::string term{};
+  std::string place{};
   std::optional<ReportedNumber> size{};
 };
 
@@ -117,7 +133,10 @@ class LastModel {
       if (!effect && !noise) continue;  // it was dropped later
       out.term += fmt::format("{}{}", out.term.empty() ? "" : " + ", part);
       if (effect && !out.size) out.size = size_of(model_, *effect);
-      if (noise) of_noise = size_of_noise(model_, *noise);
+      if (!noise) continue;
+      NoiseSize found = size_of_noise(model_, *noise);
+      of_noise = std::move(found.size);
+      out.place = std::move(found.place);
     }
     if (!out.size) out.size = of_noise;
     return out;
@@ -149,9 +168,9 @@ class LastModel {
   std::vector<bool> noise_taken_;
 };
 
-std::string sentence_of(const v1::LadderFinding& found) {
+std::string sentence_of(const v1::LadderFinding& found, const std::string& place) {
   const v1::EffectParameter& size = found.size();
-  std::string out = fmt::format("{}, {}", found.title(), found.term());
+  std::string out = fmt::format("{}, {}{}", found.title(), found.term(), place);
   if (size.name().empty()) return out;
   std::string name = size.name();
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -190,7 +209,7 @@ void add_findings(const FittedModel& last, v1::DiagnosisReport& to) {
     found.set_title(std::string(cause_info(rung->effect()).title));
     found.set_term(left.term);
     if (!left.size->name.empty()) *found.mutable_size() = message_of(*left.size);
-    found.set_sentence(sentence_of(found));
+    found.set_sentence(sentence_of(found, left.place));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "core/effects/couplings.h"
+#include "core/effects/couplings/couplings.h"
 
 #include <algorithm>
 #include <cctype>

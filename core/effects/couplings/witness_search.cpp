@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "core/effect/filters.h"
-#include "core/effects/couplings.h"
-#include "core/effects/witness.h"
+#include "core/effects/couplings/couplings.h"
+#include "core/effects/couplings/witness.h"
 #include "core/search/band_gains.h"
 #include "core/search/lagged_witness.h"
 #include "core/search/noisy_witness.h"
