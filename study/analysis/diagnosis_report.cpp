@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/diagnosis/causes.h"
 #include "core/diagnosis/views/run_off.h"
@@ -197,20 +198,36 @@ void add_diagnosis(const Diagnosis& diagnosis, const Subject& subject, v1::Diagn
   }
 }
 
+bool is_resonance(const v1::LadderFinding& one) { return one.effect() == "resonance"; }
+
+// What a headline says of findings. Many resonances are one thing there: a filter, most likely.
+std::string in_short(const v1::DiagnosisReport& report, bool filter) {
+  const auto resonances =
+      std::count_if(report.findings().begin(), report.findings().end(), is_resonance);
+  std::string out;
+  bool told = false;
+  for (const v1::LadderFinding& one : report.findings()) {
+    const bool together = filter && is_resonance(one);
+    if (together && std::exchange(told, true)) continue;
+    out += out.empty() ? "" : "; ";
+    out += together ? fmt::format("{} resonances, which may together be one filter of unknown form",
+                                  resonances)
+                    : one.sentence();
+  }
+  return out;
+}
+
 void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport& to) {
   constexpr auto kComb = 3;
-  const auto resonances =
-      std::count_if(to.findings().begin(), to.findings().end(),
-                    [](const v1::LadderFinding& one) { return one.effect() == "resonance"; });
-  if (resonances >= kComb)
+  const auto resonances = std::count_if(to.findings().begin(), to.findings().end(), is_resonance);
+  const bool filter = resonances >= kComb;
+  if (filter)
     to.add_notes(fmt::format(
         "The {} resonances may together be one filter of a form that imunoise does not know, such "
         "as a Butterworth, notch or CIC filter. Record the same without the filter, or with "
         "another cutoff frequency: the resonances of a structure stay, those of a filter move.",
         resonances));
-  std::string all;
-  for (const v1::LadderFinding& one : to.findings())
-    all += fmt::format("{}{}", all.empty() ? "" : "; ", one.sentence());
+  const std::string all = in_short(to, filter);
   if (to.verdict() == v1::unknown && !all.empty()) {
     if (verdict == DiagnosisVerdict::kNone) to.set_verdict(v1::several);
     to.set_summary(fmt::format("Missing: {}.", all));

@@ -210,6 +210,9 @@ TEST(Ladder, ManyResonancesMayBeOneFilter) {
   add_remaining(DiagnosisVerdict::kNone, report);
   ASSERT_EQ(report.notes_size(), 1);
   EXPECT_NE(report.notes(0).find("3 resonances may together be one filter"), std::string::npos);
+  const std::string once = "3 resonances, which may together be one filter of unknown form";
+  EXPECT_NE(report.summary().find(once), std::string::npos) << report.summary();
+  EXPECT_EQ(report.summary().find(once), report.summary().rfind(once));
 }
 
 // What the best effect does not explain, several do.
