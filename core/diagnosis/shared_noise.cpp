@@ -90,6 +90,8 @@ SharedMotion shared_motion(const TriedTerm& noise, const std::vector<Coupling>& 
   std::vector<double> noise_dof;
   for (const Coupling& one : vibrations) {
     for (Suggestion& how : like(one.tried->suggestion, sought)) {
+      auto& term = std::get<EffectTerm>(how.added);
+      term = rounded(std::move(term), how.shape_error, with.subject().rate);
       all.push_back({std::move(how)});
       noise_dof.push_back(one.tried->noise_dof);
     }
@@ -120,6 +122,17 @@ void join(TriedTerm& noise, const Suggestion& coupling, FittedModel both, double
   noise.likelihood_gain += gain;
   noise.log_p += log_p;
   noise.gain = -noise.log_p;
+}
+
+// Whether noise explains more than a coupling to this witness does alone.
+bool needs_noise(const FittedModel& both, const std::string& witness,
+                 const std::vector<TriedTerm>& tried) {
+  constexpr double kNeeded = 6.0;  // nats: two parameters gain them by chance once in 400
+  return std::all_of(tried.begin(), tried.end(), [&](const TriedTerm& one) {
+    const bool alone = one.suggestion.coupling != MotionCoupling::kNone && one.term() != nullptr &&
+                       one.term()->witness == witness;
+    return !alone || both.fit.log_likelihood > one.fitted.fit.log_likelihood + kNeeded;
+  });
 }
 
 // What of a motion another sensor does not show, because its own noise hides it there, is noise
@@ -166,7 +179,9 @@ void name_shared_noise(std::vector<TriedTerm>& tried, double searches, double le
   }
   for (const auto& [one, shared] : found) {
     const Current with = current_of(one->fitted.regression, one->fitted.fit);
-    join(*one, *shared.with, fit_with(with, *shared.with), shared.gain, shared.log_p);
+    FittedModel both = fit_with(with, *shared.with);
+    if (needs_noise(both, std::get<EffectTerm>(shared.with->added).witness, tried))
+      join(*one, *shared.with, std::move(both), shared.gain, shared.log_p);
   }
   best_first(tried);
   if (!progress.stopped()) add_hidden_part(tried, motions(tried), level, refuted);

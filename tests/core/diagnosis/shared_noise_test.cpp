@@ -50,7 +50,7 @@ Diagnosis beside_another(double felt, double leaked, double strength = 1.0,
 
 // A gyroscope that turns, and its neighbour, which feels a share of this: the turning leaks, the
 // noise of the other does not.
-Diagnosis feels_a_share(double share) {
+Diagnosis feels_a_share(double share, const char* motion = "AR1(phi=0.97, sigma2=4)") {
   constexpr Hertz kRate{50.0};
   const auto made = [&](const char* model, std::uint64_t seed, std::uint32_t k) {
     return simulate(*parse_model(model, kRate), 16'384, seed, k);
@@ -58,7 +58,7 @@ Diagnosis feels_a_share(double share) {
   std::vector<Series> own;
   std::vector<Series> other;
   for (std::uint32_t k = 0; k < 4; ++k) {
-    const Series turning = made("AR1(phi=0.97, sigma2=4)", 81, k);
+    const Series turning = made(motion, 81, k);
     own.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 82, k));
     other.push_back(made("WN(sigma2=1) + RW(gamma2=1e-5)", 83, k));
     for (std::size_t t = 0; t < turning.size(); ++t) {
@@ -78,6 +78,18 @@ TEST(Diagnose, ASmallShareOfAMotionMayLeakFromAnotherAxis) {
   };
   EXPECT_TRUE(may_leak(feels_a_share(0.05)));
   EXPECT_FALSE(may_leak(feels_a_share(0.7)));
+}
+
+// The neighbour's noise hides part of the motion. Of a small share, nothing shows beside the
+// coupling; of a larger one, that part is noise.
+TEST(Diagnose, OnlyAHiddenPartThatShowsIsNoise) {
+  FIGURES_ALONE();
+  const char* const motion = "AR1(phi=0.8, sigma2=0.36)";
+  const Diagnosis small = feels_a_share(0.16, motion);
+  ASSERT_NE(small.effects.at(0).tried.term(), nullptr);
+  const std::string term = print(*small.effects[0].tried.term());
+  EXPECT_TRUE(term.starts_with("witness(gyro_y, noise=0.14")) << term;
+  EXPECT_EQ(feels_a_share(0.4, motion).effects.at(0).tried.shared_with, "gyro_y");
 }
 
 TEST(Diagnose, NoiseThatTheNeighbourFeelsTooIsVibration) {
