@@ -7,27 +7,41 @@
 
 namespace imunoise {
 
+BandSums band_sums(const Current& current, const std::vector<SharedVector>& regressor,
+                   const std::function<std::vector<Eigen::Index>(Eigen::Index)>& edges) {
+  BandSums out;
+  for (std::size_t k = 0; k < regressor.size(); ++k) {
+    const Eigen::VectorXd weighted = (regressor[k].array() / current.spectrum[k]).matrix();
+    const std::vector<Eigen::Index> edge = edges(weighted.size() + 1);
+    const auto bands = static_cast<Eigen::Index>(edge.size()) - 1;
+    if (k == 0) out = {Eigen::ArrayXd::Zero(bands), Eigen::ArrayXd::Zero(bands)};
+    for (Eigen::Index b = 0; b < bands; ++b) {
+      const Eigen::Index begin = edge[static_cast<std::size_t>(b)];
+      const Eigen::Index width = edge[static_cast<std::size_t>(b) + 1] - begin;
+      const auto part = weighted.segment(begin, width);
+      out.product(b) += part.dot(current.cosines[k].segment(begin, width));
+      out.square(b) += part.dot(regressor[k].segment(begin, width));
+    }
+  }
+  return out;
+}
+
 BandGains::BandGains(const Current& current, const std::vector<SharedVector>& regressor) {
   const auto length = static_cast<double>(current.subject().length(current.longest()));
   const double rate = current.subject().rate.value;
   first_hertz_ = 0.5 * rate / length;
   const auto octaves = static_cast<Index>(std::ceil(std::log2(length)));
+  const BandSums sums = band_sums(current, regressor, [&](Index samples) {
+    std::vector<Index> edges;
+    for (Index i = 0; i <= octaves; ++i)
+      edges.push_back(coefficients_below(hertz(i) / rate, samples));
+    return edges;
+  });
   product_ = Eigen::ArrayXd::Zero(octaves + 1);
   square_ = Eigen::ArrayXd::Zero(octaves + 1);
-  for (std::size_t k = 0; k < current.cosines.size(); ++k) {
-    const Eigen::ArrayXd weighted = regressor[k].array() / current.spectrum[k];
-    Index begin = 0;
-    double product = 0.0;
-    double square = 0.0;
-    for (Index i = 0; i <= octaves; ++i) {
-      const Index end = coefficients_below(hertz(i) / rate, weighted.size() + 1);
-      const auto part = weighted.segment(begin, end - begin).matrix();
-      product += part.dot(current.cosines[k].segment(begin, end - begin));
-      square += part.dot(regressor[k].segment(begin, end - begin));
-      product_(i) += product;
-      square_(i) += square;
-      begin = end;
-    }
+  for (Index i = 0; i < octaves; ++i) {
+    product_(i + 1) = product_(i) + sums.product(i);
+    square_(i + 1) = square_(i) + sums.square(i);
   }
 }
 

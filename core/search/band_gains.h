@@ -1,12 +1,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "core/regression/current.h"
 #include "core/search/evidence.h"
 
 namespace imunoise {
+
+/// Products of a whitened regressor with what a model leaves, and its squares, a band each, of all
+/// replicates.
+struct BandSums {
+  Eigen::ArrayXd product;
+  Eigen::ArrayXd square;
+};
+
+/// `regressor`: one cosine_transform() a replicate. `edges`: of a replicate of so many samples, the
+/// place of the first coefficient of each band, and the end; as many for each.
+BandSums band_sums(const Current& current, const std::vector<SharedVector>& regressor,
+                   const std::function<std::vector<Eigen::Index>(Eigen::Index samples)>& edges);
 
 /// What a regressor explains of what a model leaves, of all replicates, by octaves of frequency:
 /// octave i begins at 2^i/2T, where T is the longest replicate.

@@ -74,9 +74,8 @@ BandedPower in_wider_bands(const BandedPower& fine) {
     return out;
   };
   Eigen::ArrayXd count = joined(fine.count, false);
-  const double apart = 0.5 / static_cast<double>(fine.samples);
-  Eigen::ArrayXd deviation = ((count.square() - 1.0) / 12.0).sqrt() * apart;
-  return {Frequencies(joined(fine.frequency.cycles(), true), std::move(deviation)),
+  Eigen::ArrayXd scatter = scatter_in_bands(count, static_cast<Index>(fine.samples));
+  return {Frequencies(joined(fine.frequency.cycles(), true), std::move(scatter)),
           std::move(count),
           joined(fine.power, true),
           joined(fine.ramp_cross, true),

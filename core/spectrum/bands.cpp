@@ -17,16 +17,17 @@ Bands::Bands(Eigen::Index n) : edges{0} {
   }
   const auto bands = static_cast<Eigen::Index>(edges.size()) - 1;
   Eigen::ArrayXd middle(bands);
-  Eigen::ArrayXd deviation(bands);
   count.resize(bands);
   for (Eigen::Index b = 0; b < bands; ++b) {
     const auto begin = static_cast<double>(edges[static_cast<std::size_t>(b)]);
     count(b) = static_cast<double>(edges[static_cast<std::size_t>(b) + 1]) - begin;
-    const double apart = 0.5 / static_cast<double>(n);
-    middle(b) = (begin + 0.5 * (count(b) + 1.0)) * apart;
-    deviation(b) = std::sqrt((count(b) * count(b) - 1.0) / 12.0) * apart;
+    middle(b) = (begin + 0.5 * (count(b) + 1.0)) / (2.0 * static_cast<double>(n));
   }
-  frequency = Frequencies(std::move(middle), std::move(deviation));
+  frequency = Frequencies(std::move(middle), scatter_in_bands(count, n));
+}
+
+Eigen::ArrayXd scatter_in_bands(const Eigen::ArrayXd& count, Eigen::Index n) {
+  return ((count.square() - 1.0) / 12.0).sqrt() / (2.0 * static_cast<double>(n));
 }
 
 Eigen::Index coefficients_below(double frequency, Eigen::Index n) {

@@ -21,6 +21,10 @@ struct Bands {
   std::vector<Eigen::Index> edges;  ///< place of the first coefficient of each, and the end
 };
 
+/// Standard deviation of the frequencies of so many neighbouring coefficients of a cosine transform
+/// of length n, cycles per sample.
+Eigen::ArrayXd scatter_in_bands(const Eigen::ArrayXd& count, Eigen::Index n);
+
 /// How many coefficients of a cosine transform of length n lie below a frequency, in cycles per
 /// sample: where the same frequency begins in transforms of different lengths.
 Eigen::Index coefficients_below(double frequency, Eigen::Index n);

@@ -182,11 +182,12 @@ TEST(Views, AreBeyondChanceWhereNoneOfThemWouldBe) {
 }
 
 // The findings of a ladder that added these, each of a known cause, and ended with this model.
-v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string>& added) {
+v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string>& added,
+                                Quantity quantity = Quantity::kAngularRate) {
   FullModel start = *parse_full_model(model, kFifty);
   for (Term& term : start.noise.terms) term.given.assign(term.given.size(), false);
   const std::vector<double> samples = simulate(start.noise, 4096, 52, 0);
-  const Signal signal(std::span<const double>(samples), kFifty, Quantity::kAngularRate);
+  const Signal signal(std::span<const double>(samples), kFifty, quantity);
   const FittedModel last =
       fit_full_model(std::make_shared<const Subject>(make_subject({signal, signal}, {})), start);
   v1::DiagnosisReport out;
@@ -227,16 +228,19 @@ TEST(Ladder, SeveralEffectsHaveAVerdict) {
   EXPECT_EQ(fails.verdict(), v1::unknown);
 }
 
-// Two resonances are two, each with its amplitude and its own frequency: ω/2π of 50 Hz.
+// Two resonances are two, each with its own frequency, ω/2π of 50 Hz, and its deviation, whether or
+// not the channel has a unit.
 TEST(Ladder, EachResonanceHasItsOwnFrequency) {
-  const v1::DiagnosisReport report = findings_of(
-      "WN(sigma2=1) + RES(sigma2=1, r=0.97, omega=0.6) + RES(sigma2=1, r=0.97, omega=2.2)",
-      {"RES", "RES"});
-  ASSERT_EQ(report.findings_size(), 2);
-  EXPECT_EQ(report.findings(0).size().unit(), "rad/s");
-  const std::string both = report.findings(0).sentence() + report.findings(1).sentence();
-  for (const std::string place : {"RES at 4.77", "RES at 17.4"})
-    EXPECT_NE(both.find(place), std::string::npos) << both;
+  for (const Quantity quantity : {Quantity::kAngularRate, Quantity::kUnknown}) {
+    const v1::DiagnosisReport report = findings_of(
+        "WN(sigma2=1) + RES(sigma2=1, r=0.97, omega=0.6) + RES(sigma2=1, r=0.97, omega=2.2)",
+        {"RES", "RES"}, quantity);
+    ASSERT_EQ(report.findings_size(), 2);
+    EXPECT_EQ(report.findings(0).size().name(), "standard deviation");
+    const std::string both = report.findings(0).sentence() + report.findings(1).sentence();
+    for (const std::string place : {"RES at 4.77", "RES at 17.4"})
+      EXPECT_NE(both.find(place), std::string::npos) << both;
+  }
 }
 
 // Noise that comes with a coupling is one rung, and no less found than either alone.

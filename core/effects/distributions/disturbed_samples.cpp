@@ -15,7 +15,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// What a sample more or less says of it, at each of a replicate: 1 / its variance.
+// 1/variance of the size of a disturbance of one sample, the same at each sample of a replicate.
 double information(const Current& current, std::size_t k) {
   return (1.0 / current.spectrum[k]).mean();
 }
@@ -42,7 +42,7 @@ DisturbedSamples standing_out(const Current& current, double above) {
   return out;
 }
 
-// Both together: what one left of a sample is added to it.
+// Both together. A sample in both has the sum of the sizes: the second is what the first left.
 DisturbedSamples together(const DisturbedSamples& one, const DisturbedSamples& other) {
   DisturbedSamples out;
   for (std::size_t k = 0; k < one.places.size(); ++k) {
@@ -90,8 +90,8 @@ std::optional<Contamination> law_of(const Current& left, const DisturbedSamples&
   return contamination_of(count, samples, above, squares / count);
 }
 
-// The threshold where nothing says another one.
-double likely(const Current& left, const DisturbedSamples& all) {
+// The threshold where none is given.
+double threshold_of(const Current& left, const DisturbedSamples& all) {
   const double seldom = rare(left.subject());
   const auto law = law_of(left, all, seldom);
   return law ? std::clamp(law->even_chance(), kLeastDisturbed, seldom) : seldom;
@@ -164,7 +164,7 @@ Undisturbed undisturbed(const Current& current, std::optional<double> above) {
         joint_fit(regression, current.fit.model.noise, {}, Begin::kAnywhere, current.fit.own_noise);
     const Current left = current_of(regression, fit);
     out.gain_nats = fit.log_likelihood - current.fit.log_likelihood;
-    if (!above) out.above = likely(left, out.taken_out);
+    if (!above) out.above = threshold_of(left, out.taken_out);
     const DisturbedSamples more = standing_out(left, out.above);
     if (more.count() > 0 && turn < kMostTurns) {
       out.taken_out = together(out.taken_out, more);

@@ -83,15 +83,16 @@ struct NoiseSize {
 };
 
 NoiseSize size_of_noise(const FittedModel& model, std::size_t term) {
-  const std::string unit(si_symbol(model.regression.subject().quantity));
   const std::vector<ReportedNumber> all = noise_coefficients(model, term);
-  const auto in = [&](const std::string& wanted) {
+  const auto find = [&](Coefficient wanted) {
+    const auto title = coefficient_units(wanted, model.regression.subject().quantity).title;
     return std::find_if(all.begin(), all.end(),
-                        [&](const ReportedNumber& one) { return one.unit == wanted; });
+                        [&](const ReportedNumber& one) { return one.name == title; });
   };
   NoiseSize out;
-  if (!all.empty()) out.size = in(unit) == all.end() ? all.front() : *in(unit);
-  if (const auto peak = in("Hz"); peak != all.end())
+  const auto deviation = find(Coefficient::kAmplitude);
+  if (!all.empty()) out.size = deviation == all.end() ? all.front() : *deviation;
+  if (const auto peak = find(Coefficient::kFrequency); peak != all.end())
     out.place = " at " + report::number(peak->value, 4, report::Digits::kPlain) + " Hz";
   return out;
 }
