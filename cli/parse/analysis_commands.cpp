@@ -17,8 +17,9 @@ Examples:
 
 A model is a sum of processes: WN white noise, QN quantisation noise, RW random walk, DR rate ramp,
 AR1 and GM Markov noise, AR2 second-order noise, RES and VOIGT resonances, FN flicker noise, PL
-power-law noise, and the filters MA(q), MAVG(n) and BARTLETT(n). A value in brackets stays fixed:
-WN(sigma2=1e-6). Values are per sample, in SI units; tc of GM is in s.)help";
+power-law noise, and the filters MA(q), MAVG(n), BARTLETT(n), LOWPASS(n) and BUTTERWORTH(n). A
+value in brackets stays fixed: WN(sigma2=1e-6). Values are per sample, in SI units; tc of GM is in
+s.)help";
 
 constexpr const char* kWvExamples = R"help(
 Examples:

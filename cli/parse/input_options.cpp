@@ -46,7 +46,9 @@ void add_input(CLI::App& command, RawInput& raw) {
       ->default_str("all")
       ->delimiter(',')
       ->allow_extra_args(false);  // what follows the name is a file again
-  command.add_option("--rate", raw.rate, "Sampling rate (Hz) of files that do not state it")
+  command
+      .add_option("--rate", raw.rate,
+                  "Sampling rate (Hz), instead of what files state or their times show")
       ->type_name("HZ")
       ->check(above_zero());
   command

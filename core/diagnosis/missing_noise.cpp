@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/markov_levels.h"
 #include "core/diagnosis/missing_filter.h"
+#include "core/diagnosis/missing_low_pass.h"
 #include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/score_space.h"
 #include "core/diagnosis/steadiness.h"
@@ -111,24 +112,14 @@ void add_power_law(const Current& current, const ScoreSpace& space, Suggestions&
   out.push_back(std::move(found.front()));
 }
 
-// Correlation time, samples; 0 of a process that has none.
-double memory_of(const Process& process) {
-  for (const DerivedQuantity& one : derived(process, Hertz{1.0})) {
-    if (one.coefficient == Coefficient::kCorrelationTime) return one.value;
-  }
-  return 0.0;
-}
-
 // A Markov process so fast that it left no white noise is the sensor's bandwidth.
 bool is_bandwidth(const Model& noise) {
-  constexpr double kFastest = 20.0;  // samples
   constexpr double kLeft = 0.1;
   double white = 0.0;
   double fast = 0.0;
   for (const Term& term : noise.terms) {
     if (std::holds_alternative<WhiteNoise>(term.process)) white += spectrum(term.process, 0.5);
-    const double memory = memory_of(term.process);
-    if (memory > 0.0 && memory < kFastest) fast += spectrum(term.process, 0.5);
+    if (is_fast(term.process)) fast += spectrum(term.process, 0.5);
   }
   return fast > 0.0 && white < kLeft * fast;
 }
@@ -288,6 +279,8 @@ Suggestions search_noise(const Current& current) {
   add_second_order(current, space, longest / 4.0, out);
   add_power_law(current, space, out);
   for (Suggestion& one : search_filters(current)) out.push_back(std::move(one));
+  Suggestion low_pass = search_low_pass(current, out);
+  out.push_back(std::move(low_pass));
   return out;
 }
 

@@ -12,11 +12,28 @@ namespace imunoise {
 namespace {
 
 constexpr int kMostReweightings = 2;
+constexpr int kMostDamped = 12;    // rounds more, where the last one still moved the estimate
+constexpr double kSettled = 0.25;  // of the variance at a scale
 
 const WaveletVariance& longest(std::span<const WaveletVariance> replicates) {
   return *std::max_element(replicates.begin(), replicates.end(), [](const auto& a, const auto& b) {
     return a.scales.size() < b.scales.size();
   });
+}
+
+std::vector<Eigen::MatrixXd> whitening_roots(const MomentCovariances& covariances,
+                                             std::span<const WaveletVariance> replicates) {
+  const auto roots = PerReplicate<Eigen::MatrixXd>::of(
+      replicates, [&](std::size_t k) { return whiten(covariances[k]).matrix; });
+  std::vector<Eigen::MatrixXd> out;
+  for (std::size_t k = 0; k < replicates.size(); ++k) out.push_back(roots[k]);
+  return out;
+}
+
+MomentCovariances mean_of(const MomentCovariances& a, const MomentCovariances& b,
+                          std::span<const WaveletVariance> replicates) {
+  return MomentCovariances::of(
+      replicates, [&](std::size_t k) -> Eigen::MatrixXd { return 0.5 * (a[k] + b[k]); });
 }
 
 double disagreement(const Model& average, const std::vector<Estimate>& separate, HalfWidths m) {
@@ -102,12 +119,7 @@ MomentCovariances moment_covariances(const Model& model,
 
 std::vector<Eigen::MatrixXd> full_roots(const Model& model,
                                         std::span<const WaveletVariance> replicates) {
-  const MomentCovariances covariances = moment_covariances(model, replicates);
-  const auto roots = PerReplicate<Eigen::MatrixXd>::of(
-      replicates, [&](std::size_t k) { return whiten(covariances[k]).matrix; });
-  std::vector<Eigen::MatrixXd> out;
-  for (std::size_t k = 0; k < replicates.size(); ++k) out.push_back(roots[k]);
-  return out;
+  return whitening_roots(moment_covariances(model, replicates), replicates);
 }
 
 bool gives_weights(const Model& model, std::span<const WaveletVariance> replicates) {
@@ -169,16 +181,23 @@ Estimate mugmwm(const Model& model, std::span<const WaveletVariance> replicates,
   const bool full = weighting == Weighting::kFull;
   Minimum found = full ? minimise_roughly(first, progress) : minimise(first, progress);
   if (full && !gives_weights(found.model, replicates)) found = minimise(first, progress);
-  for (int round = 0; full && round < kMostReweightings; ++round) {
+  const Eigen::ArrayXd m = longest(replicates).scales.half_widths();
+  std::optional<MomentCovariances> believed;
+  for (int round = 0; full && round < kMostReweightings + kMostDamped; ++round) {
     if (progress.stopped() || !gives_weights(found.model, replicates)) break;
-    const Eigen::ArrayXd before = variance(found.model, longest(replicates).scales.half_widths());
-    out.weight_roots = full_roots(found.model, replicates);
+    const Eigen::ArrayXd before = variance(found.model, m);
+    MomentCovariances now = moment_covariances(found.model, replicates);
+    // Weights and estimate may chase each other: the mean of two rounds ends that.
+    if (round >= kMostReweightings) now = mean_of(*believed, now, replicates);
+    out.weight_roots = whitening_roots(now, replicates);
+    believed = std::move(now);
     const Problem problem = tied_problem(model, replicates, out.weight_roots);
     // The whole search is made once, with the first full weights; later rounds follow it.
     found =
         round == 0 ? minimise(problem, progress) : minimise_from(problem, found.model, progress);
-    const Eigen::ArrayXd after = variance(found.model, longest(replicates).scales.half_widths());
-    if (((after - before).abs() <= 1e-7 * after).all()) break;
+    const Eigen::ArrayXd after = variance(found.model, m);
+    const double moved = ((after - before).abs() / after).maxCoeff();
+    if (moved <= 1e-7 || (round + 1 >= kMostReweightings && moved <= kSettled)) break;
   }
   if (full && gives_weights(found.model, replicates))
     name_white_noise(model, replicates, out.weight_roots, progress, found);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/integrity/interpolation.h"
 #include "core/support/neighbour_steps.h"
 
 namespace imunoise {
@@ -219,6 +220,38 @@ std::vector<WrongSample> cut_off(const Signal& signal, int beyond) {
   return out;
 }
 
+// Whether nothing lies between an end of the range and the noise: then that end is no value of the
+// converter's.
+bool stands_apart(const Signal& signal, double end, double spread) {
+  constexpr double kApart = 5.0;  // standard deviations of a difference of neighbours
+  double nearest = INFINITY;
+  for (std::size_t t = 0; t < signal.size(); ++t) {
+    const double off = std::abs(signal.value(t) - end);
+    if (off > 0.0) nearest = std::min(nearest, off);
+  }
+  return nearest > kApart * spread;
+}
+
+// Of the differences of neighbours of which neither is at this value.
+double spread_beside(const Signal& signal, double end) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t t = 1; t < signal.size(); ++t) {
+    if (signal.value(t) == end || signal.value(t - 1) == end) continue;
+    squares += std::pow(signal.value(t) - signal.value(t - 1), 2);
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : INFINITY;
+}
+
+void add_interpolation(const Signal& signal, std::vector<Defect>& out) {
+  constexpr std::size_t kMost = std::size_t{1} << 17U;
+  std::vector<double> x(std::min(signal.size(), kMost));
+  for (std::size_t t = 0; t < x.size(); ++t) x[t] = signal.value(t);
+  const double beat = interpolation_beat(x);
+  if (beat > 0.0) out.push_back({"interpolated_samples", signal.size(), beat, 0, 1, {}});
+}
+
 // `repeats`: those that lie neither in a stuck run nor at an end of the range.
 void add_duplicates(const Signal& signal, const std::vector<StuckRun>& stuck,
                     const std::vector<double>& ends, std::vector<WrongSample> repeats,
@@ -273,11 +306,17 @@ std::vector<Defect> integrity(const Signal& signal) {
   const auto saturated = [&](int beyond, std::size_t at_end, std::size_t next_to_it) {
     if (!piled(at_end, next_to_it)) return;
     std::vector<WrongSample> there = cut_off(signal, beyond);
+    const double end = signal.value(there.front().at);
+    const bool apart = stands_apart(signal, end, spread_beside(signal, end));
+    if (apart) {
+      for (WrongSample& one : there) one.beyond = 0;
+    }
     // There every sample repeats the one before: that is no defect of its own.
-    ends.push_back(signal.value(there.front().at));
+    ends.push_back(end);
     std::erase_if(repeats,
                   [&](const WrongSample& one) { return signal.value(one.at) == ends.back(); });
-    out.push_back({"saturation", at_end, static_cast<double>(next_to_it), there.front().at, 1,
+    out.push_back({apart ? "dropouts" : "saturation", at_end,
+                   apart ? end : static_cast<double>(next_to_it), there.front().at, 1,
                    std::move(there)});
   };
   saturated(1, codes.highest, codes.below_highest);
@@ -287,6 +326,7 @@ std::vector<Defect> integrity(const Signal& signal) {
     out.push_back({"missing_codes", codes.missing, codes.missed, 0, codes.missing, {}});
   if (is_coarse(codes))
     out.push_back({"quantisation", codes.distinct, noise_in_steps(codes), 0, 1, {}});
+  add_interpolation(signal, out);
   return out;
 }
 

@@ -15,9 +15,11 @@ struct WrongSample {
 
 /// A defect of the samples themselves, which every model would be blamed for.
 struct Defect {
-  std::string effect;      ///< its id in the catalogue
-  std::size_t count = 0;   ///< samples concerned
-  double expected = 0.0;   ///< of them without the defect; of few codes, their noise in steps
+  std::string effect;     ///< its id in the catalogue
+  std::size_t count = 0;  ///< samples concerned
+  /// Of them without the defect; of few codes, their noise in steps; of dropouts, their value; of
+  /// interpolated samples, their beat in cycles per sample.
+  double expected = 0.0;
   std::size_t first = 0;   ///< place of the first
   std::size_t places = 1;  ///< stretches that it comes in
   /// The samples, rising, where few of them can be sound; else empty.
@@ -26,8 +28,9 @@ struct Defect {
 
 /// What the values alone can tell: samples that repeat the one before more often than samples far
 /// apart are equal, an output that stands still, a pile of samples at an end of the range, codes
-/// that never occur among others that do (`count` of them, `expected` samples), and a step so
-/// coarse that few codes are used. Empty where nothing is wrong.
+/// that never occur among others that do (`count` of them, `expected` samples), a step so coarse
+/// that few codes are used, a value far from all others that occurs again and again, and a series
+/// interpolated from another rate. Empty where nothing is wrong.
 std::vector<Defect> integrity(const Signal& signal);
 
 /// Stretches in which the output stands still longer than noise of its step and size ever does.

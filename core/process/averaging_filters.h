@@ -24,7 +24,7 @@ struct AveragingFilter {
   int length = 2;
 
   static constexpr ProcessInfo kInfo = Form::kInfo;
-  static constexpr int kMostTaps = 4096;
+  static constexpr int kLargest = 4096;
   friend bool operator==(const AveragingFilter&, const AveragingFilter&) = default;
 
   static AveragingFilter with_structure(int n) { return {1.0, n}; }

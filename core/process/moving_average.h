@@ -16,7 +16,7 @@ struct MovingAverage {
   static constexpr ProcessInfo kInfo{
       "MA", "moving-average noise",
       "White noise seen through a short digital filter of unknown taps.", "number of coefficients"};
-  static constexpr int kMostTaps = 6;
+  static constexpr int kLargest = 6;
   friend bool operator==(const MovingAverage&, const MovingAverage&) = default;
 
   static MovingAverage with_structure(int q) {

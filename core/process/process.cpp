@@ -30,6 +30,16 @@ void average_over_bands(const P& process, const Frequencies& f, Eigen::ArrayXd& 
   }
 }
 
+// The least number that NAME(n) may hold.
+template <class P>
+constexpr int smallest() {
+  if constexpr (requires { P::kSmallest; }) {
+    return P::kSmallest;
+  } else {
+    return 1;
+  }
+}
+
 template <class... P>
 std::vector<Process> one_of_each(const std::variant<P...>*) {
   return {Process(P{})...};
@@ -136,7 +146,7 @@ std::optional<Process> with_structure(const Process& process, int number) {
       [&](const auto& p) -> std::optional<Process> {
         using P = std::decay_t<decltype(p)>;
         if constexpr (Structured<P>) {
-          if (number >= 1 && number <= P::kMostTaps) return P::with_structure(number);
+          if (number >= smallest<P>() && number <= P::kLargest) return P::with_structure(number);
         }
         return std::nullopt;
       },

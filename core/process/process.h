@@ -11,6 +11,7 @@
 #include "core/process/contract.h"
 #include "core/process/flicker.h"
 #include "core/process/gauss_markov.h"
+#include "core/process/low_pass.h"
 #include "core/process/moving_average.h"
 #include "core/process/power_law.h"
 #include "core/process/quantisation_noise.h"
@@ -27,7 +28,7 @@ using ProcessVariant = std::variant<P...>;
 
 using Process = ProcessVariant<WhiteNoise, QuantisationNoise, RandomWalk, RateRamp, Ar1, Ar2,
                                GaussMarkov, Resonance, Voigt, MovingAverage, MovingAverageFilter,
-                               BartlettFilter, Flicker, PowerLaw>;
+                               BartlettFilter, AnalogFilter, DigitalFilter, Flicker, PowerLaw>;
 
 // The contract, on the variant.
 const ProcessInfo& info(const Process& process);

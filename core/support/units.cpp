@@ -190,6 +190,8 @@ CoefficientUnits coefficient_units(Coefficient coefficient, Quantity quantity) {
       return {"T", "correlation time", "s", "", 1.0};
     case Coefficient::kFrequency:
       return {"f", "frequency", "Hz", "", 1.0};
+    case Coefficient::kCutoff:
+      return {"f_c", "cut-off frequency", "Hz", "", 1.0};
     case Coefficient::kDampingRatio:
       return {"ζ", "damping ratio", "1", "", 1.0};
   }

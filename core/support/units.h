@@ -60,6 +60,7 @@ enum class Coefficient {
   kAmplitude,        ///< A standard deviation, unit
   kCorrelationTime,  ///< s
   kFrequency,        ///< Hz
+  kCutoff,           ///< Hz
   kDampingRatio,     ///< dimensionless
 };
 

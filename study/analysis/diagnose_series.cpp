@@ -139,7 +139,13 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   Step step{.added = "", .why = "The model as it was given."};
   ModelsSeen models;
   models.is_new(model.fit.model);
-  const int most = options.automatic ? kMostRungs : 1;
+  const bool defective = out.integrity_size() > 0 && !prepared.changed;
+  const bool automatic = options.automatic && !defective;
+  if (options.automatic && defective)
+    out.add_notes(
+        "The samples are defective and could not be mended: the ladder ends after its first term, "
+        "because further terms would describe the defect.");
+  const int most = automatic ? kMostRungs : 1;
   const auto within = [&](int rung) {
     return progress.part(0.25 + 0.7 * rung / most, 0.25 + 0.7 * (rung + 1) / most);
   };
@@ -168,7 +174,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     }
     Step taken = step_of(next.best->tried);
     FittedModel grown = std::move(next.best->tried.fitted);
-    if (options.automatic) drop_useless(grown, taken, options.level, start->noise);
+    if (automatic) drop_useless(grown, taken, options.level, start->noise);
     if (!models.is_new(grown.fit.model)) {
       out.add_notes(came_back(taken));
       remaining = DiagnosisVerdict::kUnknown;
@@ -187,7 +193,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     if (progress.stopped()) return fail("stopped");
     add_rung(next.misfit, next.heldout);
   }
-  if (options.automatic && out.ladder_size() > 1) {
+  if (automatic && out.ladder_size() > 1) {
     add_findings(model, out);
     add_remaining(remaining, out);
   }

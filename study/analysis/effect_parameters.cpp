@@ -72,6 +72,8 @@ void add_noise(const TriedTerm& tried, const Subject& subject, std::vector<Repor
         out.push_back({"tau_s", quantity.value, "s"});
       if (quantity.coefficient == Coefficient::kFrequency)
         out.push_back({"frequency_hz", quantity.value, "Hz"});
+      if (quantity.coefficient == Coefficient::kCutoff)
+        out.push_back({"cutoff_hz", quantity.value, "Hz"});
     }
   }
 }

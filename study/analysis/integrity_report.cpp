@@ -26,6 +26,15 @@ std::string defect_words(const Defect& defect, double rate) {
     return fmt::format("{} {} at the {} end of the range, {:.0f} next to it",
                        counted(defect.count, "sample"), defect.count == 1 ? "lies" : "lie",
                        defect.wrong.front().beyond > 0 ? "upper" : "lower", defect.expected);
+  if (defect.effect == "dropouts")
+    return fmt::format(
+        "{} have the value {:.6g} (SI), far from all others, in place of missing ones",
+        counted(defect.count, "sample"), defect.expected);
+  if (defect.effect == "interpolated_samples")
+    return fmt::format(
+        "its samples were interpolated from another sampling rate: the power of their differences "
+        "repeats at {:.4g} Hz, the beat of the two rates",
+        defect.expected * rate);
   if (defect.effect == "missing_codes")
     return fmt::format(
         "{} codes of the converter never occur between others that do; noise like "

@@ -105,7 +105,8 @@ void mend(Replicate& replicate, std::size_t channel, const std::vector<WrongSamp
   const Signal signal = of.signal();
   const bool few = static_cast<double>(wrong.size()) <= kMost * static_cast<double>(signal.size());
   to.notes.push_back(fmt::format(
-      "{}: {} samples of {} are repeated or clipped; {}", replicate.name, wrong.size(), of.name,
+      "{}: {} samples of {} are repeated, clipped or placeholders; {}", replicate.name,
+      wrong.size(), of.name,
       few ? "each is replaced by a draw conditional on its neighbours, which keeps the spectrum."
           : "they are too many to replace."));
   if (!few) return;

@@ -58,7 +58,7 @@ std::string summary_of(const v1::StationarityReport& report, const NearStationar
   }
   if (!report.heterogeneity().rejected()) {
     return fmt::format(
-        "The replicates agree with each other ({}), but the model fits none of them well "
+        "The replicates agree with each other ({}), but the model does not fit them "
         "({}): a process is missing, the same in all. More replicates do not help; a "
         "better model does.",
         differ, misfit);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // To be raised whenever the same samples would be cut, mended or transformed otherwise, beside the
 // program's own version.
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr std::string_view kSuffix = ".seen";
 constexpr std::string_view kPartSuffix = ".part";  // write_cache_file()'s
 

@@ -129,11 +129,22 @@ std::string missing_in(const v1::Calibration& calibration) {
   return out.empty() ? "" : fmt::format(" ({})", out);
 }
 
+// `effects` channels lack one, of `sought` that were searched, of `fitted`.
+std::string effect_words(int effects, int sought, int fitted) {
+  if (sought == 0) return "; missing effects were not sought";
+  std::string out =
+      effects == 0 ? "; no effect is missing"
+                   : fmt::format("; {} {} an effect", effects, effects == 1 ? "lacks" : "lack");
+  if (sought < fitted) out += fmt::format(" ({} of {} searched)", sought, fitted);
+  return out;
+}
+
 std::string summary_of(const v1::Calibration& calibration) {
   int fitted = 0;
   int misfits = 0;
   int doubts = 0;
   int effects = 0;
+  int sought = 0;
   int troubled = 0;
   for (const v1::ChannelCalibration& one : calibration.channels()) {
     fitted += one.has_fit() ? 1 : 0;
@@ -142,7 +153,8 @@ std::string summary_of(const v1::Calibration& calibration) {
       misfits += verdict == report::Verdict::kFails ? 1 : 0;
       doubts += verdict == report::Verdict::kDoubtful ? 1 : 0;
     }
-    effects += one.diagnosis().verdict() != v1::none && one.has_diagnosis() ? 1 : 0;
+    sought += one.has_diagnosis() ? 1 : 0;
+    effects += one.has_diagnosis() && one.diagnosis().verdict() != v1::none ? 1 : 0;
     troubled += one.troubles().empty() ? 0 : 1;
   }
   std::string out =
@@ -152,10 +164,7 @@ std::string summary_of(const v1::Calibration& calibration) {
                        missing_in(calibration));
   if (doubts > 0) out += fmt::format("; {} of these may not fit", doubts);
   if (fitted > 0 && misfits + doubts == 0) out += ", and every model fits";
-  if (calibration.settings().diagnose() && fitted > 0)
-    out += effects == 0
-               ? "; no effect is missing"
-               : fmt::format("; {} {} an effect", effects, effects == 1 ? "lacks" : "lack");
+  if (calibration.settings().diagnose() && fitted > 0) out += effect_words(effects, sought, fitted);
   if (troubled > 0) out += fmt::format("; {} had trouble", troubled);
   return out + ".";
 }

@@ -45,6 +45,19 @@ void shorten(v1::DiagnosisReport& report) {
   report.clear_compared_after();
 }
 
+// The model fits each replicate, and no one set of parameters fits them all.
+bool only_differ(const v1::StationarityReport& test) {
+  return test.heterogeneity().rejected() && test.misfit().degrees_of_freedom() > 0 &&
+         !test.misfit().rejected();
+}
+
+std::string differing(const v1::StationarityReport& test) {
+  return fmt::format(
+      "no noise is missing: the model fits every replicate, and its parameters differ between them "
+      "({}); look for what changed from one to the next",
+      chance_words(test.heterogeneity().p_value()));
+}
+
 // Which term a model lacks that does not fit, and whether it fits with that.
 std::string what_is_missing(const Series& series, const std::string& model,
                             const Progress& progress) {
@@ -107,14 +120,17 @@ v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>
   fit.model = model;
   fit.compare = false;  // the test does
   keep(fit_series(series, fit, progress.part(0.3, 0.35)), "fit", out, &Calibration::mutable_fit);
-  if (options.explain && out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails)
-    out.set_missing(what_is_missing(series, out.fit().model(), progress.part(0.35, 0.4)));
   if (replicates.size() > 1) {
     TestOptions test;
     test.model = model;
     test.bootstrap = options.bootstrap;
-    keep(test_series(series, test, progress.part(0.4, 0.6)), "test", out,
+    keep(test_series(series, test, progress.part(0.35, 0.55)), "test", out,
          &Calibration::mutable_stationarity);
+  }
+  if (options.explain && out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails) {
+    out.set_missing(only_differ(out.stationarity())
+                        ? differing(out.stationarity())
+                        : what_is_missing(series, out.fit().model(), progress.part(0.55, 0.6)));
   }
   if (options.diagnose) {
     DiagnoseOptions diagnose;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/deviation/deviations.h"
@@ -35,10 +36,39 @@ void set_verdict(v1::DatasheetFigure& to) {
   to.set_verdict(to.lower() > to.value() ? "missed" : "met");
 }
 
+// White noise is read where the curve falls as it does: a filter hides it at shorter times, other
+// noise at longer ones.
+Best white_point(const Model& model, std::size_t term, const v1::DeviationReport& measured) {
+  constexpr double kWhiteSlope = -0.5;  // of the logarithm of the deviation
+  constexpr double kWorse = 3.0;
+  constexpr double kMost = 0.75;
+  const Model alone{{model.terms[term]}};
+  Best out;
+  double least = kMost;
+  for (int i = 0; i < measured.points_size(); ++i) {
+    const v1::DeviationPoint& left = measured.points(std::max(i - 1, 0));
+    const v1::DeviationPoint& right = measured.points(std::min(i + 1, measured.points_size() - 1));
+    const auto m = static_cast<double>(measured.points(i).samples());
+    const double share = std::pow(allan_of(alone, m) / allan_of(model, m), 2);
+    if (!(share > 0.5) || left.samples() == right.samples()) continue;
+    const double width = std::log(right.tau_s() / left.tau_s());
+    const double slope = std::log(right.deviation() / left.deviation()) / width;
+    // As far as the slope is off, so is N: that counts more than the standard error, which its
+    // interval shows.
+    const double off = kWorse * std::abs(slope - kWhiteSlope) +
+                       std::sqrt(0.5 / measured.points(i).degrees_of_freedom());
+    if (!(off < least)) continue;
+    least = off;
+    out = {&measured.points(i), share};
+  }
+  return out;
+}
+
 void measure_term(const Model& model, std::size_t term, const v1::DeviationReport& measured,
                   v1::DatasheetFigure& to) {
-  const Best best = best_point(model, term, measured);
-  if (best.share < 0.5) {
+  const bool white = std::holds_alternative<WhiteNoise>(model.terms[term].process);
+  const Best best = white ? white_point(model, term, measured) : best_point(model, term, measured);
+  if (best.point == nullptr || best.share < 0.5) {
     to.set_verdict("not seen");
     return;
   }

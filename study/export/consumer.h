@@ -47,6 +47,7 @@ struct Consumer {
   AxisRule axes = AxisRule::kWorst;  ///< kEach where its file has a value for each axis
   bool takes_walk = true;            ///< it has a place for K
   bool takes_markov = false;         ///< a bias may be a Markov process
+  bool one_time = false;             ///< and all biases have the same correlation time
   bool takes_zero = true;            ///< false: it refuses values of zero
   std::string_view remark{};         ///< what its user has to know; stands in the file
   double step = 0.0;                 ///< s, of its filter where values depend on it; else 0

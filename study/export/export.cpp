@@ -8,6 +8,7 @@
 
 #include "core/effects/parse_full_model.h"
 #include "core/support/rough.h"
+#include "study/export/stand_ins.h"
 #include "study/export/whole/array_states.h"
 #include "study/export/whole/matrices.h"
 #include "study/words/number.h"
@@ -69,25 +70,6 @@ Result<AxisNoise> axis_of(const v1::FitReport& fit, Quantity quantity) {
 // Probability that the bound holds at the next power-on.
 constexpr double kNextPowerOn = 0.95;
 
-Model white_and(double n, const Process& bias, Hertz rate) {
-  return {{Term(WhiteNoise{n * n * rate.value}), Term(bias)}};
-}
-
-// What a consumer will think the axis is.
-Model held_by(const Consumer& to, const AxisNoise& axis) {
-  const double k = axis.k.value;
-  if (to.takes_markov && k == 0.0 && axis.markov) {
-    const Markov& bias = *axis.markov;
-    return white_and(axis.n.value, GaussMarkov{bias.sigma * bias.sigma, bias.tc, axis.rate},
-                     axis.rate);
-  }
-  return white_and(axis.n.value, RandomWalk{k * k / axis.rate.value}, axis.rate);
-}
-
-std::string horizon_words(const Horizon& horizon) {
-  return fmt::format("{:g} to {:g} s", horizon.begin, horizon.end);
-}
-
 void make_conservative(AxisNoise& axis, Quantity quantity, const Consumer& to,
                        const Horizon& horizon) {
   const Eigen::ArrayXd m = horizon_samples(axis.rate, horizon);
@@ -106,7 +88,8 @@ void make_conservative(AxisNoise& axis, Quantity quantity, const Consumer& to,
   axis.k = {bound.k, 0.0, 0.0};
   axis.markov.reset();
   axis.left_out.clear();
-  axis.bound = white_and(bound.n, RandomWalk{bound.k * bound.k / axis.rate.value}, axis.rate);
+  make_positive(axis, to, horizon);
+  axis.bound = held_by(to, axis);
   axis.coefficients = axis_noise(axis.channel, quantity, axis.rate, *axis.bound).coefficients;
   axis.remarks.push_back(fmt::format(
       "{}: N and K bound the integrated error of the whole model over {}; they "
@@ -128,57 +111,6 @@ void tell_draws(const AxisNoise& axis, bool bounded, std::vector<std::string>& r
       "{}: parameters differ between replicates beyond chance{}:", axis.channel,
       bounded ? "" : "; the values are their average (--conservative bounds the next power-on)"));
   for (const ParameterDraw& one : axis.draws) remarks.push_back(fmt::format("  {}", one.words));
-}
-
-// Where a bias may be a Markov process: the random walk or the slowest Markov process, whichever
-// leaves less of the model out.
-void choose_bias(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
-  if (!to.takes_markov || !axis.markov || !(axis.n.value > 0.0)) return;
-  AxisNoise by_markov = axis;
-  by_markov.k = {};
-  const auto missing = [&](const AxisNoise& one) {
-    return underestimate(axis.noise, held_by(to, one), axis.rate, horizon);
-  };
-  if (axis.k.value > 0.0 && missing(axis) <= missing(by_markov)) {
-    axis.markov.reset();
-    return;
-  }
-  std::erase(axis.left_out, axis.markov_words);
-  if (axis.k.value > 0.0) axis.left_out.push_back(axis.walk_words);
-  axis.k = {};
-}
-
-// N and K for a consumer that needs values the model does not have.
-void fill(AxisNoise& axis, const Consumer& to, const Horizon& horizon) {
-  const bool needs_n = !(axis.n.value > 0.0);
-  const bool bias = axis.k.value > 0.0 || (to.takes_markov && axis.markov);
-  const bool needs_k = !bias && (axis.hidden_walk || !axis.left_out.empty() || !to.takes_zero);
-  if (!needs_n && !needs_k) return;
-  const WhiteAndWalk bound = smallest_bound(axis.noise, axis.rate, horizon);
-  if (needs_n) {
-    axis.n = {bound.n, 0.0, 0.0};
-    axis.remarks.push_back(
-        fmt::format("{}: the model has no white noise; N bounds its error over {}", axis.channel,
-                    horizon_words(horizon)));
-  }
-  if (!needs_k) return;
-  if (axis.hidden_walk) {
-    axis.k = {axis.k.upper, 0.0, 0.0};
-    axis.remarks.push_back(
-        fmt::format("{}: the data show no random walk; K is its upper bound", axis.channel));
-  } else if (bound.k > 0.0) {
-    axis.k = {bound.k, 0.0, 0.0};
-    axis.remarks.push_back(
-        fmt::format("{}: the model has no random walk; K bounds its error over {}", axis.channel,
-                    horizon_words(horizon)));
-  } else if (!to.takes_zero) {
-    // K²t³/3 is a hundredth of N²t at the end of the horizon.
-    axis.k = {axis.n.value * std::sqrt(0.03) / horizon.end, 0.0, 0.0};
-    axis.remarks.push_back(
-        fmt::format("{}: the model has no random walk and {} refuses 0; K adds 0.5 % to the "
-                    "integrated error over {:g} s",
-                    axis.channel, to.title, horizon.end));
-  }
 }
 
 std::string fit_words(const AxisNoise& axis) {
@@ -280,29 +212,32 @@ Result<Sheet> export_sheet(const ImuNoise& imu, const Consumer& to, const Export
     return fail(fmt::format("{}: it has a model for each axis; omit --axis", to.title));
   Sheet out;
   out.heading = origin_words("an IMU", to, source);
-  const std::pair<const SensorNoise*, SensorNoise*> sensors[] = {
-      {&imu.gyro, &out.imu.gyro}, {&imu.accelerometer, &out.imu.accelerometer}};
-  for (const auto& [from, into] : sensors) {
-    SensorNoise all = *from;
-    for (AxisNoise& axis : all.axes) {
+  ImuNoise all = imu;
+  for (SensorNoise* const sensor : {&all.gyro, &all.accelerometer}) {
+    for (AxisNoise& axis : sensor->axes) {
       tell_draws(axis, options.conservative, axis.remarks);
       if (options.conservative) {
-        make_conservative(axis, all.quantity, to, options.horizon);
+        make_conservative(axis, sensor->quantity, to, options.horizon);
       } else if (to.holding == Holding::kDensities) {
         if (axis.hidden_walk) axis.k.value = 0.0;
         choose_bias(axis, to, options.horizon);
         fill(axis, to, options.horizon);
       }
     }
+  }
+  if (to.one_time) share_time(all, to, options.horizon);
+  const std::pair<const SensorNoise*, SensorNoise*> sensors[] = {
+      {&all.gyro, &out.imu.gyro}, {&all.accelerometer, &out.imu.accelerometer}};
+  for (const auto& [from, into] : sensors) {
     if (to.holding == Holding::kDensities) {
-      *into = reduced(all, rule);
+      *into = reduced(*from, rule);
       // A file for axes has three values also where one stands for all.
       if (to.axes == AxisRule::kEach && into->axes.size() == 1) into->axes.resize(3, into->axes[0]);
     } else {
-      *into = all;
+      *into = *from;
       into->reduction = "each axis";
     }
-    add_sensor(all, *into, to, options, out.heading);
+    add_sensor(*from, *into, to, options, out.heading);
   }
   out.heading.push_back(fmt::format("{} holds {}.", to.title, to.holds));
   if (!to.remark.empty()) out.heading.emplace_back(to.remark);

@@ -24,6 +24,13 @@ std::optional<Markov> markov_of(const Process& process, Hertz rate) {
   return out;
 }
 
+// Of white noise, also behind a filter: the consumer's times are longer than it. 0: it is none.
+double white_density(const Process& process, Hertz rate) {
+  for (const DerivedQuantity& one : derived(process, rate))
+    if (one.coefficient == Coefficient::kRandomWalk) return one.value;
+  return 0.0;
+}
+
 const AxisNoise& largest(const std::vector<AxisNoise>& axes, Bounded AxisNoise::*what) {
   return *std::max_element(axes.begin(), axes.end(), [&](const AxisNoise& a, const AxisNoise& b) {
     return (a.*what).value < (b.*what).value;
@@ -111,8 +118,8 @@ AxisNoise axis_noise(std::string channel, Quantity quantity, Hertz rate, Model n
                                   units.to_datasheet});
     }
     const std::string words = term_words(term.process, quantity, rate);
-    if (const auto* white = std::get_if<WhiteNoise>(&term.process)) {
-      out.n.value = square_sum(out.n.value, std::sqrt(white->sigma2 / rate.value));
+    if (const double density = white_density(term.process, rate); density > 0.0) {
+      out.n.value = square_sum(out.n.value, density);
     } else if (const auto* walk = std::get_if<RandomWalk>(&term.process)) {
       out.k.value = square_sum(out.k.value, std::sqrt(walk->gamma2 * rate.value));
       out.walk_words = words;

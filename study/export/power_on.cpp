@@ -55,7 +55,7 @@ std::vector<ParameterDraw> moving_parameters(
       out.push_back(
           {t, static_cast<std::size_t>(found - about.begin()), from.mean(), from.relative(),
            static_cast<int>(from.replicates()),
-           fmt::format("{} of {}: mean {:.3g}, between {} replicates ±{} % ({} … {} %)",
+           fmt::format("{} of {}: typically {:.3g}, between {} replicates ±{} % ({} … {} %)",
                        from.parameter(), from.term(), from.mean(), from.replicates(),
                        rough(100.0 * from.relative()), rough(100.0 * from.relative_lower()),
                        rough(100.0 * from.relative_upper()))});

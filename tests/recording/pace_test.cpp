@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "recording/import/preflight/clock.h"
 #include "recording/import/table/names.h"
@@ -63,6 +64,40 @@ Pace pace_in(const std::vector<double>& times) {
   const TimeColumn column{"t", "s", times};
   const auto clock = Clock::read("f", column, std::nullopt);
   return pace_of(clock.value(), [](std::size_t) { return false; });
+}
+
+// Halves of 100 and 200 Hz were "133.33 Hz", and 1000 Hz behind 100 Hz full of lost samples.
+TEST(Pace, ARecorderSetToAnotherRateIsNoMeanOfBoth) {
+  for (const auto& [first, second, later] :
+       {std::tuple(0.01, 0.005, 10'000U), std::tuple(0.01, 0.001, 100'000U),
+        std::tuple(0.005, 0.01, 2'000U)}) {
+    std::vector<double> times = even(10'000, first);
+    const double from = times.back();
+    for (std::size_t i = 1; i <= later; ++i)
+      times.push_back(from + static_cast<double>(i) * second);
+    const Pace found = pace_in(times);
+    ASSERT_EQ(found.others.size(), 1U) << first << " s, then " << second;
+    EXPECT_TRUE(found.leaps.empty()) << first << " s, then " << second;
+    const OtherPace& other = found.others.front();
+    const bool kept_first = other.begin > 0;
+    EXPECT_NEAR(found.period, kept_first ? first : second, 1e-9);
+    EXPECT_NEAR(other.period, kept_first ? second : first, 1e-9);
+    EXPECT_NEAR(static_cast<double>(kept_first ? other.begin : other.end), 10'000.0, 130.0);
+  }
+}
+
+// Losses throughout and bursts are no other pace.
+TEST(Pace, LossesAndBurstsAreNoOtherPace) {
+  std::mt19937 random(7);
+  std::bernoulli_distribution lost(0.3);
+  std::vector<double> thinned;
+  std::vector<double> bursts;
+  for (const double at : even(20'000, 0.01)) {
+    if (at < 100.0 || !lost(random)) thinned.push_back(at);
+    bursts.push_back(at < 100.0 ? at : 0.08 * std::ceil(at / 0.08));
+  }
+  EXPECT_TRUE(pace_in(thinned).others.empty());
+  EXPECT_TRUE(pace_in(bursts).others.empty());
 }
 
 // Rounded stamps repeat a pattern (8, 8, 9 ms at 120 Hz): no part of them may stand for all.

@@ -1,5 +1,7 @@
 #include "recording/import/preflight/pace.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -93,6 +95,51 @@ std::optional<Shift> lost_at(const Clock& clock, double period, std::size_t at) 
   return Shift{seconds, seconds, true};
 }
 
+// Whether most of the steps up to `end` are their mean within a fifth.
+bool come_evenly(const Clock& clock, std::size_t begin, std::size_t end, double mean) {
+  constexpr double kFifth = 0.2;
+  std::size_t near = 0;
+  for (std::size_t i = begin + 1; i <= end; ++i)
+    near += std::abs(clock.step(i) - mean) < kFifth * mean ? 1U : 0U;
+  return 2 * near > end - begin;
+}
+
+// A recorder that was set to another rate goes on for thousands of samples. Blocks with losses or
+// bursts do not come evenly.
+std::vector<OtherPace> other_paces(const Clock& clock, double period) {
+  constexpr double kOther = 1.25;
+  constexpr double kSame = 0.1;
+  constexpr std::size_t kFewestBlocks = 16;
+  std::vector<OtherPace> out;
+  const std::size_t blocks = (clock.size() - 1) / kMean;
+  std::size_t first = 0;
+  std::size_t run = 0;
+  double sum = 0.0;
+  const auto end_run = [&](std::size_t block) {
+    if (run >= kFewestBlocks) {
+      // The pace changes within a block.
+      const std::size_t begin = first > 0 ? (first - 1) * kMean : 0;
+      out.push_back(
+          {begin, std::min((block + 1) * kMean, clock.size()), sum / static_cast<double>(run)});
+    }
+    run = 0;
+    sum = 0.0;
+  };
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t begin = b * kMean;
+    const double mean = (clock.at(begin + kMean) - clock.at(begin)) / static_cast<double>(kMean);
+    const bool other = mean > 0.0 && (mean > kOther * period || kOther * mean < period) &&
+                       come_evenly(clock, begin, begin + kMean, mean);
+    const bool goes_on = run > 0 && std::abs(mean * static_cast<double>(run) / sum - 1.0) < kSame;
+    if (!other || !goes_on) end_run(b);
+    if (!other) continue;
+    if (run++ == 0) first = b;
+    sum += mean;
+  }
+  end_run(blocks);
+  return out;
+}
+
 struct Candidate {
   std::size_t at;
   Shift shift;
@@ -124,12 +171,29 @@ std::vector<std::size_t> logged_twice(const Clock& clock,
   return out;
 }
 
+std::string words_of(const OtherPace& one, const Clock& clock, double period) {
+  return fmt::format(
+      "{:.4g} Hz from {:.6g} to {:.6g} s, {:.4g} Hz elsewhere: left out; a file of its own takes "
+      "it",
+      1.0 / one.period, clock.at(one.begin), clock.at(one.end - 1), 1.0 / period);
+}
+
 Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {
   Pace out;
   out.period = clock.period();
+  out.others = other_paces(clock, out.period);
   const std::size_t count = clock.size();
+  // Rows that step from one of the same pace.
+  std::vector<bool> steps(count, true);
+  steps[0] = false;
+  for (const OtherPace& one : out.others) {
+    const std::size_t end = std::min(one.end + 1, count);
+    std::fill(steps.begin() + static_cast<std::ptrdiff_t>(one.begin),
+              steps.begin() + static_cast<std::ptrdiff_t>(end), false);
+  }
   std::vector<Candidate> leaps;
   for (std::size_t i = 1; i < count; ++i) {
+    if (!steps[i]) continue;
     const double step = clock.step(i);
     const bool twice = step == 0.0 && same(i);
     if (step >= 0.0 && step < 1.5 * out.period && !twice) continue;
@@ -144,34 +208,35 @@ Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {
       ++out.backwards;
     }
   }
-  for (const Candidate& one : leaps) out.leaps.push_back({one.at, one.shift.seconds});
-  std::size_t begin = 0;
-  std::size_t steps = 0;
-  for (std::size_t l = 0; l <= leaps.size(); ++l) {
-    const std::size_t end = l < leaps.size() ? leaps[l].at : count;
-    out.span += clock.at(end - 1) - clock.at(begin);
-    steps += end - 1 - begin;
-    begin = end;
+  for (const Candidate& one : leaps) {
+    out.leaps.push_back({one.at, one.shift.seconds});
+    steps[one.at] = false;
+  }
+  std::size_t number = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (!steps[i]) continue;
+    // Between two rows of a stretch: the first of these begins it.
+    std::size_t end = i;
+    while (end + 1 < count && steps[end + 1]) ++end;
+    out.span += clock.at(end) - clock.at(i - 1);
+    number += end - i + 1;
+    i = end;
   }
   // Where samples are lost throughout, a stretch may still hold a loss.
-  if (steps > 0 && out.span > 0.0 && !clock.loses())
-    out.period = out.span / static_cast<double>(steps);
+  if (number > 0 && out.span > 0.0 && !clock.loses())
+    out.period = out.span / static_cast<double>(number);
   for (std::size_t l = 0; l < leaps.size(); ++l) {
     if (leaps[l].shift.clean) out.leaps[l].seconds = clock.step(leaps[l].at) - out.period;
   }
   double squares = 0.0;
-  std::size_t next = 0;
   for (std::size_t i = 1; i < count; ++i) {
-    if (next < leaps.size() && leaps[next].at == i) {
-      ++next;
-      continue;
-    }
+    if (!steps[i]) continue;
     const double off = clock.step(i) - out.period;
     out.scatter = std::max(out.scatter, std::abs(off));
     squares += off * off;
   }
   out.jitter =
-      std::sqrt(0.5 * squares / static_cast<double>(std::max<std::size_t>(1, steps))) / out.period;
+      std::sqrt(0.5 * squares / static_cast<double>(std::max<std::size_t>(1, number))) / out.period;
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "recording/import/preflight/clock.h"
@@ -16,6 +17,13 @@ struct Leap {
   double seconds = 0.0;  ///< beyond one period; negative: time goes back
 };
 
+/// Samples that come evenly, but at another pace than most of the file.
+struct OtherPace {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  double period = 0.0;  ///< s
+};
+
 /// A gap lasts: the median lateness of 8 samples and the mean of 64 differ by more than half a
 /// period from those before, or nearly all stamps are even and one step is longer. Bursts of a bus
 /// and single late stamps do not.
@@ -25,6 +33,7 @@ struct Pace {
   double scatter = 0.0;            ///< s, the largest departure of a step between leaps
   double span = 0.0;               ///< s, of all stretches between leaps
   std::vector<Leap> leaps;         ///< rising `at`
+  std::vector<OtherPace> others;   ///< rising; nothing else here counts their rows
   std::vector<std::size_t> twice;  ///< rows that repeat the row before, stamp included
   std::size_t backwards = 0;       ///< stamps before the one before, where the pace goes on
 };
@@ -34,6 +43,9 @@ struct Pace {
 /// values of row i - 1.
 std::vector<std::size_t> logged_twice(const Clock& clock,
                                       const std::function<bool(std::size_t)>& same);
+
+/// "200 Hz from 100 to 150 s, 100 Hz elsewhere: left out; ...".
+std::string words_of(const OtherPace& one, const Clock& clock, double period);
 
 Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same);
 

@@ -167,6 +167,7 @@ class Judge {
   Result<void> take_rate() {
     if (options_.rate) {
       out_.rate = *options_.rate;
+      report_.recognised.push_back(fmt::format("time: {:.6g} Hz (--rate)", out_.rate.value));
       return {};
     }
     if (!table_.rate) {
@@ -184,8 +185,8 @@ class Judge {
   }
 
   Result<void> read_clock() {
-    auto clock = Clock::read(fmt::format("{}: column {}", file_, table_.time->name), *table_.time,
-                             options_.time_unit);
+    const std::string place = fmt::format("{}: column {}", file_, table_.time->name);
+    auto clock = Clock::read(place, *table_.time, options_.time_unit);
     if (!clock) return tl::make_unexpected(clock.error());
     clock_ = std::move(*clock);
     return {};
@@ -226,6 +227,10 @@ class Judge {
     if (pace.backwards > 0)
       find(Severity::kDoubt,
            fmt::format("{} stamps go back for a moment: are rows out of order?", pace.backwards));
+    for (const OtherPace& one : pace.others) {
+      cuts_.add(one.begin, one.end);
+      find(Severity::kLeftOut, words_of(one, *clock_, pace.period));
+    }
     tell_leaps(pace);
     return {};
   }

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <string_view>
 
+#include "core/integrity/interpolation.h"
 #include "core/support/neighbour_steps.h"
 #include "recording/import/table/names.h"
 
@@ -25,6 +27,7 @@ constexpr double kStraight = 1e-3;    // of the rms second difference
 constexpr std::size_t kSegment = 64;  // samples of a spectrum's segment
 constexpr double kFalls = 0.1;        // -10 dB
 constexpr double kFlat = 2.5;         // between bins 2 to 3 and 4 to 6
+constexpr std::size_t kGroup = 4;     // samples averaged to see lower frequencies
 constexpr std::size_t kMostSegments = 2048;
 
 using Axes = std::vector<std::vector<double>>;
@@ -89,9 +92,11 @@ Lines straight_lines(const Axes& axes) {
   return out;
 }
 
-// Power in bins 0 to 32 of segments, in any unit.
-std::array<double, kSegment / 2 + 1> power_of(const std::vector<double>& axis) {
-  std::array<double, kSegment / 2 + 1> out = {};
+using Spectrum = std::array<double, kSegment / 2 + 1>;
+
+// Mean power in bins 0 to 32 of segments, in any unit.
+Spectrum power_of(const std::vector<double>& axis) {
+  Spectrum out = {};
   static const auto table = [] {
     std::array<double, kSegment> cosines;
     for (std::size_t i = 0; i < kSegment; ++i) {
@@ -102,6 +107,7 @@ std::array<double, kSegment / 2 + 1> power_of(const std::vector<double>& axis) {
   }();
   const std::size_t segments = axis.size() / kSegment;
   const std::size_t stride = std::max<std::size_t>(1, segments / kMostSegments);
+  const auto used = static_cast<double>((segments + stride - 1) / stride);
   for (std::size_t s = 0; s < segments; s += stride) {
     const double* const from = axis.data() + s * kSegment;
     double mean = 0.0;
@@ -114,29 +120,54 @@ std::array<double, kSegment / 2 + 1> power_of(const std::vector<double>& axis) {
         real += windowed * table[(i * k) % kSegment];
         imaginary += windowed * table[(i * k + kSegment / 4 * 3) % kSegment];
       }
-      out[k] += real * real + imaginary * imaginary;
+      out[k] += (real * real + imaginary * imaginary) / used;
     }
   }
   return out;
 }
 
-double mean_of_bins(const std::array<double, kSegment / 2 + 1>& power, std::size_t first,
-                    std::size_t last) {
+double mean_of_bins(const Spectrum& power, std::size_t first, std::size_t last) {
   double sum = 0.0;
   for (std::size_t k = first; k <= last; ++k) sum += power[k];
   return sum / static_cast<double>(last - first + 1);
 }
 
+double plateau(const Spectrum& power) { return mean_of_bins(power, 2, 6); }
+double top(const Spectrum& power) { return mean_of_bins(power, 26, 31); }
+
 // The fraction of the rate from which on the power is less than half; 0: no filter.
-double cut_off(const std::vector<double>& axis) {
-  const auto power = power_of(axis);
+double cut_off_in(const Spectrum& power) {
   const double low = mean_of_bins(power, 2, 3);
   const double middle = mean_of_bins(power, 4, 6);
-  const double top = mean_of_bins(power, 26, 31);
-  if (!(low > 0.0) || low > kFlat * middle || top > kFalls * 0.5 * (low + middle)) return 0.0;
+  if (!(low > 0.0) || low > kFlat * middle || top(power) > kFalls * 0.5 * (low + middle))
+    return 0.0;
   std::size_t k = 4;
   while (k < 31 && power[k] > 0.5 * low) ++k;
   return static_cast<double>(k) / static_cast<double>(kSegment);
+}
+
+std::vector<double> mean_of_groups(const std::vector<double>& axis) {
+  std::vector<double> out(axis.size() / kGroup);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto first = axis.begin() + static_cast<std::ptrdiff_t>(i * kGroup);
+    out[i] = std::accumulate(first, first + static_cast<std::ptrdiff_t>(kGroup), 0.0) /
+             static_cast<double>(kGroup);
+  }
+  return out;
+}
+
+// The same of a filter far below the rate, too: means of neighbours show where it is flat. It
+// leaves next to nothing at the highest frequencies, where a sensor without filter has white noise
+// beside a bias that wanders.
+double cut_off(const std::vector<double>& axis) {
+  constexpr double kNothing = 0.01;  // -20 dB
+  const Spectrum all = power_of(axis);
+  const double out = cut_off_in(all);
+  if (out > 0.0 || axis.size() < kGroup * kFewestRows) return out;
+  const Spectrum slow = power_of(mean_of_groups(axis));
+  // A mean of n white samples has an nth of their power.
+  if (top(all) > kNothing * plateau(slow) * static_cast<double>(kGroup)) return 0.0;
+  return cut_off_in(slow) / static_cast<double>(kGroup);
 }
 
 // What a channel measures, by its unit, else by its name.
@@ -164,6 +195,16 @@ void suspect(const Axes& axes, std::string_view sensor, Hertz rate,
          fmt::format("{:.3g} % of the {} lie on straight lines between their neighbours: they were "
                      "interpolated, which hides noise; read the raw samples",
                      100.0 * lines.joint, sensor)});
+    return;
+  }
+  for (const auto& axis : axes) {
+    const double beat = interpolation_beat(axis);
+    if (beat == 0.0) continue;
+    findings.push_back(
+        {Severity::kDoubt,
+         fmt::format("the {} were interpolated from another sampling rate, with which they beat at "
+                     "{:.4g} Hz: that hides noise; read the raw samples",
+                     sensor, beat * rate.value)});
     return;
   }
   double lowest = 1.0;

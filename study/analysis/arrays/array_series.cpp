@@ -173,7 +173,13 @@ std::string pairs_sentence(const v1::ArrayReport& report) {
   if (dependent > 0)
     return out +
            fmt::format("{} of {} pairs of sensors share noise.", dependent, report.pairs_size());
-  return withheld == report.pairs_size() ? out : out + "These recordings show no shared noise.";
+  if (withheld == report.pairs_size()) return out;
+  if (report.correlation_found())
+    return out +
+           "Whether noise is shared is uncertain: a correlation of the model is not zero, but "
+           "no pair as a whole shows shared noise.";
+  return out + (withheld > 0 ? "The other pairs show no shared noise."
+                             : "These recordings show no shared noise.");
 }
 
 std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& scale_weights) {
@@ -246,6 +252,11 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   add_pairs(fit, measured, sensors, options.confidence, out);
   add_virtual_sensor(fit, measured, *scale_weights, options, half, out);
   add_trade_offs(fit, measured, options, half, out);
+  out.set_correlation_found(std::any_of(
+      out.parameters().begin(), out.parameters().end(), [](const v1::ArrayParameter& one) {
+        return one.has_correlation_lower() &&
+               (one.correlation_lower() > 0.0 || one.correlation_upper() < 0.0);
+      }));
   out.set_summary(summary_of(out, *scale_weights));
   if (!options.model) out.add_notes(default_model_note("was fitted", kDefaultArrayModel));
   if (options.rule == WeightRule::kUnitLength) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/export/consumer.h"
@@ -10,23 +11,20 @@ namespace {
 constexpr double kHour = 3600.0;    // s
 constexpr double kMilligal = 1e-5;  // m/s²
 
-double slowest_time(const SensorNoise& sensor) {
-  double out = 0.0;
-  for (const AxisNoise& one : sensor.axes) out = std::max(out, markov_bias(one).tc);
+// Of all biases; that of an axis without one does not count.
+double shared_time(const ImuNoise& imu) {
+  double out = kEndless;
+  for (const SensorNoise* const sensor : {&imu.gyro, &imu.accelerometer}) {
+    for (const AxisNoise& one : sensor->axes) out = std::min(out, markov_bias(one).tc);
+  }
   return out;
 }
 
-// One correlation time serves all biases: σ of each keeps its q = 2σ²/τ, what a filter sees of it
-// at times shorter than τ.
-std::function<double(const AxisNoise&)> sigma_at(double tc, double factor) {
-  return [=](const AxisNoise& axis) {
-    const Markov bias = markov_bias(axis);
-    return bias.sigma * std::sqrt(tc / bias.tc) * factor;
-  };
+std::function<double(const AxisNoise&)> sigma_times(double factor) {
+  return [=](const AxisNoise& axis) { return markov_bias(axis).sigma * factor; };
 }
 
 std::vector<Field> kf_gins_fields(const ImuNoise& imu, double) {
-  const double tc = std::max(slowest_time(imu.gyro), slowest_time(imu.accelerometer));
   const double deg_sqrt_h =
       coefficient_units(Coefficient::kRandomWalk, Quantity::kAngularRate).to_datasheet;
   const double deg_h =
@@ -38,10 +36,11 @@ std::vector<Field> kf_gins_fields(const ImuNoise& imu, double) {
   add_field(
       out, "vrw", imu.accelerometer,
       [](const AxisNoise& axis) { return axis.n.value * std::sqrt(kHour); }, "m/s/√h", "N");
-  add_field(out, "gbstd", imu.gyro, sigma_at(tc, deg_h), "°/h", "σ, or K·√(τ/2)");
-  add_field(out, "abstd", imu.accelerometer, sigma_at(tc, 1.0 / kMilligal), "mGal",
+  add_field(out, "gbstd", imu.gyro, sigma_times(deg_h), "°/h", "σ, or K·√(τ/2)");
+  add_field(out, "abstd", imu.accelerometer, sigma_times(1.0 / kMilligal), "mGal",
             "σ, or K·√(τ/2)");
-  out.push_back({"corrtime", {{tc / kHour}}, "h", "τ; 1e6 s stands for a random walk"});
+  out.push_back(
+      {"corrtime", {{shared_time(imu) / kHour}}, "h", "τ; 1e6 s stands for a random walk"});
   return out;
 }
 
@@ -59,6 +58,7 @@ const Consumer& kf_gins() {
           "correlation time",
       .axes = AxisRule::kEach,
       .takes_markov = true,
+      .one_time = true,
       .remark =
           "Scale factors (gsstd, asstd) are not noise at rest: keep yours. The initial bias "
           "uncertainty (initbgstd, initbastd) is that of power-on, not gbstd: set it.",

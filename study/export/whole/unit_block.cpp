@@ -128,6 +128,12 @@ struct MakeBlock {
   Result<UnitBlock> operator()(const BartlettFilter& of) const {
     return delay_line(bartlett_taps(of.length));
   }
+  template <class Form>
+  Result<UnitBlock> operator()(const LowPass<Form>& of) const {
+    const LinearSystem system = of.system();
+    return UnitBlock{system.transition, system.input * system.input.transpose(), system.output,
+                     system.stationary};
+  }
   Result<UnitBlock> operator()(const Flicker&) const { return flicker_bank(); }
   Result<UnitBlock> operator()(const Voigt& of) const {
     Together out;

@@ -48,21 +48,13 @@ Table sensor_fits(const v1::ArrayReport& report, Digits digits) {
   return out;
 }
 
-// A correlation of the parameters whose interval excludes zero says that noise is shared, too.
-bool interval_excludes_zero(const v1::ArrayReport& report) {
-  return std::any_of(report.parameters().begin(), report.parameters().end(), [](const auto& one) {
-    return one.has_correlation_lower() &&
-           (one.correlation_lower() > 0.0 || one.correlation_upper() < 0.0);
-  });
-}
-
 void add_verdict(const v1::ArrayReport& report, Section& section) {
   const auto any = [](const auto& all, const auto& is) {
     return std::any_of(all.begin(), all.end(), is);
   };
   const bool misfit = any(report.sensor_fits(), [](const auto& one) { return !one.fits(); });
   const bool shared = any(report.pairs(), [](const auto& one) { return one.dependent(); });
-  const bool maybe = interval_excludes_zero(report);
+  const bool maybe = report.correlation_found();
   section.badge = shared   ? "shared noise"
                   : misfit ? "the model does not fit"
                   : maybe  ? "shared noise is uncertain"

@@ -55,6 +55,25 @@ INSTANTIATE_TEST_SUITE_P(
                       "MA(1, sigma2=1, theta1=0.4) + RW(gamma2=1e-5)", "FN(b2=0.1) + WN(sigma2=1)",
                       "GM(sigma2=0.2, tc=3) + WN(sigma2=1) + RW(gamma2=1e-7)"));
 
+// In 4 of these seeds from 1 to 3000, weights and estimate chased each other: a short correlation
+// time made weights that asked for a long one, and back. The result left 26 standard deviations of
+// its own at the longest scales.
+TEST(Mugmwm, SettlesOnWeightsOfItsOwn) {
+  const Model truth = model_of("WN(sigma2=1) + AR1(sigma2=0.01, phi=0.99)");
+  for (const std::uint64_t seed : {488U, 834U, 2028U, 2557U}) {
+    const auto moments = testing::simulated_set(truth, {3000, 3000, 3000, 3000}, 1, seed);
+    const Estimate found = mugmwm(freed(truth), moments, Weighting::kFull);
+    const auto roots = full_roots(found.model, moments);
+    double own = 0.0;
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+      const Eigen::VectorXd left = moments[k].variance.matrix() -
+                                   variance(found.model, moments[k].scales.half_widths()).matrix();
+      own += (roots[k] * left).squaredNorm();
+    }
+    EXPECT_LT(own, 3.0 * found.objective + 30.0) << "seed " << seed;
+  }
+}
+
 TEST(Mugmwm, TakesReplicatesOfUnequalLength) {
   const Model truth = model_of("AR1(sigma2=0.01, phi=0.99) + WN(sigma2=1)");
   const std::vector<WaveletVariance> moments = {theory(truth, 5000), theory(truth, 1U << 17U),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/integrity/interpolation.h"
 #include "core/support/random.h"
 
 namespace imunoise {
@@ -73,6 +74,52 @@ TEST(Integrity, CodesThatNeverOccurAreMissingAndNoDuplicates) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].effect, "missing_codes");
   EXPECT_EQ(found[0].count, 3U);
+}
+
+// White noise of 97, 130 and 61 Hz, read at 100 Hz between its samples; each with a walk.
+TEST(Integrity, InterpolationBeatsWithTheOriginalRate) {
+  for (const double ratio : {0.97, 1.3, 0.61}) {
+    RandomStream rng(6);
+    std::vector<double> raw(2 * kSamples);
+    double walk = 0.0;
+    for (double& one : raw) one = rng.normal() + (walk += 0.01 * rng.normal());
+    std::vector<double> read(kSamples);
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double at = ratio * static_cast<double>(i);
+      const auto left = static_cast<std::size_t>(at);
+      const double along = at - static_cast<double>(left);
+      read[i] = (1.0 - along) * raw[left] + along * raw[left + 1];
+    }
+    const double beat = std::abs(ratio - std::round(ratio));
+    EXPECT_NEAR(interpolation_beat(read), beat, 1e-5) << ratio;
+    EXPECT_EQ(effects(read), Names{"interpolated_samples"}) << ratio;
+  }
+}
+
+// Power that rises and falls as evenly, a strong line, and noise that passed a filter are none.
+TEST(Integrity, EvenPowerChangesAreNoInterpolation) {
+  std::vector<double> beating = noise(0.0);
+  std::vector<double> line = noise(0.0);
+  std::vector<double> smooth = noise(0.0);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const auto t = static_cast<double>(i);
+    beating[i] *= std::exp(0.45 * std::cos(0.0628 * t));
+    line[i] += 3.0 * std::sin(0.7 * t);
+    if (i > 0) smooth[i] = 0.5 * smooth[i - 1] + 0.5 * smooth[i];
+  }
+  for (const auto* one : {&beating, &line, &smooth}) EXPECT_EQ(interpolation_beat(*one), 0.0);
+}
+
+TEST(Integrity, AValueFarFromAllOthersIsNoEndOfTheRange) {
+  std::vector<double> zeros = noise(0.01);
+  for (double& one : zeros) one += 20.0;
+  for (std::size_t t = 77; t < kSamples; t += 300) zeros[t] = 0.0;
+  const auto found = integrity(Signal(std::span<const double>(zeros), Hertz{100.0}));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].effect, "dropouts");
+  EXPECT_EQ(found[0].expected, 0.0);
+  ASSERT_FALSE(found[0].wrong.empty());
+  EXPECT_EQ(found[0].wrong.front().beyond, 0);
 }
 
 TEST(Integrity, EachDefectIsNamed) {

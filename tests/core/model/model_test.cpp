@@ -77,7 +77,7 @@ TEST(Grammar, PrintsBackWhatItParsed) {
     for (std::size_t i = 0; i < size; ++i) {
       Process process = known_processes()[engine() % known_processes().size()];
       if (structure(process) > 0)
-        process = *with_structure(process, 1 + static_cast<int>(engine() % 5));
+        process = *with_structure(process, 2 + static_cast<int>(engine() % 5));
       if (auto* markov = std::get_if<GaussMarkov>(&process)) markov->rate = kRate;
       Term term(process);
       std::vector<double> v = values(process);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/support/random.h"
 #include "study/export/known_consumers.h"
@@ -138,14 +139,15 @@ TEST(Export, ConservativeValuesGrowWithTheSpreadOfReplicates) {
   const auto walk = [&](const v1::FitReport& of) {
     const std::string file = written(study::imu_noise({{"", of}}).value(), "kalibr", options);
     EXPECT_EQ(file.find("95 % of power-ons") != std::string::npos, of.spread_size() > 0) << file;
-    EXPECT_EQ(file.find("gamma2 of RW: mean 8e-12") != std::string::npos, of.spread_size() > 0);
+    EXPECT_EQ(file.find("gamma2 of RW: typically 8e-12") != std::string::npos,
+              of.spread_size() > 0);
     return numbers_of(file, "gyroscope_random_walk").front();
   };
   EXPECT_GT(walk(moving), 1.3 * walk(fit));
   // How they differ is told, too, where nothing bounds it.
   options.conservative = false;
   const std::string file = written(study::imu_noise({{"", moving}}).value(), "kalibr", options);
-  EXPECT_NE(file.find("gamma2 of RW: mean 8e-12"), std::string::npos) << file;
+  EXPECT_NE(file.find("gamma2 of RW: typically 8e-12"), std::string::npos) << file;
   EXPECT_NE(file.find("--conservative bounds the next power-on"), std::string::npos) << file;
 }
 
@@ -185,14 +187,80 @@ TEST(Export, NothingIsBoundWhereAProgramTakesNoWalk) {
 
 TEST(Export, KalibrNeverGetsZero) {
   const auto imu = example_imu("WN(sigma2=8e-6)", "WN(sigma2=1e-4) + GM(sigma2=1e-6, tc=100)", kAt);
-  const std::string file = written(imu, "kalibr");
-  for (const char* const key : {"gyroscope_noise_density", "gyroscope_random_walk",
-                                "accelerometer_noise_density", "accelerometer_random_walk"}) {
-    ASSERT_EQ(numbers_of(file, key).size(), 1U) << file;
-    EXPECT_GT(numbers_of(file, key)[0], 0.0) << key;
+  ExportOptions safe;
+  safe.conservative = true;
+  for (const ExportOptions& options : {ExportOptions{}, safe}) {
+    const std::string file = written(imu, "kalibr", options);
+    for (const char* const key : {"gyroscope_noise_density", "gyroscope_random_walk",
+                                  "accelerometer_noise_density", "accelerometer_random_walk"}) {
+      ASSERT_EQ(numbers_of(file, key).size(), 1U) << file;
+      EXPECT_GT(numbers_of(file, key)[0], 0.0) << key << file;
+    }
+    EXPECT_NE(file.find("refuses 0"), std::string::npos) << file;
   }
-  EXPECT_NE(file.find("refuses 0"), std::string::npos) << file;
+  const std::string file = written(imu, "kalibr");
   EXPECT_NE(file.find("has no random walk; K bounds its error"), std::string::npos) << file;
+  const std::string walk = written(example_imu("RW(gamma2=8e-12)", kGyro, kAt), "kalibr", safe);
+  EXPECT_GT(numbers_of(walk, "gyroscope_noise_density")[0], 0.0) << walk;
+}
+
+// Smallest and largest ratio of the integrated error of white noise and a bias to a model's.
+std::pair<double, double> ratio_to(const Model& model, double n, const Process& bias) {
+  const Eigen::ArrayXd m = study::horizon_samples(kAt, {});
+  const Model held{{Term(WhiteNoise{n * n * kAt.value}), Term(bias)}};
+  const Eigen::ArrayXd ratio = (variance(held, m) / variance(model, m)).sqrt();
+  return {ratio.minCoeff(), ratio.maxCoeff()};
+}
+
+// A Markov process of a second stands out of N at half a second, and out of N + K of a bound that
+// has an N of its own.
+TEST(Export, WhatIsSaidToBoundTheErrorDoes) {
+  const char* const text = "WN(sigma2=8e-6) + GM(sigma2=4e-6, tc=1.07)";
+  const std::string file = written(example_imu(text, kGyro, kAt), "kalibr");
+  const double n = numbers_of(file, "gyroscope_noise_density")[0];
+  const double k = numbers_of(file, "gyroscope_random_walk")[0];
+  const auto [least, most] =
+      ratio_to(parse_model(text, kAt).value(), n, RandomWalk{k * k / kAt.value});
+  EXPECT_NEAR(least, 1.0, 1e-6) << file;
+  EXPECT_EQ(file.find("times larger"), std::string::npos) << file;
+  const std::string none = written(example_imu(text, kGyro, kAt), "ros");
+  EXPECT_EQ(none.find("K bounds"), std::string::npos) << none;
+}
+
+// KF-GINS has one correlation time. σ·√(τ/T) made the error of the axis with T = 1 s eleven times
+// too large over 30 s.
+TEST(Export, OneCorrelationTimeForAllBoundsEachAxis) {
+  auto imu = example_imu(kGyro, kGyro, kAt);
+  const char* const models[] = {"WN(sigma2=8e-6) + GM(sigma2=2.7e-7, tc=1.07)",
+                                "WN(sigma2=8e-6) + GM(sigma2=3.5e-7, tc=28)",
+                                "WN(sigma2=8e-6) + RW(gamma2=8e-12)"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    imu.gyro.axes[i] = study::axis_noise(imu.gyro.axes[i].channel, Quantity::kAngularRate, kAt,
+                                         parse_model(models[i], kAt).value());
+  }
+  imu.accelerometer.axes.clear();
+  const std::string file = written(imu, "kf-gins");
+  const double tau = numbers_of(file, "corrtime").at(0) * 3600.0;
+  const auto sigmas = numbers_of(file, "gbstd");
+  ASSERT_EQ(sigmas.size(), 3U) << file;
+  double worst = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double sigma = sigmas[i] / 3600.0 * std::numbers::pi / 180.0;
+    const auto [least, most] =
+        ratio_to(parse_model(models[i], kAt).value(), imu.gyro.axes[i].n.value,
+                 GaussMarkov{sigma * sigma, tau, kAt});
+    EXPECT_GT(least, 1.0 - 1e-5) << file;
+    worst = std::max(worst, most);
+  }
+  EXPECT_LT(worst, 2.5) << file;
+  EXPECT_NE(file.find("has one correlation time"), std::string::npos) << file;
+}
+
+TEST(Export, WhiteNoiseBehindAFilterIsWhiteToAConsumer) {
+  const auto imu =
+      example_imu("BUTTERWORTH(2, sigma2=8e-6, omega=1.2) + RW(gamma2=8e-12)", kGyro, kAt);
+  const std::string file = written(imu, "kalibr");
+  EXPECT_NEAR(numbers_of(file, "gyroscope_noise_density")[0], 2e-4, 1e-9) << file;
 }
 
 TEST(Export, AxesWorstMeanEach) {

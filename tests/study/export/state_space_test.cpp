@@ -48,7 +48,8 @@ TEST(StateSpace, ImpliesTheWaveletVarianceOfEveryProcess) {
         "AR1(sigma2=2, phi=-0.4)", "GM(sigma2=2, tc=0.7)", "AR2(sigma2=1, rho1=0.8, phi2=-0.6)",
         "RES(sigma2=1, r=0.95, omega=0.7)", "MA(2, sigma2=1, theta1=0.4, theta2=-0.3)",
         "MAVG(5, sigma2=2)", "BARTLETT(4, sigma2=2)", "PL(a2=2, slope=0.8)",
-        "VOIGT(sigma2=1, r=0.95, omega=0.7, spread=0.05)",
+        "VOIGT(sigma2=1, r=0.95, omega=0.7, spread=0.05)", "LOWPASS(3, sigma2=2, omega=0.4)",
+        "BUTTERWORTH(2, sigma2=2, omega=0.4)", "BUTTERWORTH(3, sigma2=2, omega=2.2)",
         "QN(q2=3) + WN(sigma2=2) + AR1(sigma2=0.1, phi=0.99) + RW(gamma2=1e-3) + "
         "DR(omega2=1e-6)"}) {
     expect_same(text, 1e-9);
