@@ -107,8 +107,10 @@ void add_scales(CLI::App& command, RawInput& raw) {
 void add_measure(CLI::App& command, RawInput& raw) {
   add_scales(command, raw);
   command
-      .add_option("--robust", raw.robust,
-                  "Efficiency of the robust estimator; lower values resist more outliers")
+      .add_option(
+          "--robust", raw.robust,
+          "Efficiency of the robust estimator; lower values resist more outliers, at averaging "
+          "times shorter than the time between two of them")
       ->check(CLI::IsMember({"0.6", "0.8", "0.9"}))
       ->default_str("not robust");
 }

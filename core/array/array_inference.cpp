@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/inference/intervals.h"
 #include "core/support/distributions.h"
@@ -29,6 +30,33 @@ ParameterCovariance sandwich(const ArrayFit& fit, const ArrayModel& scatter,
             covariance(scatter, blocks[b]));
   }
   return out.covariance();
+}
+
+// The wavelet variance of a sensor under a model.
+Eigen::ArrayXd variance_of_sensor(const ArrayModel& model, Eigen::Index sensor, HalfWidths m) {
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(m.size());
+  for (const Latent& one : model.latents)
+    out += one.power(sensor, sensor) * shape(one.term.process, m);
+  return out;
+}
+
+// No process has more than the noise of its sensor.
+void limit_powers(ArrayFit& fit, double samples) {
+  for (ArrayParameter& power : fit.parameters) {
+    const bool own = power.parameter == 0 && power.row == power.column;
+    if (!own) continue;
+    const Latent& latent = fit.model.latents[power.latent];
+    std::vector<ParameterEstimate> estimates;
+    for (const double value : values(latent.term.process))
+      estimates.push_back({value, 0.0, value, value, Observability::kGiven});
+    for (const ArrayParameter& one : fit.parameters)
+      if (one.latent == power.latent && one.parameter > 0) estimates[one.parameter] = one.estimate;
+    const PowerLimit limit(
+        [&](HalfWidths m) { return variance_of_sensor(fit.model, power.row, m); }, samples);
+    power.estimate.upper =
+        std::min(power.estimate.upper,
+                 std::max(power.estimate.value, limit.most(latent.term.process, estimates)));
+  }
 }
 
 }  // namespace
@@ -74,7 +102,8 @@ Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const 
   return out;
 }
 
-void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& covariance_under) {
+void fill_estimates(ArrayFit& fit, double confidence, double samples,
+                    const CovarianceUnder& covariance_under) {
   const ParameterCovariance here = covariance_under(fit.model);
   fit.covariance = here.matrix;
   const double z = normal_quantile(0.5 + 0.5 * confidence);
@@ -108,13 +137,19 @@ void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& cov
       parameter.estimate.upper = upper_bound(value, parameter.estimate.upper, z, error_at);
     }
   }
+  limit_powers(fit, samples);
 }
 
 void infer(ArrayFit& fit, const std::vector<ArrayBlock>& blocks,
            const std::vector<Eigen::MatrixXd>& roots, double confidence) {
   fit.parameters = parameters_of(fit.model);
   const BlockCovariance covariance(fit.model, blocks);
-  fill_estimates(fit, confidence, [&](const ArrayModel& scatter) {
+  std::set<const ReplicateGroup*> groups;
+  for (const ArrayBlock& one : blocks) groups.insert(one.group);
+  double samples = 0.0;
+  for (const ReplicateGroup* const one : groups)
+    samples += one->count * static_cast<double>(one->samples);
+  fill_estimates(fit, confidence, samples, [&](const ArrayModel& scatter) {
     return sandwich(fit, scatter, blocks, roots, covariance);
   });
 }

@@ -19,8 +19,9 @@ double value_of(const ArrayModel& model, const ArrayParameter& parameter);
 using CovarianceUnder = std::function<ParameterCovariance(const ArrayModel& scatter)>;
 
 /// Fills the estimates of fit.parameters, which are there, and their covariance: intervals on the
-/// scale that suits each.
-void fill_estimates(ArrayFit& fit, double confidence, const CovarianceUnder& covariance_under);
+/// scale that suits each. `samples`: of all replicates.
+void fill_estimates(ArrayFit& fit, double confidence, double samples,
+                    const CovarianceUnder& covariance_under);
 
 /// Fills the parameters of a fit and their covariance: the sandwich H⁻¹BH⁻¹ with the exact
 /// covariance of the moments. The blocks and the weight roots are those of the estimate.

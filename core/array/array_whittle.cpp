@@ -165,7 +165,9 @@ ArrayFit make_efficient(ArrayFit fit, std::span<const CrossPower> replicates, do
   const Scored found = maximise(likelihood.likelihood(), likelihood.start(), progress);
   fit.model = sorted(likelihood.model_at(found.at));
   fit.termination = found.termination;
-  fill_estimates(fit, confidence,
+  double samples = 0.0;
+  for (const CrossPower& one : replicates) samples += static_cast<double>(one.samples);
+  fill_estimates(fit, confidence, samples,
                  [&](const ArrayModel& scatter) { return bound(fit, scatter, replicates); });
   return fit;
 }

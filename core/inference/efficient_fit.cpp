@@ -52,7 +52,9 @@ void fill_likelihood_intervals(Fit& fit, std::span<const BandedPower> powers) {
   const auto evidence = [&](Eigen::Index column, double by_error) {
     return evidence_of(model, powers, places[static_cast<std::size_t>(column)].term, by_error);
   };
-  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, evidence,
+  double samples = 0.0;
+  for (const BandedPower& one : powers) samples += static_cast<double>(one.samples);
+  fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, evidence, samples,
                  powers[0].rate);
 }
 

@@ -29,7 +29,7 @@ double error_of_power(const Model& model, std::span<const WaveletVariance> repli
 // Where nothing else of its process is estimated, the evidence for a power is the estimate over the
 // standard error that it would have if there were none.
 void fill_by_errors(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const PowerError& power_error, Hertz rate) {
+                    const PowerError& power_error, std::span<const WaveletVariance> replicates) {
   const Model& model = fit.estimate.model;
   const std::vector<ParameterPlace> places = parameter_places(model);
   const auto evidence = [&](Eigen::Index column, double by_error) {
@@ -37,7 +37,9 @@ void fill_by_errors(Fit& fit, const ParameterSets& sets, const ParameterCovarian
     if (!alone(term)) return by_error;
     return std::max(by_error, values(term.process)[0] / power_error(column, 0.0));
   };
-  fill_intervals(fit, sets, covariance, power_error, evidence, rate);
+  double samples = 0.0;
+  for (const WaveletVariance& one : replicates) samples += static_cast<double>(one.samples);
+  fill_intervals(fit, sets, covariance, power_error, evidence, samples, replicates[0].rate);
 }
 
 TestOutcome test_of_fit(const Model& model, std::span<const WaveletVariance> replicates,
@@ -71,7 +73,7 @@ Fit infer(Estimate estimate, std::span<const WaveletVariance> replicates, double
   const auto power_error = [&](Eigen::Index column, double value) {
     return error_of_power(model, replicates, roots, sets.interior, column, value);
   };
-  fill_by_errors(fit, sets, covariance, power_error, replicates[0].rate);
+  fill_by_errors(fit, sets, covariance, power_error, replicates);
   fit.goodness = fit.estimate.weighting == Weighting::kFull
                      ? test_of_fit(model, replicates, scores)
                      : test_at_full_weights(model, replicates);
@@ -113,7 +115,7 @@ Fit infer(const AverageEstimate& average, std::span<const WaveletVariance> repli
     }
     return std::sqrt(squares) / count;
   };
-  fill_by_errors(fit, sets, mean, power_error, replicates[0].rate);
+  fill_by_errors(fit, sets, mean, power_error, replicates);
   return fit;
 }
 

@@ -16,14 +16,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Seen, without further questions.
 bool clear(double standard_errors) { return standard_errors > 6.0; }
 
+Process with_value(const Process& process, std::size_t parameter, double value) {
+  Process out = process;
+  std::vector<double> v = values(process);
+  v[parameter] = value;
+  set_values(out, v);
+  return out;
+}
+
 // Derived quantities of a process with one parameter moved.
 std::vector<DerivedQuantity> derived_with(const Process& process, std::size_t parameter,
                                           double value, Hertz rate) {
-  Process moved = process;
-  std::vector<double> v = values(process);
-  v[parameter] = value;
-  set_values(moved, v);
-  return derived(moved, rate);
+  return derived(with_value(process, parameter, value), rate);
 }
 
 // The same coefficient among moved quantities (a process may lose one, as AR1 its time when φ < 0).
@@ -50,6 +54,31 @@ double selection_factor(double ratio, double z) {
 }
 
 }  // namespace
+
+PowerLimit::PowerLimit(const std::function<Eigen::ArrayXd(HalfWidths)>& variance, double samples) {
+  constexpr double kErrors = 4.0;
+  constexpr double kFewest = 8.0;  // degrees of freedom at the longest scale
+  const auto scales =
+      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::log2(samples / (2.0 * kFewest))));
+  m_.resize(scales);
+  for (Eigen::Index j = 0; j < scales; ++j) m_(j) = std::exp2(static_cast<double>(j));
+  limit_ = variance(m_) * (1.0 + kErrors * (4.0 * m_ / samples).sqrt());
+}
+
+double PowerLimit::most(const Process& process,
+                        const std::vector<ParameterEstimate>& estimates) const {
+  double out = 0.0;
+  const auto look_at = [&](std::size_t parameter, double value) {
+    const double most = (limit_ / shape(with_value(process, parameter, value), m_)).minCoeff();
+    if (std::isfinite(most)) out = std::max(out, most);
+  };
+  for (std::size_t p = 1; p < estimates.size(); ++p) {
+    look_at(p, estimates[p].lower);
+    look_at(p, estimates[p].upper);
+  }
+  look_at(0, values(process)[0]);
+  return out;
+}
 
 DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEstimate>& estimates,
                                  const Eigen::MatrixXd& covariance, const DerivedQuantity& quantity,
@@ -135,13 +164,15 @@ ParameterEstimate interval(const ParameterInfo& info, std::size_t index, double 
 }
 
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const PowerError& power_error, const PowerEvidence& evidence, Hertz rate) {
+                    const PowerError& power_error, const PowerEvidence& evidence, double samples,
+                    Hertz rate) {
   const auto place = [](const std::vector<Eigen::Index>& set, Eigen::Index column) {
     return std::find(set.begin(), set.end(), column) - set.begin();
   };
   fit.parameters.clear();
   fit.derived.clear();
   const double z = normal_quantile(0.5 + 0.5 * fit.confidence);
+  const PowerLimit limit([&](HalfWidths m) { return variance(fit.estimate.model, m); }, samples);
   Eigen::Index first = 0;
   for (const Term& term : fit.estimate.model.terms) {
     const std::vector<ParameterInfo> about = parameters(term.process);
@@ -185,6 +216,8 @@ void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovarian
       row[0].upper = upper_bound(row[0].value, row[0].upper, z,
                                  [&](double at) { return power_error(first, at); });
     }
+    if (!term.given[0])
+      row[0].upper = std::min(row[0].upper, std::max(v[0], limit.most(term.process, row)));
     std::vector<DerivedEstimate> quantities;
     for (const DerivedQuantity& quantity : derived(term.process, rate)) {
       quantities.push_back(derived_interval(term, row, local, quantity, rate, z));

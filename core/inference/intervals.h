@@ -28,6 +28,20 @@ using PowerError = std::function<double(Eigen::Index column, double value)>;
 /// standard error.
 using PowerEvidence = std::function<double(Eigen::Index column, double by_error)>;
 
+/// The most that one process can have of noise whose variance is known: its wavelet variance is
+/// nowhere above that of all, with four standard errors of chance.
+class PowerLimit {
+ public:
+  /// `variance`: the wavelet variance of all noise; `samples`: of all replicates.
+  PowerLimit(const std::function<Eigen::ArrayXd(HalfWidths)>& variance, double samples);
+  /// Its largest power, its other parameters anywhere in their intervals.
+  double most(const Process& process, const std::vector<ParameterEstimate>& estimates) const;
+
+ private:
+  Eigen::ArrayXd m_;
+  Eigen::ArrayXd limit_;
+};
+
 /// Interval of a derived quantity of a term: mapped end to end when it depends on one parameter,
 /// else by the delta method on the logarithm. `estimates` and `covariance` are of the term's
 /// parameters; z is the normal quantile of the confidence.
@@ -36,9 +50,10 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
                                  Hertz rate, double z);
 
 /// Fills fit.parameters and fit.derived. `covariance` is of the interior parameters of the model,
-/// in the order of `sets`.
+/// in the order of `sets`; `samples` those of all replicates.
 void fill_intervals(Fit& fit, const ParameterSets& sets, const ParameterCovariance& covariance,
-                    const PowerError& power_error, const PowerEvidence& evidence, Hertz rate);
+                    const PowerError& power_error, const PowerEvidence& evidence, double samples,
+                    Hertz rate);
 
 /// Whether nothing else of its process is estimated beside a term's power.
 bool alone(const Term& term);

@@ -40,6 +40,18 @@ v1::ArrayReport report_of(const Simulated& simulated, const std::string& model) 
   return out ? *out : v1::ArrayReport{};
 }
 
+TEST(ArraySeries, GivesNoProcessMorePowerThanItsSensorHas) {
+  const std::string white = "WN(sigma2=1)";
+  const Simulated three{{{drawn(white, 4000, 21), drawn(white, 4000, 22)},
+                         {drawn(white, 4000, 23), drawn(white, 4000, 24)},
+                         {drawn(white, 4000, 25), drawn(white, 4000, 26)}}};
+  const v1::ArrayReport report = report_of(three, "AR1 + WN + RW[corr]");
+  for (const v1::ArrayParameter& one : report.parameters()) {
+    if (one.parameter() != "sigma2" || !one.has_upper()) continue;
+    EXPECT_LT(one.upper(), 4.5) << one.term() << " " << one.sensors(0);
+  }
+}
+
 // The quiet sensor of the first half is the noisy one of the second.
 TEST(ArraySeries, GivesThePlainMeanWhereTheBestWeightsAreNoisierOnHeldOutReplicates) {
   const std::string quiet = "WN(sigma2=1)";

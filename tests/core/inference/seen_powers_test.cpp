@@ -56,6 +56,19 @@ std::pair<SeenShares, SeenShares> seen_shares(const SeenPower& of, std::size_t s
   return {share(0), share(1)};
 }
 
+// White noise and a Markov process without memory are the same: their error is large, and an upper
+// end was 260 times the variance of all noise.
+TEST(Powers, AreBelowAllNoiseThereIs) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto moments =
+        testing::simulated_set(testing::model_of("WN(sigma2=1)"), {4000, 4000, 4000}, 1, seed);
+    const Fit fit =
+        infer(mugmwm(testing::model_of("WN + AR1 + RW"), moments, Weighting::kFull), moments, 0.95);
+    for (const std::vector<ParameterEstimate>& term : fit.parameters)
+      EXPECT_LT(term[0].upper, 4.5) << "seed " << seed;
+  }
+}
+
 class SeenPowers : public ::testing::TestWithParam<SeenPower> {};
 
 // Chance makes a power seen in 2.5 %, by moments in up to 5 %: they scatter to one side. Where it
