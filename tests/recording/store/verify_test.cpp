@@ -165,7 +165,7 @@ TEST_F(Verify, OneChunkFileByItself) {
   overwrite(file("000002.h5"), "no chunk");
   const auto other = verify_chunk(files_, "good.csv");
   ASSERT_FALSE(other);
-  EXPECT_NE(other.error().message.find("is no recording"), std::string::npos);
+  EXPECT_NE(other.error().message.find("is not a recording"), std::string::npos);
   const auto bad = verify_chunk(files_, file("000002.h5"));
   ASSERT_TRUE(bad);
   EXPECT_FALSE(bad->sound());
