@@ -95,7 +95,7 @@ NoiseSize size_of_noise(const FittedModel& model, std::size_t term) {
   if (const auto peak = find(Coefficient::kFrequency); peak != all.end())
     out.place = " at " + report::number(peak->value, 4, report::Digits::kPlain) + " Hz";
   if (const auto cutoff = find(Coefficient::kCutoff); cutoff != all.end())
-    out.place = " below " + report::number(cutoff->value, 4, report::Digits::kPlain) + " Hz";
+    out.place = ", cut-off " + report::number(cutoff->value, 4, report::Digits::kPlain) + " Hz";
   return out;
 }
 
