@@ -157,6 +157,19 @@ std::optional<FoundFilter> likeliest(const Seen& seen, const FoundFilter& first)
   return best;
 }
 
+// Whether noise of a kind is a resonance that hardly rings in a model: two lags in a row, which a
+// filter of second order has as well.
+bool hardly_rings(const Model& model, const Process& kind) {
+  constexpr double kHardly = 0.5;  // of the critical damping
+  return std::any_of(model.terms.begin(), model.terms.end(), [&](const Term& term) {
+    if (term.process.index() != kind.index()) return false;
+    const std::vector<DerivedQuantity> all = derived(term.process, Hertz{1.0});
+    return std::any_of(all.begin(), all.end(), [](const DerivedQuantity& one) {
+      return one.coefficient == Coefficient::kDampingRatio && one.value > kHardly;
+    });
+  });
+}
+
 }  // namespace
 
 bool is_fast(const Process& process) {
@@ -167,7 +180,7 @@ bool is_fast(const Process& process) {
   });
 }
 
-Suggestion search_low_pass(const Current& current, const Suggestions& others) {
+Suggestion search_low_pass(const Current& current, Suggestions& others) {
   constexpr double kClearly = 6.0;
   const double cutoffs = std::log(kHighestCutoff / kLowestCutoff) / std::log(kCutoffStep);
   const double forms = 2.0 * static_cast<double>(kOrders.size());
@@ -184,11 +197,17 @@ Suggestion search_low_pass(const Current& current, const Suggestions& others) {
   const double before = whittle_objective(seen.noise, seen.pooled);
   if (!best || !(best->fit.objective < before)) return out;
   const double reached = best->fit.objective;
-  const bool special = std::any_of(others.begin(), others.end(), [&](const Suggestion& other) {
+  bool special = false;
+  for (Suggestion& other : others) {
     const auto* const change = std::get_if<NoiseChange>(&other.added);
-    return change != nullptr && other.score_nats > 0.0 &&
-           whittle(change->start, current.pooled).objective < reached + kClearly;
-  });
+    if (change == nullptr || !(other.score_nats > 0.0)) continue;
+    const WhittleEstimate fit = whittle(change->start, current.pooled);
+    if (!hardly_rings(fit.model, change->added)) {
+      special = special || fit.objective < reached + kClearly;
+    } else if (fit.objective > reached - kClearly) {
+      other.score_nats = 0.0;
+    }
+  }
   out.added = NoiseChange{best->fit.model, best->process};
   out.dof = best->place.beside ? 2.0 : 1.0;
   if (!special) out.score_nats = before - reached;

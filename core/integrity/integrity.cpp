@@ -15,6 +15,7 @@ namespace {
 struct Codes {
   double step = 0.0;              // smallest difference between two values that occur
   double spread = 0.0;            // standard deviation of the difference of neighbours
+  double apart = 0.0;             // and of samples kApart from each other
   std::size_t distinct = 0;       // values that occur, counted up to kMany
   std::size_t repeats = 0;        // samples equal to the one before
   std::size_t lowest = 0;         // samples at the smallest value
@@ -31,9 +32,22 @@ constexpr std::size_t kMany = 100'000;  // distinct values: no grid worth the na
 constexpr std::size_t kNearest = 16;
 constexpr std::size_t kFurthest = 31;
 
-constexpr double kMostAlike = 0.9;  // chance of a repeat that is believed at most
+constexpr double kMostAlike = 0.98;  // chance of a repeat that is believed at most
+
+// Noise that passed a filter changes little from one sample to the next; over so many it does.
+constexpr std::size_t kApart = 64;
 
 constexpr std::size_t kPile = 5;  // samples at an end of the range that are no chance
+
+// Root mean square difference of samples so far apart.
+double difference_at(const Signal& signal, std::size_t lag) {
+  double squares = 0.0;
+  for (std::size_t t = lag; t < signal.size(); ++t) {
+    const double difference = signal.value(t) - signal.value(t - lag);
+    squares += difference * difference;
+  }
+  return std::sqrt(squares / static_cast<double>(signal.size() - lag));
+}
 
 // Differences of neighbours, and samples at the extremes, which values without a grid have as well.
 Codes codes_without_grid(const Signal& signal) {
@@ -56,6 +70,7 @@ Codes codes_without_grid(const Signal& signal) {
     before = value;
   }
   out.spread = std::sqrt(squares / static_cast<double>(signal.size()));
+  out.apart = difference_at(signal, std::min(kApart, signal.size() / 4));
   out.distinct = kMany;
   return out;
 }
@@ -80,15 +95,22 @@ std::vector<Occurrence> occurrences(const Signal& signal) {
 }
 
 double noise_in_steps(const Codes& codes) {
+  const double change = std::max(codes.spread, codes.apart);
+  return NeighbourSteps{codes.step, change * change}.noise_in_steps();
+}
+
+// What changes from one sample to the next, in steps.
+double change_in_steps(const Codes& codes) {
   return NeighbourSteps{codes.step, codes.spread * codes.spread}.noise_in_steps();
 }
 
+// Neighbours mostly share their code: to stand still is what such a series does.
+bool stands_still(const Codes& codes) { return change_in_steps(codes) < 0.6; }
+
 // Less noise makes few codes, and the error of rounding depends on where between two the mean lies:
-// it is no longer white noise of step²/12.
-bool is_coarse(const Codes& codes) {
-  constexpr double kCoarse = 0.6;
-  return noise_in_steps(codes) < kCoarse;
-}
+// it is no longer white noise of step²/12. Nor is it where the output creeps from code to code.
+bool is_narrow(const Codes& codes) { return noise_in_steps(codes) < 0.6; }
+bool is_coarse(const Codes& codes) { return is_narrow(codes) || change_in_steps(codes) < 0.1; }
 
 // Codes that a converter never gives. The density of noise that is wider than a step is concave in
 // its logarithm from one code to the next: a code has at least the geometric mean of its
@@ -190,7 +212,7 @@ double chance_of_repeat(const Signal& signal, const std::vector<StuckRun>& runs,
 // long runs are most of the samples, and tell nothing of the others.
 void drop_likely(const Signal& signal, const Codes& codes, std::vector<StuckRun>& runs) {
   if (runs.empty()) return;
-  const double same = is_coarse(codes) ? kMostAlike : chance_of_repeat(signal, runs, {});
+  const double same = stands_still(codes) ? kMostAlike : chance_of_repeat(signal, runs, {});
   std::erase_if(runs, [&](const StuckRun& run) {
     return !never_so_long(run.count, static_cast<double>(signal.size()), same);
   });
@@ -223,13 +245,13 @@ std::vector<WrongSample> cut_off(const Signal& signal, int beyond) {
 // Whether nothing lies between an end of the range and the noise: then that end is no value of the
 // converter's.
 bool stands_apart(const Signal& signal, double end, double spread) {
-  constexpr double kApart = 5.0;  // standard deviations of a difference of neighbours
+  constexpr double kFar = 5.0;  // standard deviations of a difference of neighbours
   double nearest = INFINITY;
   for (std::size_t t = 0; t < signal.size(); ++t) {
     const double off = std::abs(signal.value(t) - end);
     if (off > 0.0) nearest = std::min(nearest, off);
   }
-  return nearest > kApart * spread;
+  return nearest > kFar * spread;
 }
 
 // Of the differences of neighbours of which neither is at this value.
@@ -280,7 +302,7 @@ std::vector<StuckRun> stuck_runs(const Signal& signal) {
   if (out.empty()) return out;
   const Codes codes = codes_of(signal);
   // Where the noise is smaller than the step, to stand still is what it does.
-  if (codes.distinct > 1 && is_coarse(codes)) return {};
+  if (codes.distinct > 1 && stands_still(codes)) return {};
   drop_likely(signal, codes, out);
   return out;
 }
@@ -325,7 +347,12 @@ std::vector<Defect> integrity(const Signal& signal) {
   if (codes.missing > 0)
     out.push_back({"missing_codes", codes.missing, codes.missed, 0, codes.missing, {}});
   if (is_coarse(codes))
-    out.push_back({"quantisation", codes.distinct, noise_in_steps(codes), 0, 1, {}});
+    out.push_back({"quantisation",
+                   codes.distinct,
+                   is_narrow(codes) ? noise_in_steps(codes) : INFINITY,
+                   0,
+                   1,
+                   {}});
   add_interpolation(signal, out);
   return out;
 }

@@ -61,6 +61,23 @@ struct Beat {
   Complex amplitude = 0.0;
 };
 
+// Mean power of the frequencies on both sides of one, its neighbours left out: noise that rings
+// beats with itself over a band.
+double mean_beside(const std::vector<Complex>& all, std::size_t place) {
+  constexpr std::size_t kNear = 3;
+  constexpr std::size_t kFar = 40;
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t off = kNear; off <= kFar; ++off) {
+    for (const std::size_t k : {place - off, place + off}) {
+      if (k == 0 || k >= all.size()) continue;  // below 0 it wraps
+      sum += std::norm(all[k]);
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 // The strongest wave of a series of mean 0, its frequency between those of the transform.
 Beat strongest_beat(const std::vector<double>& s) {
   constexpr double kBeyondChance = 25.0;  // of the mean power: once in 1e11 frequencies
@@ -72,6 +89,7 @@ Beat strongest_beat(const std::vector<double>& s) {
     if (std::norm(all[k]) > std::norm(all[best])) best = k;
   }
   if (std::norm(all[best]) * static_cast<double>(all.size()) < kBeyondChance * sum) return {};
+  if (std::norm(all[best]) < kBeyondChance * mean_beside(all, best)) return {};
   const auto n = static_cast<double>(s.size());
   double low = (static_cast<double>(best) - 1.0) / n;
   double high = std::min(0.5, (static_cast<double>(best) + 1.0) / n);

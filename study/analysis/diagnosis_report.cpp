@@ -224,7 +224,7 @@ void add_remaining(std::optional<DiagnosisVerdict> verdict, v1::DiagnosisReport&
   if (filter)
     to.add_notes(fmt::format(
         "The {} resonances may together be one filter of a form that imunoise does not know, such "
-        "as a Butterworth, notch or CIC filter. Record the same without the filter, or with "
+        "as a notch or CIC filter. Record the same without the filter, or with "
         "another cutoff frequency: the resonances of a structure stay, those of a filter move.",
         resonances));
   const std::string all = in_short(to, filter);

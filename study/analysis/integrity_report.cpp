@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/diagnosis/causes.h"
 #include "core/integrity/integrity.h"
 #include "core/support/counted.h"
@@ -40,6 +42,11 @@ std::string defect_words(const Defect& defect, double rate) {
         "{} codes of the converter never occur between others that do; noise like "
         "this would give them {:.0f} samples",
         defect.count, defect.expected);
+  if (!std::isfinite(defect.expected))
+    return fmt::format(
+        "it changes by less than a tenth of the converter's step from one sample to the next, so "
+        "that rounding hides its fast noise: {} codes occur",
+        defect.count);
   return fmt::format("the noise is only {:.2g} steps of the converter: {} codes occur",
                      defect.expected, defect.count);
 }

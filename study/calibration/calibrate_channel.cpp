@@ -58,27 +58,44 @@ std::string differing(const v1::StationarityReport& test) {
       chance_words(test.heterogeneity().p_value()));
 }
 
-// Which term a model lacks that does not fit, and whether it fits with that.
-std::string what_is_missing(const Series& series, const std::string& model,
-                            const Progress& progress) {
+// Models that may fit where one does not: of the best held-out likelihood with FN, QN or DR, and
+// what a diagnosis adds first.
+std::vector<std::string> better_models(const Series& series, const std::string& model,
+                                       const v1::DiagnosisReport& diagnosis,
+                                       const Progress& progress) {
   SelectOptions select;
   select.models = {model};
   select.search_on = true;
-  const auto better = chosen_model(series, select, progress.part(0.0, 0.7));
-  if (!better) return {};
-  FitOptions fit;
-  fit.model = *better;
-  fit.compare = false;
-  const auto fitted = fit_series(series, fit, progress.part(0.7, 1.0));
-  if (!fitted || *better == model)
-    return "no noise process that imunoise knows makes the model fit; find the missing effect with "
-           "imunoise diagnose";
-  if (report::verdict(*fitted) == report::Verdict::kFails)
-    return fmt::format(
-        "{} predicts better, but does not fit either ({}); find the missing effect with imunoise "
-        "diagnose",
-        *better, chance_words(fitted->p_value()));
-  return fmt::format("{} fits ({})", *better, chance_words(fitted->p_value()));
+  std::vector<std::string> out;
+  if (auto chosen = chosen_model(series, select, progress); chosen && *chosen != model)
+    out.push_back(*std::move(chosen));
+  if (diagnosis.ladder_size() > 1) out.push_back(diagnosis.ladder(1).model());
+  return out;
+}
+
+// Which term a model lacks that does not fit, and whether it fits with that.
+std::string what_is_missing(const Series& series, const std::string& model,
+                            const v1::DiagnosisReport& diagnosis, const Progress& progress) {
+  std::string first;
+  for (const std::string& better :
+       better_models(series, model, diagnosis, progress.part(0.0, 0.7))) {
+    FitOptions fit;
+    fit.model = better;
+    fit.compare = false;
+    const auto fitted = fit_series(series, fit, progress.part(0.7, 1.0));
+    if (!fitted) continue;
+    const std::string chance = chance_words(fitted->p_value());
+    if (report::verdict(*fitted) != report::Verdict::kFails)
+      return fmt::format("{} fits ({})", better, chance);
+    if (first.empty())
+      first = fmt::format(
+          "{} predicts better, but does not fit either ({}); find the missing effect with imunoise "
+          "diagnose",
+          better, chance);
+  }
+  return first.empty() ? "neither FN, QN nor DR makes the model fit; find the missing effect with "
+                         "imunoise diagnose"
+                       : first;
 }
 
 }  // namespace
@@ -127,18 +144,19 @@ v1::ChannelCalibration calibrate_channel(const std::vector<recording::Replicate>
     keep(test_series(series, test, progress.part(0.35, 0.55)), "test", out,
          &Calibration::mutable_stationarity);
   }
-  if (options.explain && out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails) {
-    out.set_missing(only_differ(out.stationarity())
-                        ? differing(out.stationarity())
-                        : what_is_missing(series, out.fit().model(), progress.part(0.55, 0.6)));
-  }
   if (options.diagnose) {
     DiagnoseOptions diagnose;
     diagnose.model = model;
-    if (keep(diagnose_series(replicates, channel, diagnose, progress.part(0.6, 1.0)), "diagnose",
+    if (keep(diagnose_series(replicates, channel, diagnose, progress.part(0.55, 0.9)), "diagnose",
              out, &Calibration::mutable_diagnosis)) {
       shorten(*out.mutable_diagnosis());
     }
+  }
+  if (options.explain && out.has_fit() && report::verdict(out.fit()) == report::Verdict::kFails) {
+    out.set_missing(
+        only_differ(out.stationarity())
+            ? differing(out.stationarity())
+            : what_is_missing(series, out.fit().model(), out.diagnosis(), progress.part(0.9, 1.0)));
   }
   progress.report(1.0);
   return out;

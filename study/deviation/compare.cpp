@@ -83,9 +83,9 @@ void measure_term(const Model& model, std::size_t term, const v1::DeviationRepor
 }
 
 void measure_floor(const v1::DeviationReport& measured, v1::DatasheetFigure& to) {
-  const v1::DeviationPoint* lowest = nullptr;
-  for (const v1::DeviationPoint& one : measured.points())
-    if (lowest == nullptr || one.deviation() < lowest->deviation()) lowest = &one;
+  const auto lowest = std::find_if(
+      measured.points().begin(), measured.points().end(),
+      [&](const v1::DeviationPoint& one) { return one.tau_s() == measured.minimum().tau_s(); });
   to.set_measured(lowest->deviation() / kFlickerFloor);
   to.set_lower(lowest->lower() / kFlickerFloor);
   to.set_upper(lowest->upper() / kFlickerFloor);

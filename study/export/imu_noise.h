@@ -63,7 +63,7 @@ struct AxisNoise {
 };
 
 /// A Markov process with a shorter correlation time (s) is bandwidth, not a bias that wanders.
-inline constexpr double kSlowest = 1.0;
+inline constexpr double kSlowest = 0.1;
 
 /// The axes of one quantity; none where the source has no such channel.
 struct SensorNoise {

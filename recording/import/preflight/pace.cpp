@@ -95,20 +95,22 @@ std::optional<Shift> lost_at(const Clock& clock, double period, std::size_t at) 
   return Shift{seconds, seconds, true};
 }
 
-// Whether most of the steps up to `end` are their mean within a fifth.
-bool come_evenly(const Clock& clock, std::size_t begin, std::size_t end, double mean) {
-  constexpr double kFifth = 0.2;
+// Whether most of the steps up to `end` are their mean, within a fifth and much closer than another
+// period is: blocks with losses are not.
+bool come_evenly(const Clock& clock, std::size_t begin, std::size_t end, double mean,
+                 double period) {
+  const double reach = std::min(0.2 * mean, 0.5 * std::abs(mean - period));
   std::size_t near = 0;
   for (std::size_t i = begin + 1; i <= end; ++i)
-    near += std::abs(clock.step(i) - mean) < kFifth * mean ? 1U : 0U;
+    near += std::abs(clock.step(i) - mean) < reach ? 1U : 0U;
   return 2 * near > end - begin;
 }
 
 // A recorder that was set to another rate goes on for thousands of samples. Blocks with losses or
 // bursts do not come evenly.
 std::vector<OtherPace> other_paces(const Clock& clock, double period) {
-  constexpr double kOther = 1.25;
-  constexpr double kSame = 0.1;
+  constexpr double kOther = 1.06;
+  constexpr double kSame = 0.03;
   constexpr std::size_t kFewestBlocks = 16;
   std::vector<OtherPace> out;
   const std::size_t blocks = (clock.size() - 1) / kMean;
@@ -129,7 +131,7 @@ std::vector<OtherPace> other_paces(const Clock& clock, double period) {
     const std::size_t begin = b * kMean;
     const double mean = (clock.at(begin + kMean) - clock.at(begin)) / static_cast<double>(kMean);
     const bool other = mean > 0.0 && (mean > kOther * period || kOther * mean < period) &&
-                       come_evenly(clock, begin, begin + kMean, mean);
+                       come_evenly(clock, begin, begin + kMean, mean, period);
     const bool goes_on = run > 0 && std::abs(mean * static_cast<double>(run) / sum - 1.0) < kSame;
     if (!other || !goes_on) end_run(b);
     if (!other) continue;

@@ -139,8 +139,8 @@ double top(const Spectrum& power) { return mean_of_bins(power, 26, 31); }
 double cut_off_in(const Spectrum& power) {
   const double low = mean_of_bins(power, 2, 3);
   const double middle = mean_of_bins(power, 4, 6);
-  if (!(low > 0.0) || low > kFlat * middle || top(power) > kFalls * 0.5 * (low + middle))
-    return 0.0;
+  const bool flat = low <= kFlat * middle && middle <= kFlat * low;
+  if (!(low > 0.0) || !flat || top(power) > kFalls * std::min(low, middle)) return 0.0;
   std::size_t k = 4;
   while (k < 31 && power[k] > 0.5 * low) ++k;
   return static_cast<double>(k) / static_cast<double>(kSegment);

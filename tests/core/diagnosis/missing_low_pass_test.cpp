@@ -55,6 +55,15 @@ TEST(LowPass, TakesThePlaceOfFastNoise) {
   EXPECT_NEAR(values(added(found))[1], 0.3, 0.01);
 }
 
+// Far below the rate, a filter of second order is two lags in a row, as a resonance without a ring.
+TEST(LowPass, IsNoResonanceHoweverLowItIs) {
+  const TriedTerm found =
+      best_noise("LOWPASS(2, sigma2=1, omega=0.03) + WN(sigma2=1e-5)", "WN", 76);
+  EXPECT_EQ(found.cause, "low_pass");
+  ASSERT_EQ(structure(added(found)), 2);
+  EXPECT_NEAR(values(added(found))[1], 0.03, 0.002);
+}
+
 TEST(LowPass, IsNotOfferedWhereSimplerNoiseDoes) {
   for (const char* const truth :
        {"AR1(sigma2=1, phi=0.6)", "WN(sigma2=1) + AR1(sigma2=0.3, phi=0.8)", "MAVG(4, sigma2=1)"}) {

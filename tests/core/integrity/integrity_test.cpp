@@ -143,6 +143,16 @@ TEST(Integrity, EachDefectIsNamed) {
   }
   EXPECT_EQ(effects(wandering), (Names{"saturation", "saturation"}));
 
+  // Noise of three steps that changes little from one sample to the next.
+  std::vector<double> smooth = noise(0.0);
+  double slow = 0.0;
+  for (double& one : smooth) one = std::round(3.0 * (slow += 0.02 * (7.0 * one - slow)));
+  EXPECT_EQ(effects(smooth), Names{});
+  // It creeps.
+  smooth = noise(0.0);
+  for (double& one : smooth) one = std::round(2.0 * (slow += 0.002 * (20.0 * one - slow)));
+  EXPECT_EQ(effects(smooth), Names{"quantisation"});
+
   EXPECT_EQ(effects(noise(4.0)), Names{"quantisation"});
   EXPECT_EQ(effects(noise(1.8)), Names{"quantisation"});
   EXPECT_EQ(effects(std::vector<double>(100, 3.0)), Names{"stuck"});
