@@ -166,7 +166,7 @@ ArrayFit make_efficient(ArrayFit fit, std::span<const CrossPower> replicates, do
   fit.model = sorted(likelihood.model_at(found.at));
   fit.termination = found.termination;
   double samples = 0.0;
-  for (const CrossPower& one : replicates) samples += static_cast<double>(one.samples);
+  for (const CrossPower& one : replicates) samples += one.count.sum();
   fill_estimates(fit, confidence, samples,
                  [&](const ArrayModel& scatter) { return bound(fit, scatter, replicates); });
   return fit;

@@ -44,9 +44,7 @@ std::vector<Cause> defects() {
        "integrity"},
       {"interpolated_samples",
        "interpolated samples",
-       "The series was interpolated from another sampling rate, which weakens its noise between "
-       "two "
-       "originals.",
+       "The series was interpolated from another sampling rate, which weakens its noise.",
        "the raw samples",
        {},
        "integrity"},

@@ -53,7 +53,7 @@ void fill_likelihood_intervals(Fit& fit, std::span<const BandedPower> powers) {
     return evidence_of(model, powers, places[static_cast<std::size_t>(column)].term, by_error);
   };
   double samples = 0.0;
-  for (const BandedPower& one : powers) samples += static_cast<double>(one.samples);
+  for (const BandedPower& one : powers) samples += one.count.sum();
   fill_intervals(fit, sets, bound(model, powers, sets.interior), power_error, evidence, samples,
                  powers[0].rate);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "core/integrity/interpolation.h"
@@ -39,14 +40,18 @@ constexpr std::size_t kApart = 64;
 
 constexpr std::size_t kPile = 5;  // samples at an end of the range that are no chance
 
-// Root mean square difference of samples so far apart.
-double difference_at(const Signal& signal, std::size_t lag) {
+// Root mean square difference of samples so far apart; pairs with a certain value are left out.
+double difference_at(const Signal& signal, std::size_t lag, std::optional<double> without = {}) {
   double squares = 0.0;
+  double count = 0.0;
   for (std::size_t t = lag; t < signal.size(); ++t) {
-    const double difference = signal.value(t) - signal.value(t - lag);
-    squares += difference * difference;
+    const double earlier = signal.value(t - lag);
+    const double later = signal.value(t);
+    if (earlier == without || later == without) continue;
+    squares += (later - earlier) * (later - earlier);
+    count += 1.0;
   }
-  return std::sqrt(squares / static_cast<double>(signal.size() - lag));
+  return count > 0.0 ? std::sqrt(squares / count) : INFINITY;
 }
 
 // Differences of neighbours, and samples at the extremes, which values without a grid have as well.
@@ -109,8 +114,9 @@ bool stands_still(const Codes& codes) { return change_in_steps(codes) < 0.6; }
 
 // Less noise makes few codes, and the error of rounding depends on where between two the mean lies:
 // it is no longer white noise of step²/12. Nor is it where the output creeps from code to code.
-bool is_narrow(const Codes& codes) { return noise_in_steps(codes) < 0.6; }
-bool is_coarse(const Codes& codes) { return is_narrow(codes) || change_in_steps(codes) < 0.1; }
+bool is_coarse(const Codes& codes) {
+  return noise_in_steps(codes) < 0.6 || change_in_steps(codes) < 0.1;
+}
 
 // Codes that a converter never gives. The density of noise that is wider than a step is concave in
 // its logarithm from one code to the next: a code has at least the geometric mean of its
@@ -244,31 +250,18 @@ std::vector<WrongSample> cut_off(const Signal& signal, int beyond) {
 
 // Whether nothing lies between an end of the range and the noise: then that end is no value of the
 // converter's.
-bool stands_apart(const Signal& signal, double end, double spread) {
+bool stands_apart(const Signal& signal, double end) {
   constexpr double kFar = 5.0;  // standard deviations of a difference of neighbours
   double nearest = INFINITY;
   for (std::size_t t = 0; t < signal.size(); ++t) {
     const double off = std::abs(signal.value(t) - end);
     if (off > 0.0) nearest = std::min(nearest, off);
   }
-  return nearest > kFar * spread;
-}
-
-// Of the differences of neighbours of which neither is at this value.
-double spread_beside(const Signal& signal, double end) {
-  double squares = 0.0;
-  double count = 0.0;
-  for (std::size_t t = 1; t < signal.size(); ++t) {
-    if (signal.value(t) == end || signal.value(t - 1) == end) continue;
-    squares += std::pow(signal.value(t) - signal.value(t - 1), 2);
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : INFINITY;
+  return nearest > kFar * difference_at(signal, 1, end);
 }
 
 void add_interpolation(const Signal& signal, std::vector<Defect>& out) {
-  constexpr std::size_t kMost = std::size_t{1} << 17U;
-  std::vector<double> x(std::min(signal.size(), kMost));
+  std::vector<double> x(std::min(signal.size(), kMostInterpolated));
   for (std::size_t t = 0; t < x.size(); ++t) x[t] = signal.value(t);
   const double beat = interpolation_beat(x);
   if (beat > 0.0) out.push_back({"interpolated_samples", signal.size(), beat, 0, 1, {}});
@@ -329,7 +322,7 @@ std::vector<Defect> integrity(const Signal& signal) {
     if (!piled(at_end, next_to_it)) return;
     std::vector<WrongSample> there = cut_off(signal, beyond);
     const double end = signal.value(there.front().at);
-    const bool apart = stands_apart(signal, end, spread_beside(signal, end));
+    const bool apart = stands_apart(signal, end);
     if (apart) {
       for (WrongSample& one : there) one.beyond = 0;
     }
@@ -347,12 +340,7 @@ std::vector<Defect> integrity(const Signal& signal) {
   if (codes.missing > 0)
     out.push_back({"missing_codes", codes.missing, codes.missed, 0, codes.missing, {}});
   if (is_coarse(codes))
-    out.push_back({"quantisation",
-                   codes.distinct,
-                   is_narrow(codes) ? noise_in_steps(codes) : INFINITY,
-                   0,
-                   1,
-                   {}});
+    out.push_back({"quantisation", codes.distinct, change_in_steps(codes), 0, 1, {}});
   add_interpolation(signal, out);
   return out;
 }

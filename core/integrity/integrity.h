@@ -17,10 +17,9 @@ struct WrongSample {
 struct Defect {
   std::string effect;     ///< its id in the catalogue
   std::size_t count = 0;  ///< samples concerned
-  /// Of them without the defect; of few codes, their noise in steps, or
-  /// infinite where it is enough and creeps from one to the next; of dropouts, their value; of
-  /// interpolated samples, their beat in cycles per sample.
-  double expected = 0.0;
+  /// Of them without the defect; of few codes, the change from one sample to the next in steps; of
+  /// dropouts, their value; of interpolated samples, their beat in cycles per sample.
+  double number = 0.0;
   std::size_t first = 0;   ///< place of the first
   std::size_t places = 1;  ///< stretches that it comes in
   /// The samples, rising, where few of them can be sound; else empty.

@@ -16,8 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kFewest = 1024;
-constexpr std::size_t kMost = std::size_t{1} << 17U;  // samples that are looked at
-constexpr std::size_t kBins = 24;                     // of a period
+constexpr std::size_t kBins = 24;  // of a period
 
 // Squares of first or second differences; what is far beyond the usual counts as that.
 std::vector<double> squares_of(std::span<const double> x, bool second) {
@@ -179,7 +178,8 @@ double interpolation_beat(std::span<const double> x) {
   // A beat at half of the rate has no phase to fold by: there, samples lie on straight lines.
   constexpr double kHalf = 0.499;
   if (x.size() < kFewest) return 0.0;
-  const std::span<const double> some = x.first(quick_length(std::min(x.size(), kMost) - 2) + 2);
+  const std::span<const double> some =
+      x.first(quick_length(std::min(x.size(), kMostInterpolated) - 2) + 2);
   const std::vector<double> bends = squares_of(some, true);
   if (bends.empty()) return 0.0;
   const Beat beat = strongest_beat(bends);

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 namespace imunoise {
+
+/// Samples that are looked at.
+inline constexpr std::size_t kMostInterpolated = std::size_t{1} << 17U;
 
 /// The beat of two sampling rates, cycles per sample, in a series that was resampled by linear
 /// interpolation between evenly spaced samples of nearly white noise; 0 where none shows. A sample

@@ -10,7 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Of one coefficient for all bands, of which this share is signal.
+// What one coefficient gains in all bands, if this share of the power in each is signal.
 NoisyWitness with_signal(const BandSums& all, const Eigen::ArrayXd& signal, double variance) {
   const double product = (signal * all.product).sum();
   const double information = (signal.square() * all.square).sum();

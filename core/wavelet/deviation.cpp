@@ -109,4 +109,16 @@ double deviation_degrees(DeviationKind kind, NoiseType law, std::size_t samples,
   return std::max(count * count * zero * zero / sum, 1.0);
 }
 
+std::size_t lowest_deviation(std::span<const double> curve) {
+  constexpr double kClearly = 1.5;
+  constexpr std::size_t kFalls = 3;
+  std::size_t top = 0;
+  while (top + 1 < curve.size() && curve[top + 1] >= curve[top]) ++top;
+  std::size_t end = top;
+  while (end + 1 < curve.size() && curve[end + 1] < curve[end]) ++end;
+  const bool hump = end >= top + kFalls && kClearly * curve[end] < curve[top];
+  const auto from = curve.begin() + static_cast<std::ptrdiff_t>(hump ? top : 0);
+  return static_cast<std::size_t>(std::min_element(from, curve.end()) - curve.begin());
+}
+
 }  // namespace imunoise

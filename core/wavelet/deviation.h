@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/signal/signal.h"
@@ -40,5 +41,10 @@ NoiseType nearest_law(double slope);
 /// Gaussian noise: M²γ(0)² / Σ_s (M - |s|) γ(s)², γ the autocovariance of the differences. To 1 %
 /// (the sum takes at least 256 lags a factor, all of them up to m = 256).
 double deviation_degrees(DeviationKind kind, NoiseType law, std::size_t samples, std::size_t m);
+
+/// The place of the lowest of a curve of deviations, none of which is zero. A filter removes the
+/// noise of the shortest times, where the curve rises to a hump: what lies before that does not
+/// count, if the curve then falls three times in a row, clearly. Precondition: there is one.
+std::size_t lowest_deviation(std::span<const double> curve);
 
 }  // namespace imunoise

@@ -106,14 +106,15 @@ void add_flicker(const v1::FitReport& report, v1::BiasInstability& to) {
 
 void add_minimum(const v1::NoiseBudget& budget, Quantity measures, v1::BiasInstability& to) {
   to.set_kind("minimum");
-  int lowest = -1;
-  int last = -1;
+  std::vector<int> places;
+  std::vector<double> curve;
   for (int i = 0; i < std::min(budget.measured_size(), budget.scales_s_size()); ++i) {
     if (!(budget.measured(i) > 0.0)) continue;
-    last = i;
-    if (lowest < 0 || budget.measured(i) < budget.measured(lowest)) lowest = i;
+    places.push_back(i);
+    curve.push_back(std::sqrt(budget.measured(i)));
   }
-  if (lowest < 0) return;
+  if (curve.empty()) return;
+  const int lowest = places[lowest_deviation(curve)];
   // The Allan variance is twice the wavelet variance, at half its averaging time.
   const double deviation = std::sqrt(2.0 * budget.measured(lowest));
   *to.mutable_value() =
@@ -123,7 +124,7 @@ void add_minimum(const v1::NoiseBudget& budget, Quantity measures, v1::BiasInsta
   time.set_title("averaging time of the minimum");
   time.set_value(0.5 * budget.scales_s(lowest));
   time.set_unit("s");
-  to.set_at_edge(lowest == last);
+  to.set_at_edge(lowest == places.back());
 }
 
 void add_markov(const v1::FitReport& report, v1::BiasInstability& to) {

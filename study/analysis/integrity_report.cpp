@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/diagnosis/causes.h"
 #include "core/integrity/integrity.h"
 #include "core/support/counted.h"
@@ -16,7 +14,7 @@ std::string defect_words(const Defect& defect, double rate) {
   if (defect.effect == "duplicated_samples")
     return fmt::format("{} {} the one before; noise like this repeats {:.0f}",
                        counted(defect.count, "sample"), defect.count == 1 ? "repeats" : "repeat",
-                       defect.expected);
+                       defect.number);
   if (defect.effect == "stuck") {
     const std::string places =
         defect.places > 1 ? fmt::format(" in {} places, the first", defect.places) : "";
@@ -27,28 +25,28 @@ std::string defect_words(const Defect& defect, double rate) {
   if (defect.effect == "saturation")
     return fmt::format("{} {} at the {} end of the range, {:.0f} next to it",
                        counted(defect.count, "sample"), defect.count == 1 ? "lies" : "lie",
-                       defect.wrong.front().beyond > 0 ? "upper" : "lower", defect.expected);
+                       defect.wrong.front().beyond > 0 ? "upper" : "lower", defect.number);
   if (defect.effect == "dropouts")
     return fmt::format(
         "{} have the value {:.6g} (SI), far from all others, in place of missing ones",
-        counted(defect.count, "sample"), defect.expected);
+        counted(defect.count, "sample"), defect.number);
   if (defect.effect == "interpolated_samples")
     return fmt::format(
         "its samples were interpolated from another sampling rate: the power of their differences "
         "repeats at {:.4g} Hz, the beat of the two rates",
-        defect.expected * rate);
+        defect.number * rate);
   if (defect.effect == "missing_codes")
     return fmt::format(
         "{} codes of the converter never occur between others that do; noise like "
         "this would give them {:.0f} samples",
-        defect.count, defect.expected);
-  if (!std::isfinite(defect.expected))
-    return fmt::format(
-        "it changes by less than a tenth of the converter's step from one sample to the next, so "
-        "that rounding hides its fast noise: {} codes occur",
-        defect.count);
-  return fmt::format("the noise is only {:.2g} steps of the converter: {} codes occur",
-                     defect.expected, defect.count);
+        defect.count, defect.number);
+  const std::string steps =
+      defect.number < 0.1 ? "less than 0.1" : fmt::format("only {:.2g}", defect.number);
+  return fmt::format(
+      "from one sample to the next, it changes by {} steps of the converter, so that rounding "
+      "hides "
+      "its fast noise: {} codes occur",
+      steps, defect.count);
 }
 
 void add_finding(const std::string& effect, const std::string& replicate, std::uint64_t count,

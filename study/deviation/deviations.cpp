@@ -67,26 +67,10 @@ NoiseType law_at(const std::vector<Point>& points, std::size_t i) {
   return chance ? NoiseType::kWhite : law;
 }
 
-// A filter removes the noise of the shortest times, where the curve rises to a hump: it begins to
-// mean something behind that. 0: there is none.
-int behind_hump(const v1::DeviationReport& of) {
-  constexpr double kClearly = 1.5;  // times lower than the hump
-  constexpr double kKnown = 30.0;   // degrees of freedom
-  int top = 0;
-  while (top + 1 < of.points_size() && of.points(top + 1).deviation() >= of.points(top).deviation())
-    ++top;
-  for (int i = top + 1; i < of.points_size(); ++i) {
-    const v1::DeviationPoint& one = of.points(i);
-    const bool known = one.degrees_of_freedom() > kKnown;
-    if (known && kClearly * one.deviation() < of.points(top).deviation()) return top;
-  }
-  return 0;
-}
-
 void add_minimum(v1::DeviationReport& to) {
-  const auto lowest =
-      std::min_element(to.points().begin() + behind_hump(to), to.points().end(),
-                       [](const auto& a, const auto& b) { return a.deviation() < b.deviation(); });
+  std::vector<double> curve;
+  for (const v1::DeviationPoint& one : to.points()) curve.push_back(one.deviation());
+  const auto lowest = to.points().begin() + static_cast<std::ptrdiff_t>(lowest_deviation(curve));
   v1::DeviationMinimum& out = *to.mutable_minimum();
   out.set_tau_s(lowest->tau_s());
   out.set_deviation(lowest->deviation());

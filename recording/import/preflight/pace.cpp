@@ -175,9 +175,9 @@ std::vector<std::size_t> logged_twice(const Clock& clock,
 
 std::string words_of(const OtherPace& one, const Clock& clock, double period) {
   return fmt::format(
-      "{:.4g} Hz from {:.6g} to {:.6g} s, {:.4g} Hz elsewhere: left out; a file of its own takes "
-      "it",
-      1.0 / one.period, clock.at(one.begin), clock.at(one.end - 1), 1.0 / period);
+      "from {:.6g} to {:.6g} s, samples come at {:.4g} Hz, most others at {:.4g} Hz: left out; put "
+      "them into a file of their own",
+      clock.at(one.begin), clock.at(one.end - 1), 1.0 / one.period, 1.0 / period);
 }
 
 Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same) {

@@ -44,7 +44,7 @@ struct Pace {
 std::vector<std::size_t> logged_twice(const Clock& clock,
                                       const std::function<bool(std::size_t)>& same);
 
-/// "200 Hz from 100 to 150 s, 100 Hz elsewhere: left out; ...".
+/// What is left out, and why.
 std::string words_of(const OtherPace& one, const Clock& clock, double period);
 
 Pace pace_of(const Clock& clock, const std::function<bool(std::size_t)>& same);

@@ -141,11 +141,10 @@ Result<v1::VerifyReport> verify_recording(FileSystem& files, const Path& folder,
 
 Result<v1::VerifyReport> verify_chunk(const FileSystem& files, const Path& file) {
   if (file.extension() != kChunkSuffix)
-    return fail(
-        fmt::format("{} is not a recording of imunoise (a folder, or a chunk {} of one); imunoise "
-                    "wv reads other "
-                    "files and says what is wrong with them",
-                    file.string(), kChunkSuffix));
+    return fail(fmt::format(
+        "{} is not a recording of imunoise (a folder, or a chunk {} of one); imunoise wv reads "
+        "other files",
+        file.string(), kChunkSuffix));
   v1::VerifyReport report;
   report.set_folder(file.string());
   const auto bytes = files.read(file);

@@ -69,6 +69,24 @@ TEST(Powers, AreBelowAllNoiseThereIs) {
   }
 }
 
+// Slow noise has few degrees of freedom at the shortest scale, too: what is known of its power is
+// no more than its standard error says.
+TEST(Powers, OfSlowNoiseKeepTheirIntervals) {
+  for (const char* const floor : {"1e-5", "1e-4", "1e-3", "1e-2"}) {
+    const Model truth = testing::model_of(
+        std::string("LOWPASS(4, sigma2=1, omega=0.03) + WN(sigma2=") + floor + ")");
+    Model model = truth;
+    model.terms[0].given[0] = false;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const auto moments = testing::simulated_set(truth, {4096}, 1, seed);
+      const ParameterEstimate power =
+          infer(mugmwm(model, moments, Weighting::kFull), moments, 0.95).parameters[0][0];
+      EXPECT_GT(power.upper, power.value + 1.95 * power.standard_error)
+          << truth.terms.size() << " " << floor << ", seed " << seed;
+    }
+  }
+}
+
 class SeenPowers : public ::testing::TestWithParam<SeenPower> {};
 
 // Chance makes a power seen in 2.5 %, by moments in up to 5 %: they scatter to one side. Where it

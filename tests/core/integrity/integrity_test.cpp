@@ -117,7 +117,7 @@ TEST(Integrity, AValueFarFromAllOthersIsNoEndOfTheRange) {
   const auto found = integrity(Signal(std::span<const double>(zeros), Hertz{100.0}));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].effect, "dropouts");
-  EXPECT_EQ(found[0].expected, 0.0);
+  EXPECT_EQ(found[0].number, 0.0);
   ASSERT_FALSE(found[0].wrong.empty());
   EXPECT_EQ(found[0].wrong.front().beyond, 0);
 }

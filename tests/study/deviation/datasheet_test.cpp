@@ -78,8 +78,9 @@ TEST(Datasheet, AFilterDoesNotMakeAnglesWalkLess) {
   const auto printed =
       study::parse_printed("N=0.1 deg/sqrt(h), B=3 deg/h", Quantity::kAngularRate).value();
   constexpr double kN = 1e-4;  // rad/s/√Hz: 0.344 °/√h
-  for (const auto& [rate, cutoff] : {std::pair(1000.0, 40.0), std::pair(1000.0, 20.0),
-                                     std::pair(200.0, 40.0), std::pair(400.0, 92.0)}) {
+  for (const auto& [rate, cutoff] :
+       {std::pair(1000.0, 40.0), std::pair(1000.0, 20.0), std::pair(1000.0, 5.0),
+        std::pair(200.0, 40.0), std::pair(400.0, 92.0)}) {
     const Model truth{
         {Term(DigitalFilter{kN * kN * rate, 2.0 * std::numbers::pi * cutoff / rate, 2})}};
     const std::vector<double> x = simulate(truth, 1U << 20U, 4, 0);
@@ -87,6 +88,7 @@ TEST(Datasheet, AFilterDoesNotMakeAnglesWalkLess) {
     series.replicates.emplace_back(std::span(x), Hertz{rate}, Quantity::kAngularRate);
     const auto report = study::compare_with_datasheet(series, printed, 0.95).value();
     const v1::DatasheetFigure& n = report.figures(0);
+    EXPECT_GT(report.figures(1).tau_s(), 1.0 / cutoff) << "B before the hump of the filter";
     EXPECT_EQ(n.verdict(), "missed") << rate << " Hz, " << cutoff << " Hz";
     EXPECT_NEAR(n.measured() / kN, 1.0, 0.05) << rate << " Hz, " << cutoff << " Hz, " << n.tau_s();
   }
