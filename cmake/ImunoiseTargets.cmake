@@ -53,6 +53,8 @@ function(imunoise_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;USES" ${ARGN})
   add_library(imunoise_${name} STATIC ${ROOM_SOURCES})
   add_library(imunoise::${name} ALIAS imunoise_${name})
+  # A driver or the Python module, shared objects, may contain it.
+  set_target_properties(imunoise_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(imunoise_${name} PUBLIC imunoise_flags ${ROOM_USES})
   if(name MATCHES "^(recording|drivers)_|^core_(support|process|model|effect|integrity|stillness)$|^study_(batch|cache|calibration_file|file)$|^daemon_(access|config)$")
     set_target_properties(imunoise_${name} PROPERTIES IMUNOISE_PARSES ON)  # bytes from outside

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <optional>
 
+#include "core/diagnosis/bandwidth.h"
+#include "core/model/similar_term.h"
+
 namespace imunoise {
 namespace {
 
@@ -157,28 +160,7 @@ std::optional<FoundFilter> likeliest(const Seen& seen, const FoundFilter& first)
   return best;
 }
 
-// Whether noise of a kind is a resonance that hardly rings in a model: two lags in a row, which a
-// filter of second order has as well.
-bool hardly_rings(const Model& model, const Process& kind) {
-  constexpr double kHardly = 0.5;  // of the critical damping
-  return std::any_of(model.terms.begin(), model.terms.end(), [&](const Term& term) {
-    if (term.process.index() != kind.index()) return false;
-    const std::vector<DerivedQuantity> all = derived(term.process, Hertz{1.0});
-    return std::any_of(all.begin(), all.end(), [](const DerivedQuantity& one) {
-      return one.coefficient == Coefficient::kDampingRatio && one.value > kHardly;
-    });
-  });
-}
-
 }  // namespace
-
-bool is_fast(const Process& process) {
-  constexpr double kFastest = 20.0;  // samples
-  const std::vector<DerivedQuantity> all = derived(process, Hertz{1.0});
-  return std::any_of(all.begin(), all.end(), [](const DerivedQuantity& one) {
-    return one.coefficient == Coefficient::kCorrelationTime && one.value < kFastest;
-  });
-}
 
 Suggestion search_low_pass(const Current& current, Suggestions& others) {
   constexpr double kClearly = 6.0;
@@ -202,7 +184,8 @@ Suggestion search_low_pass(const Current& current, Suggestions& others) {
     const auto* const change = std::get_if<NoiseChange>(&other.added);
     if (change == nullptr || !(other.score_nats > 0.0)) continue;
     const WhittleEstimate fit = whittle(change->start, current.pooled);
-    if (!hardly_rings(fit.model, change->added)) {
+    const std::size_t term = *similar_term(fit.model, change->added);
+    if (!hardly_rings(fit.model.terms[term].process)) {
       special = special || fit.objective < reached + kClearly;
     } else if (fit.objective > reached - kClearly) {
       other.score_nats = 0.0;

@@ -5,9 +5,6 @@
 
 namespace imunoise {
 
-/// Whether noise forgets within twenty samples: what a filter of the sensor may have made.
-bool is_fast(const Process& process);
-
 /// White noise behind a Butterworth filter of any order, analog or digital, in place of other fast
 /// noise or beside white noise, which then comes behind the filter. With so many forms it resembles
 /// other fast noise: it gains nothing unless it explains clearly more than every one of `others`.

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/diagnosis/bandwidth.h"
 #include "core/diagnosis/markov_levels.h"
 #include "core/diagnosis/missing_filter.h"
 #include "core/diagnosis/missing_low_pass.h"
 #include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/score_space.h"
 #include "core/diagnosis/steadiness.h"
+#include "core/model/similar_term.h"
 #include "core/search/noise_bump.h"
 
 namespace imunoise {
@@ -112,18 +114,6 @@ void add_power_law(const Current& current, const ScoreSpace& space, Suggestions&
   out.push_back(std::move(found.front()));
 }
 
-// A Markov process so fast that it left no white noise is the sensor's bandwidth.
-bool is_bandwidth(const Model& noise) {
-  constexpr double kLeft = 0.1;
-  double white = 0.0;
-  double fast = 0.0;
-  for (const Term& term : noise.terms) {
-    if (std::holds_alternative<WhiteNoise>(term.process)) white += spectrum(term.process, 0.5);
-    if (is_fast(term.process)) fast += spectrum(term.process, 0.5);
-  }
-  return fast > 0.0 && white < kLeft * fast;
-}
-
 // Heat does not move a sensor faster than this.
 constexpr double kFastestHeat = 10.0;  // s
 
@@ -147,20 +137,13 @@ bool rings_too_long(const Process& process) {
   });
 }
 
-// What a Markov process may be in truth.
+// A Markov process may jump between two levels in truth.
 void name_markov(TriedTerm& tried) {
-  const FittedModel& fitted = tried.fitted;
-  if (is_bandwidth(fitted.fit.model.noise)) {
-    tried.cause = "low_pass";
-    return;
-  }
-  const double levels = two_level_gain(fitted.regression, fitted.fit);
+  const double levels = two_level_gain(tried.fitted.regression, tried.fitted.fit);
   constexpr double kClearly = 5.0;
-  if (levels >= kClearly) {
-    tried.cause = "telegraph";
-    tried.likelihood_gain += levels - kClearly;  // so much chance may gain
-    return;
-  }
+  if (levels < kClearly) return;
+  tried.cause = "telegraph";
+  tried.likelihood_gain += levels - kClearly;  // so much chance may gain
 }
 
 }  // namespace
@@ -248,22 +231,26 @@ std::vector<Cause> noise_causes() {
 
 void review_noise(const Current& current, TriedTerm& tried) {
   constexpr double kUnsteady = 1e-3;
-  if (tried.cause == "gauss_markov") name_markov(tried);
-  if (tried.cause == "telegraph") return;
-  if (tried.cause == "gauss_markov" || tried.cause == "second_order") {
-    const std::vector<Term>& terms = tried.fitted.fit.model.noise.terms;
-    tried.slow = std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
-      return as_slow_as_heat(term.process, current.subject().rate);
-    });
-  }
-  if (tried.cause == "resonance" &&
-      rings_too_long(tried.fitted.fit.model.noise.terms.back().process))
-    tried.could_be.push_back("switched_line");
+  const FittedModel& with = tried.fitted;
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
-  if (tried.cause == "resonance" && made_of_lines(tried.fitted.regression, tried.fitted.fit, added))
-    tried.could_be.push_back("line");
-  if (tried.cause == "resonance" && may_be_tone(current)) tried.could_be.push_back("oscillation");
-  tried.steady = steadiness(tried.fitted.regression, tried.fitted.fit, added).p_value > kUnsteady;
+  const Model& noise = with.fit.model.noise;
+  const Process& fitted = noise.terms[*similar_term(noise, added)].process;
+  const bool lags = tried.cause == "gauss_markov" || tried.cause == "second_order" ||
+                    (tried.cause == "resonance" && hardly_rings(fitted));
+  if (lags && is_bandwidth(fitted, noise)) {
+    tried.cause = "low_pass";
+  } else if (tried.cause == "gauss_markov") {
+    name_markov(tried);
+  }
+  if (tried.cause == "telegraph") return;
+  if (tried.cause == "gauss_markov" || tried.cause == "second_order")
+    tried.slow = as_slow_as_heat(fitted, current.subject().rate);
+  if (tried.cause == "resonance") {
+    if (rings_too_long(fitted)) tried.could_be.push_back("switched_line");
+    if (made_of_lines(with.regression, with.fit, added)) tried.could_be.push_back("line");
+    if (may_be_tone(current)) tried.could_be.push_back("oscillation");
+  }
+  tried.steady = steadiness(with.regression, with.fit, added).p_value > kUnsteady;
 }
 
 Suggestions search_noise(const Current& current) {

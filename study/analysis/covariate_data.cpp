@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "study/words/number.h"
+
 namespace imunoise::study {
 namespace {
 
@@ -28,7 +30,7 @@ std::vector<double> numbers_of(const recording::Channel& channel) {
 }
 
 std::string in_unit(double value, const std::string& unit) {
-  return fmt::format("{:.4g}{}", value, unit == "1" ? "" : " " + unit);
+  return report::brief(value, 4) + (unit == "1" ? "" : " " + unit);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/diagnosis/missing_resonance.h"
 #include "core/diagnosis/useless.h"
 #include "core/effects/parse_full_model.h"
+#include "core/model/similar_term.h"
 #include "study/analysis/comparison.h"
 #include "study/analysis/diagnosis_report.h"
 #include "study/analysis/evaluate.h"
@@ -32,6 +33,15 @@ Step step_of(const TriedTerm& tried) {
           .effect = tried.cause,
           .why = fmt::format("{} explains {:.1f} nats; its evidence against chance is {:.1f} nats.",
                              tried.cause, tried.likelihood_gain, tried.gain)};
+}
+
+// The noise that a term added, as it was fitted.
+std::optional<Process> noise_of(const TriedTerm& tried) {
+  const auto* const change = std::get_if<NoiseChange>(&tried.suggestion.added);
+  if (change == nullptr) return std::nullopt;
+  const Model& noise = tried.fitted.fit.model.noise;
+  const auto term = similar_term(noise, change->added);
+  return term ? std::optional(noise.terms[*term].process) : std::nullopt;
 }
 
 // Takes what the last term made useless out of a model, one after the other; see useless_term().
@@ -137,6 +147,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
   *out.mutable_compared_before() = comparison_of(model, left, prepared.name, prepared.replicates);
   const double first = model.fit.log_likelihood;
   Step step{.added = "", .why = "The model as it was given."};
+  std::vector<std::optional<Process>> noise_added{std::nullopt};  // one a rung
   ModelsSeen models;
   models.is_new(model.fit.model);
   const bool defective = out.integrity_size() > 0 && !prepared.changed;
@@ -173,6 +184,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
       break;
     }
     Step taken = step_of(next.best->tried);
+    noise_added.push_back(noise_of(next.best->tried));
     FittedModel grown = std::move(next.best->tried.fitted);
     if (automatic) drop_useless(grown, taken, options.level, start->noise);
     if (!models.is_new(grown.fit.model)) {
@@ -194,7 +206,7 @@ Result<v1::DiagnosisReport> diagnose_channel(const RecordedChannel& look,
     add_rung(next.misfit, next.heldout);
   }
   if (automatic && out.ladder_size() > 1) {
-    add_findings(model, out);
+    add_findings(model, noise_added, out);
     add_remaining(remaining, out);
   }
   tell_unexplained(out, remaining ? std::optional(out.ladder_size() - 1) : std::nullopt);

@@ -15,6 +15,7 @@
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/sentences/error_sentences.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -53,7 +54,8 @@ std::string numbers(const std::vector<v1::EffectParameter>& parameters) {
       if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
     }
     std::replace(name.begin(), name.end(), '_', ' ');
-    out += fmt::format("{}{} {:.4g}{}", out.empty() ? "" : ", ", name, parameters[i].value(),
+    out += fmt::format("{}{} {}{}", out.empty() ? "" : ", ", name,
+                       report::brief(parameters[i].value(), 4),
                        parameters[i].unit() == "1" ? "" : " " + parameters[i].unit());
   }
   return out;

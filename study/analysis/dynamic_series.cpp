@@ -9,6 +9,7 @@
 #include "core/model/trend.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -131,7 +132,7 @@ void add_bins(const DynamicFit& fit, const Bins& bins, v1::DynamicReport& out) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.3g}{}", value, unit.empty() || unit == "1" ? "" : " " + unit);
+  return report::brief(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
 bool clear_of_zero(const v1::CovariatePoint& point) { return point.lower() > 0.0; }

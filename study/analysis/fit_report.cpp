@@ -8,6 +8,7 @@
 #include "study/analysis/fit_series.h"
 #include "study/analysis/noise_budget.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/number.h"
 #include "study/words/verdict.h"
 
 namespace imunoise::study {
@@ -152,8 +153,8 @@ void add_bias_instabilities(Quantity measures, v1::FitReport& report) {
 
 std::string value_and_unit(const v1::Coefficient& c) {
   const bool datasheet = !c.datasheet_unit().empty();
-  return fmt::format("{:.3g} {}", datasheet ? c.datasheet_value() : c.value(),
-                     datasheet ? c.datasheet_unit() : c.unit());
+  return report::brief(datasheet ? c.datasheet_value() : c.value()) + " " +
+         (datasheet ? c.datasheet_unit() : c.unit());
 }
 
 // "gyro_x: angle random walk 2.03 °/√h, AR1 (1) 43.2 °/h over 91.7 s; the model does not fit (p <

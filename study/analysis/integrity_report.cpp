@@ -6,6 +6,7 @@
 #include "core/integrity/integrity.h"
 #include "core/support/counted.h"
 #include "core/support/parallel.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -33,8 +34,8 @@ std::string defect_words(const Defect& defect, double rate) {
   if (defect.effect == "interpolated_samples")
     return fmt::format(
         "its samples were interpolated from another sampling rate: the power of their differences "
-        "repeats at {:.4g} Hz, the beat of the two rates",
-        defect.number * rate);
+        "repeats at {} Hz, the beat of the two rates",
+        report::brief(defect.number * rate, 4));
   if (defect.effect == "missing_codes")
     return fmt::format(
         "{} codes of the converter never occur between others that do; noise like "

@@ -10,6 +10,7 @@
 #include "study/analysis/compared_models.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -130,10 +131,8 @@ std::string summary_of(const v1::ChoiceReport& report) {
         "likelihood. By CV-WVIC, ",
         report.chosen(), kClearNats);
   }
-  out += fmt::format(
-      "{} has the smallest held-out error: {:.3g} times the noise "
-      "floor.",
-      best.model(), best.merit());
+  out += fmt::format("{} has the smallest held-out error: {} times the noise floor.", best.model(),
+                     report::brief(best.merit()));
   const v1::CandidateModel& simplest = simplest_equivalent(report);
   if (report.chosen().empty() && &simplest != &best) {
     out +=

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/support/json_text.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -21,7 +22,8 @@ std::string interval_words(const Field& field) {
   std::string out;
   for (const Bounded& one : field.values) {
     if (!one.bounded()) continue;
-    out += fmt::format("{}{:.4g} … {:.4g}", out.empty() ? "" : "; ", one.lower, one.upper);
+    out += fmt::format("{}{} … {}", out.empty() ? "" : "; ", report::brief(one.lower, 4),
+                       report::brief(one.upper, 4));
   }
   return out.empty() ? "" : fmt::format(" ({})", out);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "recording/import/table/names.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -94,7 +95,8 @@ std::string term_words(const Process& process, Quantity quantity, Hertz rate) {
   for (const DerivedQuantity& one : derived(process, rate)) {
     const CoefficientUnits units = coefficient_units(one.coefficient, quantity);
     const bool customary = !units.datasheet.empty();
-    out += fmt::format("{}{:.3g} {}", separator, one.value * (customary ? units.to_datasheet : 1.0),
+    out += fmt::format("{}{} {}", separator,
+                       report::brief(one.value * (customary ? units.to_datasheet : 1.0)),
                        customary ? units.datasheet : units.si);
     separator = ", ";
   }

@@ -9,6 +9,7 @@
 #include "core/support/random.h"
 #include "core/support/rough.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -55,8 +56,8 @@ std::vector<ParameterDraw> moving_parameters(
       out.push_back(
           {t, static_cast<std::size_t>(found - about.begin()), from.mean(), from.relative(),
            static_cast<int>(from.replicates()),
-           fmt::format("{} of {}: typically {:.3g}, between {} replicates ±{} % ({} … {} %)",
-                       from.parameter(), from.term(), from.mean(), from.replicates(),
+           fmt::format("{} of {}: typically {}, between {} replicates ±{} % ({} … {} %)",
+                       from.parameter(), from.term(), report::brief(from.mean()), from.replicates(),
                        rough(100.0 * from.relative()), rough(100.0 * from.relative_lower()),
                        rough(100.0 * from.relative_upper()))});
     }

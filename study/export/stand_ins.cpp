@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "study/words/number.h"
+
 namespace imunoise::study {
 namespace {
 
@@ -159,10 +161,10 @@ void share_time(ImuNoise& imu, const Consumer& to, const Horizon& horizon) {
     one->k = {};
     one->markov = Markov{shared.sigma, best};
     one->remarks.push_back(fmt::format(
-        "{}: {} has one correlation time, {:.3g} s; this axis has {}. Its σ bounds the error over "
+        "{}: {} has one correlation time, {} s; this axis has {}. Its σ bounds the error over "
         "{} and overstates it by a factor of up to {:.2f}",
-        one->channel, to.title, best,
-        own == kEndless ? "a random walk" : fmt::format("{:.3g} s", own), horizon_words(horizon),
+        one->channel, to.title, report::brief(best),
+        own == kEndless ? "a random walk" : report::brief(own) + " s", horizon_words(horizon),
         shared.over));
   }
 }

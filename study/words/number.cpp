@@ -96,6 +96,16 @@ std::string number(double value, int significant, Digits style) {
          power_of_ten(magnitude, style);
 }
 
+std::string brief(double value, int significant) {
+  std::string out = number(value, significant, Digits::kTypeset);
+  const std::size_t point = out.find('.');
+  if (point == std::string::npos) return out;
+  const std::size_t end = std::min(out.find("×"), out.size());
+  std::size_t kept = out.find_last_not_of('0', end - 1) + 1;
+  if (kept == point + 1) kept = point;
+  return out.erase(kept, end - kept);
+}
+
 std::string rounded(double value, double lower, double upper, Digits style) {
   if (!std::isfinite(value) || !has_interval(lower, upper)) return number(value, 4, style);
   if (far_apart(value, lower, upper)) return number(value, 2, style);

@@ -181,8 +181,14 @@ TEST(Views, AreBeyondChanceWhereNoneOfThemWouldBe) {
   EXPECT_GT(near, 0);
 }
 
+// What a rung added, in the grammar, and the noise of that as it was fitted, if there was any.
+struct AddedByRung {
+  std::string term;
+  std::string noise{};
+};
+
 // The findings of a ladder that added these, each of a known cause, and ended with this model.
-v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string>& added,
+v1::DiagnosisReport findings_of(const char* model, const std::vector<AddedByRung>& added,
                                 Quantity quantity = Quantity::kAngularRate) {
   FullModel start = *parse_full_model(model, kFifty);
   for (Term& term : start.noise.terms) term.given.assign(term.given.size(), false);
@@ -192,12 +198,15 @@ v1::DiagnosisReport findings_of(const char* model, const std::vector<std::string
       fit_full_model(std::make_shared<const Subject>(make_subject({signal, signal}, {})), start);
   v1::DiagnosisReport out;
   out.add_ladder();
-  for (const std::string& term : added) {
+  std::vector<std::optional<Process>> noise{std::nullopt};
+  for (const AddedByRung& one : added) {
     v1::Rung& rung = *out.add_ladder();
-    rung.set_added(term);
+    rung.set_added(one.term);
     rung.set_effect("resonance");
+    noise.emplace_back();
+    if (!one.noise.empty()) noise.back() = parse_model(one.noise, kFifty)->terms.front().process;
   }
-  add_findings(last, out);
+  add_findings(last, noise, out);
   return out;
 }
 
@@ -234,19 +243,32 @@ TEST(Ladder, EachResonanceHasItsOwnFrequency) {
   for (const Quantity quantity : {Quantity::kAngularRate, Quantity::kUnknown}) {
     const v1::DiagnosisReport report = findings_of(
         "WN(sigma2=1) + RES(sigma2=1, r=0.97, omega=0.6) + RES(sigma2=1, r=0.97, omega=2.2)",
-        {"RES", "RES"}, quantity);
+        {{"RES", "RES(sigma2=1, r=0.98, omega=2.3)"}, {"RES", "RES(sigma2=1, r=0.96, omega=0.5)"}},
+        quantity);
     ASSERT_EQ(report.findings_size(), 2);
     EXPECT_EQ(report.findings(0).size().name(), "standard deviation");
-    const std::string both = report.findings(0).sentence() + report.findings(1).sentence();
-    for (const std::string place : {"RES at 4.77", "RES at 17.4"})
-      EXPECT_NE(both.find(place), std::string::npos) << both;
+    const std::string first = report.findings(0).sentence();
+    const std::string second = report.findings(1).sentence();
+    EXPECT_NE(first.find("RES at 17.4"), std::string::npos) << first;
+    EXPECT_NE(second.find("RES at 4.77"), std::string::npos) << second;
   }
+}
+
+// Of two Markov processes, the size is that of the one that a rung added.
+TEST(Ladder, EachMarkovProcessHasItsOwnSize) {
+  const v1::DiagnosisReport report =
+      findings_of("AR1(sigma2=1, phi=0.5) + AR1(sigma2=0.01, phi=0.99)",
+                  {{"AR1", "AR1(sigma2=0.02, phi=0.98)"}});
+  ASSERT_EQ(report.findings_size(), 1);
+  // √(0.01/(1 - 0.99²)) = 0.71, not √(1/(1 - 0.5²)) = 1.15; a correlation time is 100 of 8,192
+  // samples, so that one standard error is 0.08.
+  EXPECT_NEAR(report.findings(0).size().value(), 0.71, 0.24);
 }
 
 // Noise that comes with a coupling is one rung, and no less found than either alone.
 TEST(Ladder, NamesNoiseThatCameWithACoupling) {
-  const v1::DiagnosisReport report =
-      findings_of("WN(sigma2=1) + RW(gamma2=1e-5) + line(f=0.02)", {"RW + line(f=0.02)"});
+  const v1::DiagnosisReport report = findings_of("WN(sigma2=1) + RW(gamma2=1e-5) + line(f=0.02)",
+                                                 {{"RW + line(f=0.02)", "RW(gamma2=1e-5)"}});
   ASSERT_EQ(report.findings_size(), 1);
   EXPECT_EQ(report.findings(0).term(), "RW + line(f=0.02)");
   EXPECT_EQ(report.findings(0).size().unit(), "rad/s");
@@ -255,7 +277,8 @@ TEST(Ladder, NamesNoiseThatCameWithACoupling) {
 // Of what a rung added, the part that was dropped later is not named.
 TEST(Ladder, NamesOnlyWhatTheLastModelHas) {
   const v1::DiagnosisReport report =
-      findings_of("WN(sigma2=1) + line(f=0.02)", {"RW + line(f=0.02)", "RW"});
+      findings_of("WN(sigma2=1) + line(f=0.02)",
+                  {{"RW + line(f=0.02)", "RW(gamma2=1e-5)"}, {"RW", "RW(gamma2=1e-5)"}});
   ASSERT_EQ(report.findings_size(), 1);
   EXPECT_EQ(report.findings(0).term(), "line(f=0.02)");
 }

@@ -24,6 +24,17 @@ TEST(Number, SignificantDigits) {
   EXPECT_EQ(number(std::nan(""), 3, kPlain), "n/a");
 }
 
+TEST(Number, IsBriefInASentence) {
+  EXPECT_EQ(brief(1536.0), "1536");
+  EXPECT_EQ(brief(20.0), "20");
+  EXPECT_EQ(brief(100.0), "100");
+  EXPECT_EQ(brief(0.25), "0.25");
+  EXPECT_EQ(brief(-1.5), "−1.5");
+  EXPECT_EQ(brief(0.0), "0");
+  EXPECT_EQ(brief(2e-9), "2×10⁻⁹");
+  EXPECT_EQ(brief(1234567.0, 4), "1.235×10⁶");
+}
+
 TEST(Number, IntervalDecidesThePrecision) {
   EXPECT_EQ(with_interval(0.11752, 0.11708, 0.11797, kPlain), "0.1175 (0.1171 … 0.1180)");
   EXPECT_EQ(with_interval(0.999943, 0.999921, 0.999958, kPlain), "0.999943 (0.999921 … 0.999958)");

@@ -15,6 +15,7 @@
 #include "study/analysis/arrays/array_weights.h"
 #include "study/analysis/prepare.h"
 #include "study/analysis/vocabulary.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -195,14 +196,10 @@ std::string summary_of(const v1::ArrayReport& report, const Eigen::VectorXd& sca
   }
   if (!out.empty() && out.back() != ' ') out += ' ';
   out += fmt::format(
-      "The virtual sensor should have {:.2g} times the wavelet variance of the mean of the "
-      "sensors, "
+      "The virtual sensor should have {} times the wavelet variance of the mean of the sensors, "
       "averaged over its scales",
-      predicted);
-  out += held ? fmt::format(
-                    "; on held-out replicates it has {:.2g} "
-                    "times.",
-                    measured)
+      report::brief(predicted, 2));
+  out += held ? fmt::format("; on held-out replicates it has {} times.", report::brief(measured, 2))
               : "; check this with more than one replicate.";
   if (report.virtual_sensor().plain_mean())
     out += " That is no gain: the plain mean of the sensors is used.";
@@ -262,8 +259,8 @@ Result<v1::ArrayReport> array_series(const std::vector<Series>& sensors,
   if (options.rule == WeightRule::kUnitLength) {
     out.add_notes(
         fmt::format("These weights have Σ|c| = 1, as published: a common motion is multiplied by "
-                    "{:.3g}. To measure motion, use --rule unit-gain.",
-                    out.virtual_sensor().gain()));
+                    "{}. To measure motion, use --rule unit-gain.",
+                    report::brief(out.virtual_sensor().gain())));
   }
   if (!fit.joint_weights) {
     out.add_notes(

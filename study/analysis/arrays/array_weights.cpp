@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "study/words/number.h"
+
 namespace imunoise::study {
 namespace {
 
@@ -170,7 +172,7 @@ void add_trade_offs(const ArrayFit& fit, const Measured& measured,
     if (j + 1 < count) near(j + 1) = 0.5;
     near /= near.sum();
     v1::VirtualSensor made = virtual_sensor_message(fit, measured, near, options, half, out);
-    made.set_scales(fmt::format("{:.3g} s", made.scale_gains(static_cast<int>(j)).tau_s()));
+    made.set_scales(report::brief(made.scale_gains(static_cast<int>(j)).tau_s()) + " s");
     *out.add_trade_offs() = std::move(made);
   }
 }

@@ -9,6 +9,7 @@
 #include "study/analysis/arrays/array_setup.h"
 #include "study/analysis/arrays/fault_traces.h"
 #include "study/analysis/prepare.h"
+#include "study/words/number.h"
 
 namespace imunoise::study {
 namespace {
@@ -85,8 +86,9 @@ bool search(FaultDetector& detector, const std::vector<Series>& sensors, std::si
 
 std::string summary_of(const v1::FaultReport& report) {
   const double hours = report.watched_s() / 3600.0;
-  const std::string chance = fmt::format("In {:.3g} h, {:.2g} false alarms are to be expected.",
-                                         hours, hours * report.false_alarms_per_hour());
+  const std::string chance =
+      fmt::format("In {} h, {} false alarms are to be expected.", report::brief(hours),
+                  report::brief(hours * report.false_alarms_per_hour(), 2));
   if (report.faults_size() == 0) return "No sensor steps, sticks or grows noisy. " + chance;
   std::string out = report.faults_size() == 1
                         ? "One fault was found."

@@ -25,20 +25,20 @@ std::string more(double deviation) {
 std::string worst_words(const ErrorView& from, const std::vector<std::string>& replicates) {
   const ErrorView::Place& at = from.worst;
   if (from.view == "averaging_times")
-    return fmt::format("Worst at an averaging time of {:.3g} s: {} Allan deviation than the model",
-                       at.from, more(at.deviation));
+    return fmt::format("Worst at an averaging time of {} s: {} Allan deviation than the model",
+                       report::brief(at.from), more(at.deviation));
   if (from.view == "spectrum")
-    return fmt::format("Worst at {:.3g} to {:.3g} Hz: {} power than the model", at.from, at.to,
-                       more(at.deviation));
+    return fmt::format("Worst at {} to {} Hz: {} power than the model", report::brief(at.from),
+                       report::brief(at.to), more(at.deviation));
   if (from.view == "single_waves")
-    return fmt::format("The strongest wave, at {:.4g} Hz, is {:.1f} dB over the noise", at.from,
-                       from.value);
+    return fmt::format("The strongest wave, at {} Hz, is {:.1f} dB over the noise",
+                       report::brief(at.from, 4), from.value);
   if (from.view == "noise_over_time")
     return fmt::format("Worst in {} from {} s: {} power than in the rest", replicates[at.replicate],
                        report::stretch(at.from, at.to), more(at.deviation));
   if (from.view == "distribution")
-    return fmt::format("The tails are {} than normal ones: excess kurtosis {:.2g}",
-                       at.deviation < 0.0 ? "lighter" : "heavier", at.deviation);
+    return fmt::format("The tails are {} than normal ones: excess kurtosis {}",
+                       at.deviation < 0.0 ? "lighter" : "heavier", report::brief(at.deviation, 2));
   if (from.view == "witnesses")
     return fmt::format("{} explains most: {:.2g} % of the power of the innovations", at.witness,
                        from.value);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/diagnosis/causes.h"
+#include "core/model/similar_term.h"
 #include "core/support/parallel.h"
 #include "study/analysis/effect_parameters.h"
 #include "study/words/number.h"
@@ -126,13 +127,14 @@ class LastModel {
         effects_taken_(model.regression.effects().size(), false),
         noise_taken_(model.fit.model.noise.terms.size(), false) {}
 
-  /// Of what one rung added. The size is that of an effect, else of noise.
-  Kept kept(const std::string& added) {
+  /// Of what one rung added, `fitted` the noise of that. The size is that of an effect, else of
+  /// noise.
+  Kept kept(const std::string& added, const std::optional<Process>& fitted) {
     Kept out;
     std::optional<ReportedNumber> of_noise;
     for (const std::string& part : parts_of(added)) {
       const auto effect = take_effect(part);
-      const auto noise = effect ? std::nullopt : take_noise(part);
+      const auto noise = effect || !fitted ? std::nullopt : take_noise(part, *fitted);
       if (!effect && !noise) continue;  // it was dropped later
       out.term += fmt::format("{}{}", out.term.empty() ? "" : " + ", part);
       if (effect && !out.size) out.size = size_of(model_, *effect);
@@ -156,14 +158,13 @@ class LastModel {
     return std::nullopt;
   }
 
-  std::optional<std::size_t> take_noise(const std::string& part) {
-    const std::vector<Term>& terms = model_.fit.model.noise.terms;
-    for (std::size_t t = terms.size(); t-- > 0;) {
-      if (noise_taken_[t] || printed_alone(terms[t]) != part) continue;
-      noise_taken_[t] = true;
-      return t;
-    }
-    return std::nullopt;
+  std::optional<std::size_t> take_noise(const std::string& part, const Process& fitted) {
+    const Model& noise = model_.fit.model.noise;
+    const std::optional<std::size_t> out = similar_term(noise, fitted, [&](std::size_t t) {
+      return !noise_taken_[t] && printed_alone(noise.terms[t]) == part;
+    });
+    if (out) noise_taken_[*out] = true;
+    return out;
   }
 
   const FittedModel& model_;
@@ -193,23 +194,25 @@ bool ModelsSeen::is_new(const FullModel& model) {
   return seen_.insert(std::move(terms)).second;
 }
 
-void add_findings(const FittedModel& last, v1::DiagnosisReport& to) {
-  std::vector<const v1::Rung*> kept;
+void add_findings(const FittedModel& last, const std::vector<std::optional<Process>>& noise,
+                  v1::DiagnosisReport& to) {
+  std::vector<int> kept;  // rungs
   for (int i = 1; i < to.ladder_size(); ++i) {
     for (const std::string& term : to.ladder(i).dropped()) {
       const auto gone = std::find_if(kept.begin(), kept.end(),
-                                     [&](const v1::Rung* one) { return one->added() == term; });
+                                     [&](int one) { return to.ladder(one).added() == term; });
       if (gone != kept.end()) kept.erase(gone);
     }
-    kept.push_back(&to.ladder(i));
+    kept.push_back(i);
   }
   LastModel model(last);
-  for (const v1::Rung* rung : kept) {
-    const Kept left = model.kept(rung->added());
+  for (const int i : kept) {
+    const v1::Rung& rung = to.ladder(i);
+    const Kept left = model.kept(rung.added(), noise[static_cast<std::size_t>(i)]);
     if (!left.size) continue;  // it was dropped with the rung that added it
     v1::LadderFinding& found = *to.add_findings();
-    found.set_effect(rung->effect());
-    found.set_title(std::string(cause_info(rung->effect()).title));
+    found.set_effect(rung.effect());
+    found.set_title(std::string(cause_info(rung.effect()).title));
     found.set_term(left.term);
     if (!left.size->name.empty()) *found.mutable_size() = message_of(*left.size);
     found.set_sentence(sentence_of(found, left.place));

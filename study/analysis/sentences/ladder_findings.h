@@ -2,8 +2,10 @@
 
 // What a whole ladder found: the effects that its last model kept, and how large they are.
 
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/regression/fitted_model.h"
 #include "imunoise/v1/diagnosis.pb.h"
@@ -21,7 +23,9 @@ class ModelsSeen {
   std::set<std::multiset<std::string>> seen_;
 };
 
-/// Fills the findings of a report from its ladder, whose last model is `last`.
-void add_findings(const FittedModel& last, v1::DiagnosisReport& to);
+/// Fills the findings of a report from its ladder, whose last model is `last`. `noise`: what each
+/// rung added, as it was fitted there; nothing where it added none.
+void add_findings(const FittedModel& last, const std::vector<std::optional<Process>>& noise,
+                  v1::DiagnosisReport& to);
 
 }  // namespace imunoise::study

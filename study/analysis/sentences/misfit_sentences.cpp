@@ -23,8 +23,6 @@ std::string percent_more(double ratio) {
                      ratio >= 1.0 ? "more" : "less");
 }
 
-std::string plain(double value) { return report::number(value, 3, report::Digits::kPlain); }
-
 std::string in_how_many(int found, int all) {
   if (all == 1) return "";
   return found == all ? fmt::format(", in all {} replicates", all)
@@ -82,9 +80,10 @@ void add_scales(v1::DiagnosisReport& to) {
   for (const Place& place : places(budget.scales_size(), sigma)) {
     const double from = budget.scales_s(place.begin);
     const double until = budget.scales_s(place.end - 1);
-    const std::string where =
-        from == until ? fmt::format("an averaging time of {:.3g} s", from)
-                      : fmt::format("averaging times of {:.3g} to {:.3g} s", from, until);
+    const std::string where = from == until
+                                  ? fmt::format("an averaging time of {} s", report::brief(from))
+                                  : fmt::format("averaging times of {} to {} s",
+                                                report::brief(from), report::brief(until));
     v1::Misfit& misfit = add(
         to, "scale", sigma(place.worst),
         fmt::format("At {} the recording has {} wavelet variance than the model "
@@ -108,10 +107,10 @@ void add_bands(const std::vector<BandMisfit>& bands, v1::DiagnosisReport& to) {
     const double until = at(place.end - 1).to;
     v1::Misfit& misfit =
         add(to, "frequency", worst.sigma,
-            fmt::format("At {:.3g} to {:.3g} Hz (periods of {} to {} s) the recording has "
+            fmt::format("At {} to {} Hz (periods of {} to {} s) the recording has "
                         "{} power than the model ({:.1f} sigma){}.",
-                        from, until, plain(1.0 / until), plain(1.0 / from),
-                        percent_more(worst.ratio), std::abs(worst.sigma),
+                        report::brief(from), report::brief(until), report::brief(1.0 / until),
+                        report::brief(1.0 / from), percent_more(worst.ratio), std::abs(worst.sigma),
                         in_how_many(worst.replicates, to.compared_before().replicates_size())));
     misfit.set_from(from);
     misfit.set_to(until);
@@ -181,9 +180,9 @@ void add_replicates(v1::DiagnosisReport& to, double side) {
   const double seconds = worst.replicate->scales_s(worst.scale);
   v1::Misfit& misfit = add(
       to, "replicate", worst.sigma,
-      fmt::format("{}: at an averaging time of {:.3g} s it has {} wavelet variance than the "
+      fmt::format("{}: at an averaging time of {} s it has {} wavelet variance than the "
                   "model ({:.1f} sigma).{}",
-                  worst.replicate->name(), seconds,
+                  worst.replicate->name(), report::brief(seconds),
                   percent_more(worst.replicate->measured(worst.scale) / budget.model(worst.scale)),
                   std::abs(worst.sigma), others));
   misfit.set_from(seconds);
@@ -196,10 +195,10 @@ void add_sensors(v1::DiagnosisReport& to) {
     if (one.first() != to.channel() || !(one.p() < kSurely)) continue;
     v1::Misfit& misfit =
         add(to, "sensors", one.sigma(),
-            fmt::format("At {:.3g} to {:.3g} Hz it moves with {} (correlation {:.2f}, {:.1f} "
+            fmt::format("At {} to {} Hz it moves with {} (correlation {:.2f}, {:.1f} "
                         "sigma), which the model does not explain.",
-                        one.from_hz(), one.to_hz(), one.second(), one.correlation(),
-                        std::abs(one.sigma())));
+                        report::brief(one.from_hz()), report::brief(one.to_hz()), one.second(),
+                        one.correlation(), std::abs(one.sigma())));
     misfit.set_from(one.from_hz());
     misfit.set_to(one.to_hz());
   }
@@ -210,8 +209,8 @@ void add_kurtosis(const MisfitReport& misfit, v1::DiagnosisReport& to) {
   if (!(misfit.kurtosis.p_value < kSaid)) return;
   const double sigma = std::sqrt(misfit.kurtosis.statistic);
   add(to, "kurtosis", sigma,
-      fmt::format("The noise is not normal: its excess kurtosis is {:.3g} ({:.1f} sigma).",
-                  *misfit.excess_kurtosis, sigma));
+      fmt::format("The noise is not normal: its excess kurtosis is {} ({:.1f} sigma).",
+                  report::brief(*misfit.excess_kurtosis), sigma));
 }
 
 void keep_worst(google::protobuf::RepeatedPtrField<v1::Misfit>& misfits) {

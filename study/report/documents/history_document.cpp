@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostTables = 4;  // of points; with more parameters the overview must do
 
 std::string change_words(double fraction) {
-  if (std::abs(fraction) >= 10.0) return fmt::format("{:.3g} times", 1.0 + fraction);
+  if (std::abs(fraction) >= 10.0) return brief(1.0 + fraction) + " times";
   return fmt::format("{:+.2g} %", 100.0 * fraction);
 }
 

@@ -64,6 +64,23 @@ TEST(LowPass, IsNoResonanceHoweverLowItIs) {
   EXPECT_NEAR(values(added(found))[1], 0.03, 0.002);
 }
 
+// Lags that are no Butterworth filter have a process of their own, and the same name.
+TEST(LowPass, IsTheNameOfAnyFastLags) {
+  for (const char* const truth :
+       {"RES(sigma2=1, r=0.644, omega=0.668)", "AR2(sigma2=1, rho1=0.9286, phi2=-0.4)"}) {
+    const TriedTerm found = best_noise(truth, "WN", 77);
+    EXPECT_EQ(found.cause, "low_pass") << truth << ", seed 77";
+    EXPECT_TRUE(found.could_be.empty()) << truth << ", seed 77";
+  }
+}
+
+// Fast noise left no white noise; what is missing beside it is slow.
+TEST(LowPass, IsNoSlowNoiseBesideIt) {
+  const TriedTerm found =
+      best_noise("AR1(sigma2=1, phi=0.5) + AR1(sigma2=1e-4, phi=0.999)", "AR1", 78);
+  EXPECT_EQ(found.cause, "gauss_markov") << "seed 78";
+}
+
 TEST(LowPass, IsNotOfferedWhereSimplerNoiseDoes) {
   for (const char* const truth :
        {"AR1(sigma2=1, phi=0.6)", "WN(sigma2=1) + AR1(sigma2=0.3, phi=0.8)", "MAVG(4, sigma2=1)"}) {
