@@ -123,8 +123,9 @@ ParsedCommand mixed_command(CLI::App& program) {
       ->type_name("NAMES")
       ->allow_extra_args(false);
   mixed
-      ->add_option("--bootstrap", options->regression.bootstraps,
-                   "Number of bootstrap sets for the test of the coefficients; 0 disables it")
+      ->add_option(
+          "--bootstrap", options->regression.bootstraps,
+          "Number of bootstrap sets for the test of the coefficients, at least 19; 0 disables it")
       ->type_name("COUNT")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

@@ -123,18 +123,18 @@ void FaultDetector::gather() {
       const StepEvidence step = now_.steps[l].strongest(at);
       const auto readings = static_cast<std::size_t>(step.blocks * now_.steps[l].block());
       suspicion_->offer(FaultKind::kStep, i,
-                        {0.5 * step.z * step.z, step.size, step.error, taken_ - readings});
+                        {0.5 * step.z * step.z, step.size, step.error, taken_ - readings, taken_});
     }
     const std::size_t repeated = now_.stuck.front().repeated(at);
-    suspicion_->offer(
-        FaultKind::kStuck, i,
-        {now_.stuck.front().gain(at), static_cast<double>(repeated), 0.0, taken_ - repeated});
+    suspicion_->offer(FaultKind::kStuck, i,
+                      {now_.stuck.front().gain(at), static_cast<double>(repeated), 0.0,
+                       taken_ - repeated, taken_});
     if (!noise_seen_) continue;
     const NoiseEvidence noise = now_.noise[0].strongest(at);
     const double unit = now_.steps.front().filter().step_response(used_[i], 1).norm();
     suspicion_->offer(FaultKind::kNoisy, i,
                       {noise.gain, std::sqrt(std::max(0.0, noise.ratio - 1.0)) / unit, 0.0,
-                       taken_ - noise.samples});
+                       taken_ - noise.samples, taken_});
     suspicion_->offer_own_noise(i, now_.noise[1].strongest(at).gain);
   }
 }
@@ -157,7 +157,8 @@ std::optional<Fault> FaultDetector::finish() { return suspicion_ ? decide() : st
 
 std::optional<Fault> FaultDetector::decide() {
   const Fault out = suspicion_->verdict();
-  if (out.kind != FaultKind::kStep) {
+  const bool over = out.end > 0;
+  if (out.kind != FaultKind::kStep && !over) {
     std::erase_if(used_, [&](Eigen::Index sensor) {
       return std::find(out.sensors.begin(), out.sensors.end(), sensor) != out.sensors.end();
     });

@@ -28,8 +28,8 @@ struct FaultOptions {
 /// direction. A sensor sticks when it repeats one reading. The false alarms that are allowed are
 /// shared equally by the three kinds, and among steps by the block lengths. After an alarm a few
 /// more readings are awaited before the kind and the sensor with the largest gain in log-likelihood
-/// are named. After a step all levels are learnt anew; a sensor that sticks or is noisy is watched
-/// no longer. Deterministic; copies go on independently.
+/// are named. After a step, or noise that is over, all levels are learnt anew; a sensor that sticks
+/// or stays noisy is watched no longer. Deterministic; copies go on independently.
 class FaultDetector {
  public:
   /// Readings after a start before anything but sticking is watched for.

@@ -19,6 +19,8 @@ struct Fault {
   std::vector<Eigen::Index> sensors;  ///< one; several where the readings cannot tell which of them
   std::size_t onset = 0;     ///< the first reading that it changed, estimated (stuck: exact)
   std::size_t detected = 0;  ///< the reading with which the alarm was raised
+  /// Of noise: the reading before which it was over, where that was before the verdict; 0 else.
+  std::size_t end = 0;
   /// Of a step: its height; of noise: the standard deviation of what was added to each reading; of
   /// a stuck sensor: how often it repeated its reading. In the sensors' unit.
   double size = 0.0;
@@ -32,6 +34,9 @@ struct Evidence {
   double size = 0.0;
   double size_error = 0.0;
   std::size_t onset = 0;
+  std::size_t end = 0;  ///< the reading after the last one that it looked at
+
+  std::size_t length() const { return end - onset; }
 };
 
 /// The evidence that gathers between an alarm and the verdict.
@@ -47,16 +52,25 @@ class Suspicion {
   /// their parity cannot tell apart.
   void offer_own_noise(std::size_t index, double gain);
   bool due(std::size_t reading) const { return reading >= decide_; }
-  /// The kind and sensor with the largest gain, and the sensors within 3 nats of it.
+  /// The kind and sensor with the largest gain, and the sensors within 3 nats of it. A level that
+  /// came back is no step.
   Fault verdict() const;
 
  private:
+  void follow(FaultKind kind, std::size_t index, const Evidence& evidence);
+  bool came_back(std::size_t index) const;
+  bool is_over(std::size_t index) const;
+
   std::vector<Eigen::Index> sensors_;
   std::size_t detected_;
   std::size_t decide_;
   using EvidenceTable = std::array<std::vector<Evidence>, kFaultKinds>;  // kinds × sensors
   EvidenceTable strongest_;
   EvidenceTable begun_;  // the strongest that began by the alarm
+  // What came after the strongest: of steps, the last that looked twice as long at the same one; of
+  // noise, the strongest that began when that had ended.
+  EvidenceTable later_;
+  std::size_t now_ = 0;  // the last reading that was looked at, and one
   std::vector<double> own_noise_;
 };
 

@@ -72,12 +72,13 @@ void assess(const std::vector<DatedEstimate>& points, double level, v1::Paramete
   out.set_earlier(static_cast<std::uint32_t>(points.size() - 1));
   out.set_change(std::expm1(newest->change));
   out.set_p_value(newest->p_value);
-  out.set_alarm(newest->p_value < level);
+  out.set_newest_alarm(newest->p_value < level);
   if (const auto trend = test_trend(points)) {
     out.set_trend(std::expm1(trend->change));
     out.set_trend_p_value(trend->p_value);
-    out.set_alarm(out.alarm() || trend->p_value < level);
+    out.set_trend_alarm(trend->p_value < level);
   }
+  out.set_alarm(out.newest_alarm() || out.trend_alarm());
   const auto history = std::span(points).first(points.size() - 1);
   const auto range = expected_next(history, points.back().variance, level);
   out.set_expected_lower(std::exp(range->lower));
@@ -100,6 +101,17 @@ void note_other_models(v1::History& history) {
       fmt::join(others, ", ")));
 }
 
+// The parameters that a test finds changed.
+std::string named(const v1::History& history, bool (v1::DriftReport::*alarm)() const) {
+  std::string out;
+  for (const v1::ParameterHistory& one : history.parameters()) {
+    if (!(one.drift().*alarm)()) continue;
+    out += fmt::format("{}{} {} of {}", out.empty() ? "" : ", ", one.channel(), one.parameter(),
+                       one.term());
+  }
+  return out;
+}
+
 std::string summary_of(const v1::History& history, std::size_t testable) {
   if (testable == 0) {
     return fmt::format(
@@ -107,18 +119,20 @@ std::string summary_of(const v1::History& history, std::size_t testable) {
         "an interval.",
         kLeastHistory);
   }
-  std::string alarms;
-  for (const v1::ParameterHistory& one : history.parameters()) {
-    if (!one.drift().alarm()) continue;
-    alarms += fmt::format("{}{} {} of {}", alarms.empty() ? "" : ", ", one.channel(),
-                          one.parameter(), one.term());
-  }
-  if (alarms.empty()) {
-    return fmt::format(
-        "The newest calibration is compatible with the earlier ones ({} parameters).", testable);
-  }
-  return fmt::format("Changed: {}, by more than the errors and the usual scatter of this device.",
-                     alarms);
+  const std::string changed = named(history, &v1::DriftReport::newest_alarm);
+  const std::string drifting = named(history, &v1::DriftReport::trend_alarm);
+  std::string out;
+  if (!changed.empty())
+    out = fmt::format("Changed: {}, by more than the errors and the usual scatter of this device.",
+                      changed);
+  if (!drifting.empty())
+    out += fmt::format("{}Drifting: {}, along a straight line through all calibrations.",
+                       out.empty() ? "" : " ", drifting);
+  return out.empty() ? fmt::format(
+                           "The newest calibration is compatible with the earlier ones, "
+                           "and none drifts ({} parameters).",
+                           testable)
+                     : out;
 }
 
 }  // namespace

@@ -59,9 +59,11 @@ Result<CovariateData> covariate_data(const std::vector<recording::Replicate>& re
   }
   return fail(fmt::format(
       "covariate: {} lies between {} and {}, and {} a place where it stays for {} samples or more; "
-      "at least two are needed. Record where it differs, or set the places with --bins",
+      "at least two are needed. {} with --bins",
       out.name, in_unit(low, out.unit), in_unit(high, out.unit),
-      out.bins.bins.empty() ? "nowhere is" : "only one is", kLeastRun));
+      out.bins.bins.empty() ? "nowhere is" : "only one is", kLeastRun,
+      options.values.empty() ? "Record where it differs, or set the places"
+                             : "Set places where it lies"));
 }
 
 Result<std::vector<CovariateBin>> measure_bins(const Series& series, const CovariateData& covariate,

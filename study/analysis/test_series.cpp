@@ -8,8 +8,6 @@
 namespace imunoise::study {
 namespace {
 
-constexpr int kFewestSets = 19;  // of a bootstrap whose smallest p-value, 1/(B + 1), is kLevel
-
 void fill(const BootstrappedTest& from, v1::TestResult& to) {
   to.set_statistic(from.asymptotic.statistic);
   to.set_degrees_of_freedom(from.asymptotic.degrees_of_freedom);
@@ -41,6 +39,7 @@ std::string half_summary(const v1::StationarityReport& report, const std::string
 }
 
 std::string summary_of(const v1::StationarityReport& report, const NearStationarity& result) {
+  constexpr std::uint32_t kFewestForEach = 3;  // replicates, of a test of a single parameter
   const std::string misfit = chance_words(result.misfit.p_value());
   const std::string differ = chance_words(result.heterogeneity.p_value());
   if (report.misfit().degrees_of_freedom() == 0 ||
@@ -48,8 +47,10 @@ std::string summary_of(const v1::StationarityReport& report, const NearStationar
     return half_summary(report, misfit, differ);
   }
   const std::string who = moving_words(report.spread());
-  const std::string moves =
-      who.empty() ? "No single parameter stands out." : "Different: " + who + ".";
+  const std::string moves = !who.empty() ? "Different: " + who + "."
+                            : report.replicates() < kFewestForEach
+                                ? "Which of them differs, three replicates would show."
+                                : "No single parameter stands out.";
   if (!report.misfit().rejected() && !report.heterogeneity().rejected()) {
     return fmt::format(
         "Near-stationary: the model fits every replicate ({}), and one set of parameters "
@@ -120,11 +121,8 @@ Result<v1::StationarityReport> test_series(const Series& series, const TestOptio
         "--split-into 6 (parts of one recording show less than recordings of different days)",
         series.channel));
   }
-  if (options.bootstrap.sets > 0 && options.bootstrap.sets < kFewestSets) {
-    return fail(
-        fmt::format("a bootstrap of {} sets cannot reject at 5 %: take at least {}, better 999",
-                    options.bootstrap.sets, kFewestSets));
-  }
+  if (auto enough = check_bootstrap(static_cast<std::size_t>(options.bootstrap.sets)); !enough)
+    return tl::unexpected(enough.error());
   const Result<Prepared> prepared =
       prepare(series, options.model ? *options.model : kDefaultModel,
               grammar_of_replicates("imunoise test"), options.measure, progress.part(0.0, 0.3));

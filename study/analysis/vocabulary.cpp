@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace imunoise::study {
 namespace {
 
@@ -14,6 +16,13 @@ bool stands_alone(Coefficient coefficient) {
 }
 
 }  // namespace
+
+Result<void> check_bootstrap(std::size_t sets) {
+  const auto fewest = static_cast<std::size_t>(std::lround(1.0 / kLevel)) - 1;
+  if (sets == 0 || sets >= fewest) return {};
+  return fail(fmt::format(
+      "a bootstrap of {} sets cannot reject at 5 %: take at least {}, better 999", sets, fewest));
+}
 
 std::string_view quantity_name(Quantity quantity) {
   switch (quantity) {

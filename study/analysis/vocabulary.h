@@ -6,12 +6,16 @@
 #include <string_view>
 
 #include "core/model/model.h"
+#include "core/support/result.h"
 #include "imunoise/v1/noise.pb.h"
 
 namespace imunoise::study {
 
 /// Of tests that are told as yes or no.
 inline constexpr double kLevel = 0.05;
+/// Error: a bootstrap of so many sets, whose smallest p-value is 1/(sets + 1), cannot reject at
+/// kLevel. None at all is no error.
+Result<void> check_bootstrap(std::size_t sets);
 
 /// "angular rate"; "" when unknown.
 std::string_view quantity_name(Quantity quantity);

@@ -22,8 +22,9 @@ std::string interval_words(const Field& field) {
   std::string out;
   for (const Bounded& one : field.values) {
     if (!one.bounded()) continue;
-    out += fmt::format("{}{} … {}", out.empty() ? "" : "; ", report::brief(one.lower, 4),
-                       report::brief(one.upper, 4));
+    out += fmt::format("{}{} … {}", out.empty() ? "" : "; ",
+                       report::brief(one.lower, 4, report::Digits::kPlain),
+                       report::brief(one.upper, 4, report::Digits::kPlain));
   }
   return out.empty() ? "" : fmt::format(" ({})", out);
 }

@@ -96,7 +96,8 @@ std::string term_words(const Process& process, Quantity quantity, Hertz rate) {
     const CoefficientUnits units = coefficient_units(one.coefficient, quantity);
     const bool customary = !units.datasheet.empty();
     out += fmt::format("{}{} {}", separator,
-                       report::brief(one.value * (customary ? units.to_datasheet : 1.0)),
+                       report::brief(one.value * (customary ? units.to_datasheet : 1.0), 3,
+                                     report::Digits::kPlain),
                        customary ? units.datasheet : units.si);
     separator = ", ";
   }

@@ -57,7 +57,8 @@ std::vector<ParameterDraw> moving_parameters(
           {t, static_cast<std::size_t>(found - about.begin()), from.mean(), from.relative(),
            static_cast<int>(from.replicates()),
            fmt::format("{} of {}: typically {}, between {} replicates ±{} % ({} … {} %)",
-                       from.parameter(), from.term(), report::brief(from.mean()), from.replicates(),
+                       from.parameter(), from.term(),
+                       report::brief(from.mean(), 3, report::Digits::kPlain), from.replicates(),
                        rough(100.0 * from.relative()), rough(100.0 * from.relative_lower()),
                        rough(100.0 * from.relative_upper()))});
     }

@@ -163,9 +163,9 @@ void share_time(ImuNoise& imu, const Consumer& to, const Horizon& horizon) {
     one->remarks.push_back(fmt::format(
         "{}: {} has one correlation time, {} s; this axis has {}. Its σ bounds the error over "
         "{} and overstates it by a factor of up to {:.2f}",
-        one->channel, to.title, report::brief(best),
-        own == kEndless ? "a random walk" : report::brief(own) + " s", horizon_words(horizon),
-        shared.over));
+        one->channel, to.title, report::brief(best, 3, report::Digits::kPlain),
+        own == kEndless ? "a random walk" : report::brief(own, 3, report::Digits::kPlain) + " s",
+        horizon_words(horizon), shared.over));
   }
 }
 

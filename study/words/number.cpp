@@ -96,11 +96,11 @@ std::string number(double value, int significant, Digits style) {
          power_of_ten(magnitude, style);
 }
 
-std::string brief(double value, int significant) {
-  std::string out = number(value, significant, Digits::kTypeset);
+std::string brief(double value, int significant, Digits style) {
+  std::string out = number(value, significant, style);
   const std::size_t point = out.find('.');
   if (point == std::string::npos) return out;
-  const std::size_t end = std::min(out.find("×"), out.size());
+  const std::size_t end = std::min({out.find("×"), out.find('e'), out.size()});
   std::size_t kept = out.find_last_not_of('0', end - 1) + 1;
   if (kept == point + 1) kept = point;
   return out.erase(kept, end - kept);

@@ -18,8 +18,8 @@ enum class Digits {
 /// finite.
 std::string number(double value, int significant, Digits style);
 
-/// A number within a sentence: typeset, without zeros at its end: "0.25", "20", "1536".
-std::string brief(double value, int significant = 3);
+/// A number within a sentence, without zeros at its end: "0.25", "20", "1536".
+std::string brief(double value, int significant = 3, Digits style = Digits::kTypeset);
 
 /// Value and interval rounded to the interval's precision (two digits of its half-width when they
 /// are 10 to 35, else one): "0.1175 (0.1171 … 0.1180)", "3.21 (3.15 … 3.27) ×10⁻⁹". The value

@@ -121,6 +121,7 @@ TEST_F(Array, SaysWhatItCannotDo) {
   expect("--model 'RW[cor]'", "corr, group or all");
   expect("--model ''", "expected the name of a process");
   expect("--group gyro_a,nobody", "no sensor 'nobody'");
+  expect("--group gyro_a,gyro_b", "no process that the sensors of a group share");
   expect("--group gyro_a,gyro_b --group gyro_b,gyro_c", "'gyro_b' is in two groups");
   expect("--optimise 1,2", "13 weights");
   expect("--optimise sometimes", "13 weights");

@@ -125,7 +125,7 @@ TEST_F(CatalogueCommands, AHistoryRaisesTheAlarmWhenADeviceDrifts) {
   EXPECT_NEAR(drift["parameters"][0]["drift"]["change"].get<double>(), std::sqrt(2.0) - 1.0, 0.05);
   const Outcome words = run("history bench --device 0042 --report history.html");
   EXPECT_EQ(words.status, 1);
-  EXPECT_NE(words.out.find("DRIFT"), std::string::npos) << words.out;
+  EXPECT_NE(words.out.find("CHANGED"), std::string::npos) << words.out;
   EXPECT_NE(words.out.find("week-6"), std::string::npos);
   EXPECT_NE(read("history.html").find("measured outside"), std::string::npos);
 }

@@ -52,6 +52,7 @@ class Faults : public testing::Program {
   std::mt19937_64 random_{20261121};
   std::normal_distribution<double> normal_;
   double held_ = 0.0;
+  std::array<double, 3> all_{};
 };
 
 const std::string kHow = " --rate 100 --unit rad/s --model 'RW[all] + WN' ";
@@ -91,6 +92,35 @@ TEST_F(Faults, AnswersPeople) {
   const Outcome two = run("faults step.csv --train good.csv --channel gyro_a,gyro_b" + kHow);
   EXPECT_NE(two.out.find("gyro_a or gyro_b  step"), std::string::npos) << two.out;
   EXPECT_NE(two.out.find("a third would tell"), std::string::npos);
+}
+
+// What the import takes for a disturbance is a fault here.
+TEST_F(Faults, SearchesWhatAFitLeavesOut) {
+  write("both.csv", [](int t, auto& x) {
+    x[0] += t >= kOnset ? 0.2 : 0.0;
+    x[1] -= t >= kOnset ? 0.1 : 0.0;
+  });
+  write("frozen.csv", [this](int t, auto& x) {
+    if (t == kOnset) all_ = x;
+    if (t >= kOnset) x = all_;
+  });
+  const json both = json::parse(run("faults both.csv --train good.csv" + kHow + "--json").out);
+  ASSERT_GE(both["faults"].size(), 1U) << both.dump(1);
+  EXPECT_EQ(both["faults"][0]["kind"], "step");
+  EXPECT_NEAR(both["faults"][0]["onset_s"].get<double>(), 120.0, 0.2);
+  const json frozen = json::parse(run("faults frozen.csv --train good.csv" + kHow + "--json").out);
+  ASSERT_GE(frozen["faults"].size(), 1U) << frozen.dump(1);
+  EXPECT_EQ(frozen["faults"][0]["kind"], "stuck");
+  EXPECT_NEAR(frozen["faults"][0]["onset_s"].get<double>(), 120.0, 0.03);
+}
+
+TEST_F(Faults, WhatIsSearchedIsNotTrainedOn) {
+  const json report =
+      json::parse(run("faults step.csv --train good.csv --train step.csv" + kHow + "--json").out);
+  EXPECT_EQ(report["trained_on"], 1);
+  EXPECT_TRUE(report["trained_elsewhere"].get<bool>());
+  const json itself = json::parse(run("faults step.csv --train step.csv" + kHow + "--json").out);
+  EXPECT_FALSE(itself.value("trained_elsewhere", false));
 }
 
 TEST_F(Faults, SaysWhatItCannotDo) {

@@ -23,7 +23,8 @@ class Mixed : public testing::Program {
     std::mt19937_64 random(20261122);
     std::normal_distribution<double> normal;
     std::ofstream file(folder_ / "sites.csv");
-    file << "a,b,temperature,nothing,stuck\n";
+    file.precision(12);
+    file << "a,b,temperature,nothing,stuck,fahrenheit\n";
     double shared = 0.0;
     double nothing = 0.0;
     for (int i = 0; i < 600; ++i) {
@@ -32,7 +33,7 @@ class Mixed : public testing::Program {
       const double temperature = std::sin(0.05 * i) + 0.1 * normal(random);
       file << 5.0 + 2.0 * temperature + shared + normal(random) << ','
            << -5.0 + 2.0 * temperature + shared + normal(random) << ',' << temperature << ','
-           << nothing << ",1\n";
+           << nothing << ",1," << 32.0 + 1.8 * temperature << "\n";
     }
   }
 };
@@ -86,6 +87,8 @@ TEST_F(Mixed, SaysWhatItCannotDo) {
   expect("--channel a,b,stuck --regress temperature", "never changes");
   expect("--channel a,b --regress x=temperature,nothing,temperature", "3 channels for 2 series");
   expect("--channel a,b --regress time --regress time", "named twice");
+  expect("--channel a,b --regress time --bootstrap 18", "cannot reject at 5 %");
+  expect("--channel a,b --regress temperature --regress fahrenheit", "cannot be told apart");
   expect("--channel a --regress a", "none is left");
   expect("--channel a,b --regress time --model 'DR + WN'", "DR is not noise");
   expect("--channel a,b --regress time --group a,c", "no sensor 'c'");

@@ -33,6 +33,7 @@ TEST(Number, IsBriefInASentence) {
   EXPECT_EQ(brief(0.0), "0");
   EXPECT_EQ(brief(2e-9), "2×10⁻⁹");
   EXPECT_EQ(brief(1234567.0, 4), "1.235×10⁶");
+  EXPECT_EQ(brief(-8e-12, 3, kPlain), "-8e-12");
 }
 
 TEST(Number, IntervalDecidesThePrecision) {

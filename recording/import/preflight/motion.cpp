@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/stillness/stillness.h"
+#include "recording/import/preflight/holes.h"
 #include "recording/import/table/names.h"
 
 namespace imunoise::recording {
@@ -11,6 +12,14 @@ namespace {
 
 constexpr double kLearning = 31.0;    // s before the watch begins
 constexpr double kBackwards = 300.0;  // s from which the beginning is judged
+
+// What hangs for most of the time has no usual scatter to judge the rest by.
+bool mostly_hangs(const Column& column) {
+  const std::size_t rows = size(column.samples);
+  std::size_t same = 0;
+  for (std::size_t i = 1; i < rows; ++i) same += repeats(column, i) ? 1U : 0U;
+  return 2 * same > rows;
+}
 
 }  // namespace
 
@@ -71,6 +80,13 @@ std::vector<Motion> motion_in(const std::vector<Column>& columns, const std::vec
   }
   for (const Disturbance& one : forwards.found()) {
     if (static_cast<std::size_t>(one.begin) >= early) add(one);
+  }
+  for (const std::size_t c : watched) {
+    const auto alone = [&](const Motion& one) {
+      return !one.several && one.channel == columns[c].name;
+    };
+    if (std::any_of(out.begin(), out.end(), alone) && mostly_hangs(columns[c]))
+      std::erase_if(out, alone);
   }
   return out;
 }

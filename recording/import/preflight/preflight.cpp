@@ -299,17 +299,18 @@ class Judge {
   }
 
   void find_frozen() {
+    const bool used = options_.use_frozen;
+    const Severity severity = used ? Severity::kDoubt : Severity::kLeftOut;
     std::size_t told = 0;
     for (const Cut& one : frozen_in(table_.columns, out_.units)) {
-      cuts_.add(one.begin, one.end);
+      if (!used) cuts_.add(one.begin, one.end);
       if (told++ < kTold)
-        find(Severity::kLeftOut,
+        find(severity,
              fmt::format("all axes stand still from {:.6g} to {:.6g} s, where each sample repeats "
-                         "the one before: left out",
-                         time_of(one.begin), time_of(one.end - 1)));
+                         "the one before: {}",
+                         time_of(one.begin), time_of(one.end - 1), used ? "used" : "left out"));
     }
-    if (told > kTold)
-      find(Severity::kLeftOut, fmt::format("{} more such times: left out", told - kTold));
+    if (told > kTold) find(severity, fmt::format("{} more such times", told - kTold));
   }
 
   // What moves one channel alone may be its own noise: it is told, and used.
@@ -373,7 +374,6 @@ class Judge {
   }
 
   static constexpr std::size_t kTold = 5;
-
   const std::string& file_;
   Table table_;
   std::size_t wanted_;  // columns; those behind them are to judge by

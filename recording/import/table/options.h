@@ -54,6 +54,8 @@ struct ImportOptions {
   std::vector<TimeSpan> exclude;
   /// Uses times in which the sensor was disturbed, too.
   bool use_disturbed = false;
+  /// Uses times in which every axis repeats its readings, too.
+  bool use_frozen = false;
   /// Refuses a file where the preflight would leave samples out or has doubts.
   bool strict = false;
   /// The topic of a bag. Empty: the only one that holds messages of an IMU.

@@ -58,7 +58,8 @@ Result<Measured> measure_array(const std::vector<Series>& sensors, int per_octav
 }  // namespace
 
 Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
-                              const std::vector<std::vector<std::string>>& groups) {
+                              const std::vector<std::vector<std::string>>& groups,
+                              const Model& written) {
   ArrayLayout out{sensors.size(), std::vector<std::size_t>(sensors.size(), groups.size())};
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const std::string& name : groups[g]) {
@@ -72,6 +73,13 @@ Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
       group = g;
     }
   }
+  const bool shared = std::any_of(written.terms.begin(), written.terms.end(),
+                                  [](const Term& term) { return term.sharing == Sharing::kGroup; });
+  if (!groups.empty() && !shared)
+    return fail(
+        fmt::format("group: {} has no process that the sensors of a group share, such as "
+                    "AR1[group]",
+                    print(written)));
   return out;
 }
 
@@ -82,7 +90,7 @@ Result<ArraySetup> array_setup(const std::vector<Series>& sensors, std::string_v
   const Result<Model> written =
       parse_noise_model(model, sensors.front().replicates.front().rate(), grammar_of_arrays());
   if (!written) return tl::unexpected(written.error());
-  const Result<ArrayLayout> layout = layout_of(sensors, groups);
+  const Result<ArrayLayout> layout = layout_of(sensors, groups, *written);
   if (!layout) return tl::unexpected(layout.error());
   Result<Measured> measured = measure_array(sensors, per_octave, progress);
   if (!measured) return tl::unexpected(measured.error());

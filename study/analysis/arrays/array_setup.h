@@ -23,9 +23,10 @@ struct ArraySetup {
 };
 
 /// The layout of sensors in groups that are given by name; the rest form one. Error: a name that is
-/// no sensor's, or in two groups.
+/// no sensor's, or in two groups, or groups where the model has no process that they share.
 Result<ArrayLayout> layout_of(const std::vector<Series>& sensors,
-                              const std::vector<std::vector<std::string>>& groups);
+                              const std::vector<std::vector<std::string>>& groups,
+                              const Model& written);
 
 /// Reads the model of an array, finds the groups of its sensors and measures them. `sensors` is one
 /// series a sensor, of the same replicates; `groups` names the sensors of each group, the rest form

@@ -58,6 +58,7 @@ void add_fault(const Fault& from, const std::vector<Series>& sensors, std::size_
   to.set_onset_s(static_cast<double>(from.onset) * period);
   to.set_detected_s(static_cast<double>(from.detected) * period);
   to.set_delay_s(static_cast<double>(from.detected - std::min(from.onset, from.detected)) * period);
+  if (from.end > 0) to.set_end_s(static_cast<double>(from.end) * period);
   to.set_size(from.size);
   if (from.kind == FaultKind::kStep) to.set_size_error(from.size_error);
   to.set_evidence(from.gain);
@@ -85,6 +86,10 @@ bool search(FaultDetector& detector, const std::vector<Series>& sensors, std::si
 }
 
 std::string summary_of(const v1::FaultReport& report) {
+  if (report.faults_size() == 0 && !(report.watched_s() > 0.0))
+    return fmt::format(
+        "Too short to search: the first {} s of a replicate only show the levels of its sensors.",
+        report::brief(report.warm_up_s()));
   const double hours = report.watched_s() / 3600.0;
   const std::string chance =
       fmt::format("In {} h, {} false alarms are to be expected.", report::brief(hours),
@@ -96,13 +101,23 @@ std::string summary_of(const v1::FaultReport& report) {
   return out + " " + chance;
 }
 
+// `trained`: readings of each sensor.
 void add_notes(const v1::FaultReport& report, const FaultDetector& detector,
-               const FaultSeriesOptions& options, std::vector<std::string>& notes) {
+               const FaultSeriesOptions& options, std::size_t trained,
+               std::vector<std::string>& notes) {
+  constexpr std::size_t kFewReadings = 50'000;
   if (!options.model) notes.push_back(default_model_note("was fitted", kDefaultArrayModel));
   if (!report.trained_elsewhere()) {
     notes.push_back(
         "The model was fitted to the recordings that were searched: what is wrong in much of them "
         "counts as noise. Fit it to recordings known to be good (--train) where there are some.");
+  }
+  if (trained < kFewReadings) {
+    notes.push_back(fmt::format(
+        "The model was fitted to {} readings. From fewer than {}, it is known so badly that false "
+        "alarms may be a hundred times as frequent as allowed.",
+        report::count(trained, report::Digits::kTypeset),
+        report::count(kFewReadings, report::Digits::kTypeset)));
   }
   for (const v1::StuckRule& rule : report.stuck_rules()) {
     if (rule.has_repetitions()) continue;
@@ -124,17 +139,13 @@ void add_notes(const v1::FaultReport& report, const FaultDetector& detector,
 
 }  // namespace
 
-Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors,
-                                     const std::vector<Series>& training,
+Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors, const Training& training,
                                      const FaultSeriesOptions& options, const Progress& progress) {
   if (!(options.false_alarms_per_hour > 0.0)) {
     return fail("false alarms: the rate that is allowed must be above zero");
   }
-  const bool elsewhere = !training.empty();
-  const std::vector<Series>& good = elsewhere ? training : sensors;
-  if (elsewhere) {
-    if (auto same = check_training(sensors, training); !same) return tl::unexpected(same.error());
-  }
+  const std::vector<Series>& good = training.sensors;
+  if (auto same = check_training(sensors, good); !same) return tl::unexpected(same.error());
   const Result<ArraySetup> setup =
       array_setup(good, options.model ? *options.model : kDefaultArrayModel, options.groups,
                   options.per_octave, progress.part(0.0, 0.3));
@@ -164,7 +175,7 @@ Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors,
   for (const std::string& name : sensors.front().names) out.add_replicates(name);
   out.set_model(print(setup->model));
   out.set_trained_on(static_cast<std::uint32_t>(good.front().replicates.size()));
-  out.set_trained_elsewhere(elsewhere);
+  out.set_trained_elsewhere(training.elsewhere);
   out.set_false_alarms_per_hour(options.false_alarms_per_hour);
   out.set_warm_up_s(static_cast<double>(FaultDetector::kWarmUp) / rate.value);
   const std::vector<std::size_t> repetitions = detector.repetitions();
@@ -184,14 +195,18 @@ Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors,
     if (!search(detector, sensors, k, out, progress.part(share(k), share(k + 1)))) {
       return fail("stopped");
     }
-    watched += static_cast<double>(sensors.front().replicates[k].size()) / rate.value;
+    const std::size_t samples = sensors.front().replicates[k].size();
+    if (samples > FaultDetector::kWarmUp)
+      watched += static_cast<double>(samples - FaultDetector::kWarmUp) / rate.value;
     const bool room = out.traces_size() < kMostTraced * out.sensors_size();
     if (out.faults_size() > before && room) add_traces(sensors, k, out);
   }
   out.set_watched_s(watched);
   out.set_summary(summary_of(out));
   std::vector<std::string> notes;
-  add_notes(out, detector, options, notes);
+  std::size_t trained = 0;
+  for (const Signal& one : good.front().replicates) trained += one.size();
+  add_notes(out, detector, options, trained, notes);
   for (std::string& note : notes) out.add_notes(std::move(note));
   return out;
 }

@@ -20,7 +20,9 @@ namespace {
 Result<void> check(const Regression& regression, const std::vector<Series>& channels,
                    const Model& written, const ArrayLayout& layout) {
   if (channels.front().replicates.size() != 1) {
-    return fail("mixed: give one recording; several would each have constants of their own");
+    return fail(
+        "mixed: give one recording without gaps or missing values; several pieces would each have "
+        "constants of their own");
   }
   const Series& first = regression.responses.front();
   for (const Series& one : regression.responses) {
@@ -78,7 +80,7 @@ std::string summary_of(const v1::MixedReport& report) {
     out += one.significant()
                ? fmt::format("{} has an effect ({}). ", one.regressor(), chance)
                : fmt::format("An effect of {} is not shown ({}). ", one.regressor(), chance);
-    if (!one.significant() && one.naive().p_value() < kLevel) {
+    if (!one.significant() && one.naive().p_value() <= kLevel) {
       out += fmt::format(
           "Had the samples been taken as independent, it would have seemed to have one: "
           "its error is {} times larger than that. ",
@@ -93,13 +95,15 @@ std::string summary_of(const v1::MixedReport& report) {
 
 Result<v1::MixedReport> mixed_series(const std::vector<Series>& channels,
                                      const MixedSeriesOptions& options, const Progress& progress) {
+  if (auto enough = check_bootstrap(options.regression.bootstraps); !enough)
+    return tl::unexpected(enough.error());
   const Result<Regression> regression = read_regressors(channels, options.regressors);
   if (!regression) return tl::unexpected(regression.error());
   const auto& [responses, names, units, data] = *regression;
   const Result<Model> written = parse_noise_model(
       options.model ? *options.model : kDefaultMixedModel, data.rate, grammar_of_arrays());
   if (!written) return tl::unexpected(written.error());
-  const Result<ArrayLayout> layout = layout_of(responses, options.groups);
+  const Result<ArrayLayout> layout = layout_of(responses, options.groups, *written);
   if (!layout) return tl::unexpected(layout.error());
   if (auto good = check(*regression, channels, *written, *layout); !good)
     return tl::unexpected(good.error());
@@ -125,7 +129,7 @@ Result<v1::MixedReport> mixed_series(const std::vector<Series>& channels,
     *to.mutable_gls() = message(found.gls[j]);
     if (!found.robust.empty()) *to.mutable_robust() = message(found.robust[j]);
     *to.mutable_naive() = message(found.naive[j]);
-    to.set_significant(found.gls[j].p_value < kLevel);
+    to.set_significant(found.gls[j].p_value <= kLevel);
   }
   for (std::size_t i = 0; i < responses.size(); ++i) {
     v1::SeriesConstant& to = *out.add_constants();

@@ -9,6 +9,7 @@
 #include "core/effect/subject.h"
 #include "core/spectrum/cosine_transform.h"
 #include "core/spectrum/cross_power.h"
+#include "core/support/linear_algebra.h"
 
 namespace imunoise::study {
 namespace {
@@ -80,6 +81,28 @@ std::string unit_over(const Series& response, const Written& written,
   return unit == "1" ? "" : unit;
 }
 
+// Regressors that depend on each other linearly, by name, less the constants of the series; "" if
+// none do. Their products would be inverted without the direction that they share, and each would
+// get a part of what they do together.
+std::string dependent(const Regression& of) {
+  constexpr double kLeast = 1e-9;  // of a regressor's power, that the others do not have
+  constexpr double kPart = 0.05;   // of the direction that they share
+  const auto count = static_cast<Eigen::Index>(of.data.regressors.size());
+  Eigen::MatrixXd all(of.data.response.size(), count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::MatrixXd& one = of.data.regressors[static_cast<std::size_t>(j)];
+    all.col(j) = (one.rowwise() - one.colwise().mean()).reshaped().normalized();
+  }
+  const SymmetricEigen found = symmetric_eigen(all.transpose() * all);
+  std::string out;
+  if (!(found.values(0) < kLeast)) return out;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    if (std::abs(found.vectors(j, 0)) < kPart) continue;
+    out += (out.empty() ? "" : ", ") + of.names[static_cast<std::size_t>(j)];
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> channels_of(const std::vector<std::string>& texts) {
@@ -125,6 +148,11 @@ Result<Regression> read_regressors(const std::vector<Series>& channels,
     out.names.push_back(one.name);
     out.units.push_back(unit_over(out.responses.front(), one, channels));
   }
+  if (const std::string all = dependent(out); !all.empty())
+    return fail(
+        fmt::format("regress: {} depend on each other linearly, so that their effects "
+                    "cannot be told apart: leave one out",
+                    all));
   return out;
 }
 

@@ -21,7 +21,8 @@ struct Regression {
 std::vector<std::string> channels_of(const std::vector<std::string>& texts);
 
 /// Reads regressors as `imunoise mixed --regress` takes them, see MixedSeriesOptions. Error: one
-/// that does not exist, that never changes or repeats another, or nothing to regress.
+/// that does not exist, that never changes or is named twice, some that depend on each other
+/// linearly, or nothing to regress.
 Result<Regression> read_regressors(const std::vector<Series>& channels,
                                    const std::vector<std::string>& texts);
 

@@ -41,8 +41,8 @@ Table sensor_fits(const v1::ArrayReport& report, Digits digits) {
                         !tested      ? "not tested"
                         : one.fits() ? "yes"
                                      : "no",
-                        p < 1e-4 ? "< 0.0001" : number(p, 2, digits),
-                        number(one.statistic(), 3, digits),
+                        !tested ? "–" : p_value(p, digits),
+                        !tested ? "–" : number(one.statistic(), 3, digits),
                         std::to_string(one.degrees_of_freedom())});
   }
   return out;

@@ -23,7 +23,10 @@ std::string with_unit(std::string value, const std::string& unit) {
 
 std::string size_of(const v1::SensorFault& fault, const std::string& unit, Digits digits) {
   if (fault.kind() == "stuck") return fmt::format("{:.0f} equal readings", fault.size());
-  if (fault.kind() == "noisy") return with_unit("+" + number(fault.size(), 2, digits), unit);
+  if (fault.kind() == "noisy") {
+    const std::string added = with_unit("+" + number(fault.size(), 2, digits), unit);
+    return fault.has_end_s() ? added + " for " + duration(fault.end_s() - fault.onset_s()) : added;
+  }
   const double low = fault.size() - fault.size_error();
   const double high = fault.size() + fault.size_error();
   return with_unit(fmt::format("{} ± {}", rounded(fault.size(), low, high, digits),
@@ -59,8 +62,9 @@ Document document(const v1::FaultReport& report, Digits digits) {
     section.title += (section.title.empty() ? "" : ", ") + name;
   }
   const bool sound = report.faults_size() == 0;
-  section.badge = sound ? "no fault" : "faulty";
-  section.mood = sound ? Mood::kGood : Mood::kBad;
+  const bool watched = report.watched_s() > 0.0;
+  section.badge = !sound ? "faulty" : watched ? "no fault" : "not watched";
+  section.mood = !sound ? Mood::kBad : watched ? Mood::kGood : Mood::kNeutral;
   section.facts = fmt::format(
       "{} · {:g} Hz · {} sensors · {} · fitted to {} {} · {} false alarms per hour "
       "allowed",

@@ -27,7 +27,7 @@ std::string value_of(const v1::HistoryPoint& point, const ShownUnit& unit, Digit
 
 std::string verdict_of(const v1::ParameterHistory& one) {
   if (!one.has_drift()) return "not compared";
-  return one.drift().alarm() ? "DRIFT" : "compatible";
+  return one.drift().newest_alarm() ? "CHANGED" : "compatible";
 }
 
 std::string name_of(const v1::ParameterHistory& one) {
@@ -59,11 +59,14 @@ Table overview(const v1::History& history, Digits digits) {
 }
 
 Table trends(const v1::History& history, Digits digits) {
-  Table out{"Long-term trend: a straight line through all", {"", "from first to newest", "p"}, {}};
+  Table out{"Long-term trend: a straight line through all",
+            {"", "from first to newest", "p", "verdict"},
+            {}};
   for (const v1::ParameterHistory& one : history.parameters()) {
     if (!one.drift().has_trend()) continue;
     out.rows.push_back({name_of(one), change_words(one.drift().trend()),
-                        p_value(one.drift().trend_p_value(), digits)});
+                        p_value(one.drift().trend_p_value(), digits),
+                        one.drift().trend_alarm() ? "DRIFT" : "none"});
   }
   return out;
 }

@@ -23,7 +23,7 @@ figure::Layer calibrations(const v1::ParameterHistory& history, double factor) {
                         .upper = one.has_upper() ? one.upper() * factor : kUnknown,
                         .state = one.compared() ? State::kPlain : State::kUntested});
   }
-  if (history.drift().alarm()) out.data.back().state = State::kOutside;
+  if (history.drift().newest_alarm()) out.data.back().state = State::kOutside;
   return out;
 }
 

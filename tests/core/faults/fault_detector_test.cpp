@@ -60,6 +60,33 @@ TEST(FaultDetector, NamesTheSensorThatSteps) {
   EXPECT_GE(right, kRuns - 2);
 }
 
+// A level that comes back is no step, and its sensor goes on being watched.
+TEST(FaultDetector, ASpikeIsShortNoise) {
+  const ArrayModel model = coloured_model();
+  const FaultDetector designed = detector_of(model);
+  constexpr std::uint32_t kRuns = 24;
+  for (const std::size_t length : {1U, 3U}) {
+    int right = 0;
+    for (std::uint32_t run = 0; run < kRuns; ++run) {
+      Readings data = healthy(model, run);
+      const std::size_t sensor = run % 3;
+      for (std::size_t t = kOnset; t < kOnset + length; ++t) data[sensor][t] += 20.0;
+      FaultDetector detector = designed;
+      const std::vector<Fault> found = faults_in(detector, data);
+      ASSERT_FALSE(found.empty()) << run;
+      const Fault& fault = found.front();
+      const bool named = fault.kind == FaultKind::kNoisy && fault.sensors.size() == 1 &&
+                         fault.sensors.front() == static_cast<Eigen::Index>(sensor);
+      right += named ? 1 : 0;
+      if (!named) continue;
+      EXPECT_NEAR(static_cast<double>(fault.end), static_cast<double>(kOnset + length), 8.0);
+      EXPECT_EQ(detector.watched().size(), 3U);
+    }
+    std::printf("%d of %u spikes of %zu readings named\n", right, kRuns, length);
+    EXPECT_GE(right, static_cast<int>(kRuns) - 2) << length;
+  }
+}
+
 TEST(FaultDetector, NamesTheSensorThatGrowsNoisy) {
   FIGURES_ALONE();
   const ArrayModel model = coloured_model();

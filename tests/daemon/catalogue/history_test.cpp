@@ -64,7 +64,8 @@ TEST_F(HistoryOf, AJumpIsAnAlarm) {
   ASSERT_TRUE(got);
   EXPECT_TRUE(got->alarm());
   const v1::ParameterHistory& n = n_of(*got);
-  EXPECT_TRUE(n.drift().alarm());
+  EXPECT_TRUE(n.drift().newest_alarm());
+  EXPECT_FALSE(n.drift().trend_alarm());
   EXPECT_NEAR(n.drift().change(), 0.10, 0.005);
   EXPECT_LT(n.drift().expected_upper(), 2.2e-4);
   EXPECT_EQ(
@@ -90,6 +91,10 @@ TEST_F(HistoryOf, ASlowDriftIsATrend) {
   EXPECT_GT(n_of(*got).drift().p_value(), 1e-3) << "no single step tells";
   EXPECT_LT(n_of(*got).drift().trend_p_value(), 1e-4);
   EXPECT_NEAR(n_of(*got).drift().trend(), 0.105, 0.01);
+  EXPECT_TRUE(n_of(*got).drift().trend_alarm());
+  EXPECT_FALSE(n_of(*got).drift().newest_alarm());
+  EXPECT_EQ(got->summary(),
+            "Drifting: gyro_x N of WN, along a straight line through all calibrations.");
 }
 
 TEST_F(HistoryOf, OnlyCalibrationsOfOneModelAreCompared) {

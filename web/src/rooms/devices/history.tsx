@@ -8,7 +8,7 @@ import { Empty, Loading } from "../../parts/states";
 import { minute, recordingsOf } from "./device_rows";
 import { parameterRow, pointRows } from "./parameter_rows";
 
-const moods = { drift: "alarm", compatible: "good", "not compared": "plain" } as const;
+const moods = { changed: "alarm", drift: "alarm", compatible: "good", "not compared": "plain" } as const;
 
 function Overview({ history }: { history: Answer }) {
   return (

@@ -8,7 +8,7 @@ export interface ParameterRow {
   readonly newest: string;
   readonly expected: string;
   readonly change: string;
-  readonly verdict: "drift" | "compatible" | "not compared";
+  readonly verdict: "changed" | "drift" | "compatible" | "not compared";
 }
 
 const shown = (one: ParameterHistory): { unit: string; factor: number } =>
@@ -26,6 +26,11 @@ export function pointText(point: HistoryPoint, factor: number): string {
 export const changeText = (fraction: number): string =>
   Math.abs(fraction) >= 10 ? `${number(1 + fraction)} times` : `${fraction < 0 ? "" : "+"}${number(100 * fraction, 2)} %`;
 
+const verdictOf = (drift: ParameterHistory["drift"]): ParameterRow["verdict"] => {
+  if (!drift) return "not compared";
+  return drift.newest_alarm ? "changed" : drift.trend_alarm ? "drift" : "compatible";
+};
+
 export function parameterRow(one: ParameterHistory): ParameterRow {
   const { unit, factor } = shown(one);
   const newest = one.points.at(-1);
@@ -36,7 +41,7 @@ export function parameterRow(one: ParameterHistory): ParameterRow {
     newest: newest ? pointText(newest, factor) : "–",
     expected: drift ? `${number(drift.expected_lower * factor)} … ${number(drift.expected_upper * factor)}` : "–",
     change: drift ? changeText(drift.change) : "–",
-    verdict: !drift ? "not compared" : drift.alarm ? "drift" : "compatible",
+    verdict: verdictOf(drift),
   };
 }
 
