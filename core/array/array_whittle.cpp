@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/array/array_inference.h"
 #include "core/estimate/band_likelihood.h"
@@ -143,6 +144,31 @@ ParameterCovariance bound(const ArrayFit& fit, const ArrayModel& scatter,
                              per_value.asDiagonal());
 }
 
+// The sensors of an array resemble each other: where one lost a process that the others have, the
+// shape and the power of theirs are a place to begin. Nothing where none did.
+std::optional<ArrayModel> with_lost_found(const ArrayModel& model) {
+  constexpr double kLost = 0.05;  // of the others' power
+  std::optional<ArrayModel> out;
+  for (const Latent& one : model.latents) {
+    std::vector<std::size_t> alike;
+    for (std::size_t l = 0; l < model.latents.size(); ++l) {
+      const Latent& other = model.latents[l];
+      if (other.written == one.written && other.sensors.size() == 1) alike.push_back(l);
+    }
+    if (one.sensors.size() != 1 || alike.size() < 2) continue;
+    const auto power = [&](std::size_t l) { return model.latents[l].scalar(); };
+    std::sort(alike.begin(), alike.end(),
+              [&](std::size_t a, std::size_t b) { return power(a) < power(b); });
+    const Latent& usual = model.latents[alike[alike.size() / 2]];
+    if (!(one.scalar() < kLost * usual.scalar())) continue;
+    if (!out) out = model;
+    Latent& found = out->latents[static_cast<std::size_t>(&one - model.latents.data())];
+    found.term.process = usual.term.process;
+    found.set_scalar(usual.scalar());
+  }
+  return out;
+}
+
 }  // namespace
 
 bool has_likelihood(const ArrayModel& model) {
@@ -162,7 +188,12 @@ ArrayFit make_efficient(ArrayFit fit, std::span<const CrossPower> replicates, do
                         const Progress& progress) {
   assert(has_likelihood(fit.model));
   const ArrayLikelihood likelihood(fit.model, replicates);
-  const Scored found = maximise(likelihood.likelihood(), likelihood.start(), progress);
+  Scored found = maximise(likelihood.likelihood(), likelihood.start(), progress);
+  if (const auto other = with_lost_found(likelihood.model_at(found.at))) {
+    const Eigen::VectorXd start = ArrayLikelihood(*other, replicates).start();
+    Scored again = maximise(likelihood.likelihood(), start, progress);
+    if (again.objective < found.objective) found = std::move(again);
+  }
   fit.model = sorted(likelihood.model_at(found.at));
   fit.termination = found.termination;
   double samples = 0.0;

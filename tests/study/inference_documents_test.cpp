@@ -214,7 +214,10 @@ TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
   for (const char* kind : {">step<", ">noisy<", ">stuck<"}) {
     EXPECT_NE(figure::svg(shown.sections[0].figures[0]).find(kind), std::string::npos) << kind;
   }
-  EXPECT_EQ(document(v1::FaultReport{}, Digits::kPlain).sections[0].badge, "no fault");
+  v1::FaultReport quiet;
+  EXPECT_EQ(document(quiet, Digits::kPlain).sections[0].badge, "not watched");
+  quiet.set_watched_s(60.0);
+  EXPECT_EQ(document(quiet, Digits::kPlain).sections[0].badge, "no fault");
 }
 
 TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/array/array_inference.h"
@@ -70,6 +71,27 @@ TEST(ArrayWhittle, ComesBackToTheModelThatItsBandsComeFrom) {
   for (Latent& latent : start.latents) latent.power *= 1.7;
   set_values(start.latents[1].term.process, std::vector<double>{1.0, 0.9});
   expect_truth_from(start);
+}
+
+// Moments gave one sensor's process a shape that it does not have, where it has no power: a maximum
+// of its own.
+TEST(ArrayWhittle, ComesBackWhereOneSensorLostItsProcess) {
+  ArrayModel wanted = model_of("AR1[all] + AR1 + WN", {3, {}});
+  for (Latent& latent : wanted.latents) {
+    const bool common = latent.written == 0;
+    latent.set_scalar(common ? 0.05 : latent.written == 1 ? 0.02 : 0.09);
+    if (latent.written < 2)
+      set_values(latent.term.process, std::vector<double>{1.0, common ? 0.95 : 0.9});
+  }
+  const CrossPower bands = theory(wanted);
+  ArrayModel start = wanted;
+  const auto own = std::find_if(start.latents.begin(), start.latents.end(),
+                                [](const Latent& latent) { return latent.written == 1; });
+  set_values(own->term.process, std::vector<double>{1.0, -0.97});
+  own->set_scalar(5e-5);
+  const ArrayFit found = make_efficient(fit_of(start), std::span(&bands, 1));
+  EXPECT_NEAR(whittle_objective(found.model, std::span(&bands, 1)),
+              whittle_objective(wanted, std::span(&bands, 1)), 1e-3);
 }
 
 // Moments put a slow process at the end of its scale, or its power at zero.
