@@ -196,6 +196,14 @@ Suggestions search_oscillation(const SearchView& view) {
            .dof = 3.0 + own * static_cast<double>(subject.replicates())}};
 }
 
+// Whether a tone keeps each frequency for more than a thousand samples: one that drifts, as that of
+// a fan does, looks so.
+bool drifts(const TriedTerm& tried) {
+  constexpr double kLongest = 1000.0;  // samples
+  const auto* const found = tried.fitted.regression.subject().found_by<FoundTone>(*tried.term());
+  return found != nullptr && found->fitted.tone.pace * kLongest < 1.0;
+}
+
 // Motion that no other sensor recorded, or that another sensor shows at the same frequencies.
 void review_oscillation(const Current& current, TriedTerm& tried) {
   constexpr double kOnceIn = 1e-4;
@@ -203,6 +211,7 @@ void review_oscillation(const Current& current, TriedTerm& tried) {
   for (const std::string_view id : unrecorded_couplings(subject)) {
     if (is_motion(id)) tried.could_be.push_back(id);
   }
+  if (drifts(tried)) tried.could_be.push_back("wandering_line");
   const NoiseBump band = band_of(*tried.term(), subject.rate);
   const double limit =
       chi_square_quantile(1.0 - kOnceIn, 2.0 * static_cast<double>(subject.replicates()));
