@@ -91,8 +91,10 @@ Recording from_arrays(const NamedArrays& arrays, const std::vector<std::string>&
       const auto& [name, parts] = arrays[c];
       if (parts.size() != arrays.front().second.size())
         throw Failure(name + ": has another number of replicates than the first channel");
+      const std::string where =
+          parts.size() > 1 ? fmt::format("{}, replicate {}", name, r + 1) : name;
       one.channels.push_back(
-          channel_of(name, checked(parts[r], name), unit_of(units.at(c)), one.rate));
+          channel_of(name, checked(parts[r], where), unit_of(units.at(c)), one.rate));
       if (one.channels.back().count != one.channels.front().count)
         throw Failure(fmt::format("{}: {} samples in replicate {}, but {} has {}", name,
                                   one.channels.back().count, r + 1, one.channels.front().name,

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/commands/commands.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
@@ -13,6 +15,14 @@ namespace imunoise::cli {
 
 namespace {
 
+// A calibration without any model is no result.
+int shown(const v1::Calibration& calibration, const ShowArguments& how) {
+  const int status = show(calibration, how);
+  const bool any = std::any_of(calibration.channels().begin(), calibration.channels().end(),
+                               [](const auto& one) { return one.has_fit(); });
+  return any ? status : std::max(status, 1);
+}
+
 int calibrate_plain_files(const CalibrateArguments& arguments,
                           const study::CalibrateOptions& options) {
   const Interrupt interrupt;
@@ -22,7 +32,7 @@ int calibrate_plain_files(const CalibrateArguments& arguments,
     ProgressLine line("calibrating");
     return study::calibrate_files(*streams, options, line.progress(interrupt.token()));
   }();
-  return done ? show(*done, arguments.show) : print_error(done.error());
+  return done ? shown(*done, arguments.show) : print_error(done.error());
 }
 
 }  // namespace
@@ -42,7 +52,7 @@ int run(const CalibrateArguments& arguments) {
   if (auto written = study::write_calibration(files, folder, *done); !written)
     return print_error(written.error());
   fmt::print(stderr, "wrote {}\n", (folder / study::kCalibrationName).string());
-  return show(*done, arguments.show);
+  return shown(*done, arguments.show);
 }
 
 }  // namespace imunoise::cli

@@ -135,14 +135,32 @@ def read(*files: Path, channels: Sequence[str] = (), rate: float | None = None,
     """
     if time_unit is not None and time_unit not in _TIME_UNITS:
         raise Error(f"time_unit: '{time_unit}' is none of {', '.join(_TIME_UNITS)}")
+    spans = [(float(begin), float(end)) for begin, end in exclude]
+    for begin, end in spans:
+        if not begin < end:
+            raise Error(f"exclude: ({begin:g}, {end:g}) is no span of time; give (begin, end) in s")
     rules = list(units.items()) if isinstance(units, Mapping) else [("*", units)] if units else []
-    out = Recording(_imunoise.read([os.fspath(one) for one in files], list(channels), beside, rate, rules,
-                                   _TIME_UNITS[time_unit] if time_unit else None, start, until, list(exclude),
+    out = Recording(_imunoise.read([os.fspath(one) for one in files], _names(channels), beside, rate, rules,
+                                   _TIME_UNITS[time_unit] if time_unit else None, start, until, spans,
                                    strict, topic, dbc, split_into, progress))
     for file in out.preflight:
         for finding in file.get("findings", []):
             warnings.warn(f"{file['file']}: {finding['text']}", stacklevel=2)
     return out
+
+
+def _numbers(name: str, replicate: int, given: npt.ArrayLike) -> Any:
+    if np.ma.is_masked(given):
+        raise Error(f"{name}: replicate {replicate} has masked samples; cut the array there and pass its parts as "
+                    "replicates")
+    array = np.asarray(given)
+    if array.dtype.kind not in "fiub":
+        raise Error(f"{name}: replicate {replicate} has values of type {array.dtype}; samples are real numbers")
+    return array.astype(float, copy=False)
+
+
+def _names(given: str | Sequence[str]) -> list[str]:
+    return [given] if isinstance(given, str) else list(given)
 
 
 def from_arrays(channels: Mapping[str, npt.ArrayLike | Sequence[npt.ArrayLike]], rate: float,
@@ -162,7 +180,7 @@ def from_arrays(channels: Mapping[str, npt.ArrayLike | Sequence[npt.ArrayLike]],
     for name, given in channels.items():
         several = isinstance(given, (list, tuple)) and len(given) > 0 and np.ndim(given[0]) == 1
         several = several or getattr(given, "ndim", 1) == 2
-        arrays.append((name, [np.asarray(one, dtype=float) for one in (given if several else [given])]))
+        arrays.append((name, [_numbers(name, r + 1, one) for r, one in enumerate(given if several else [given])]))
     if isinstance(units, Mapping):
         unknown = [name for name in units if name not in channels]
         if unknown:
@@ -274,7 +292,7 @@ def diagnose(recording: Recording, model: str | None = None, channel: str | None
         automatic: add what is found, and go on.
         level: false-alarm probability over all candidates.
     """
-    return _each(recording, channel, lambda c: _imunoise.diagnose(recording._core, c, model, list(witnesses),
+    return _each(recording, channel, lambda c: _imunoise.diagnose(recording._core, c, model, _names(witnesses),
                                                                   automatic, level, progress))
 
 
@@ -313,7 +331,7 @@ class Study:
         self._text = ""
         files = [os.path.abspath(one) for one in dict.fromkeys(recording._core.sources()) if one]
         self._apply("open", {"input": {"files": files, "rate_hz": recording.rate}, "channel": channel,
-                             "witnesses": list(witnesses), "model": model or ""}, progress)
+                             "witnesses": _names(witnesses), "model": model or ""}, progress)
 
     def _apply(self, operation: str, content: Document, progress: Progress | None) -> Document:
         self._text = _imunoise.study(self._recording._core, self._text, json.dumps({operation: content}), progress)

@@ -120,6 +120,7 @@ AxisNoise axis_noise(std::string channel, Quantity quantity, Hertz rate, Model n
                                   units.datasheet,
                                   units.to_datasheet});
     }
+    if (!(values(term.process).front() > 0.0)) continue;  // nothing is lost with it
     const std::string words = term_words(term.process, quantity, rate);
     if (const double density = white_density(term.process, rate); density > 0.0) {
       out.n.value = square_sum(out.n.value, density);

@@ -154,6 +154,15 @@ class Samples(unittest.TestCase):
                                       ({"x": noise}, {"y": "rad/s"}, 10)):
             with self.assertRaises(imunoise.Error):
                 imunoise.from_arrays(channels, rate, units)
+        masked = np.ma.masked_greater(noise, 1.0)
+        for channel, words in ((masked, "masked"), (noise.astype(complex), "complex128"),
+                               ([noise, np.where(noise > 1, np.nan, noise)], "replicate 2")):
+            with self.assertRaisesRegex(imunoise.Error, words):
+                imunoise.from_arrays({"x": channel}, 10)
+        with self.assertRaisesRegex(imunoise.Error, r"\(20, 10\) is no span"):
+            imunoise.read("absent.csv", exclude=[(20, 10)])
+        with self.assertRaisesRegex(imunoise.Error, r"absent.csv"):
+            imunoise.read("absent.csv", channels="gyro_x")
         x = imunoise.from_arrays({"x": noise}, 10)
         with self.assertRaisesRegex(imunoise.Error, r"did you mean WN"):
             imunoise.fit(x, "ARW")

@@ -6,9 +6,9 @@ namespace imunoise::study {
 
 /// What a sensor at rest says of one in flight.
 inline constexpr std::string_view kNoVibration =
-    "Measured at rest, without vibration: the values are about ten times smaller than the "
-    "autopilot's defaults, which include motors. Raise them until the filter's innovations are "
-    "consistent in flight.";
+    "Measured at rest, without vibration: most values are far smaller than the autopilot's "
+    "defaults, which include motors, and some lie below what it takes. Raise them until the "
+    "filter's innovations are consistent in flight.";
 
 /// The names of an autopilot's parameters.
 struct AutopilotKeys {

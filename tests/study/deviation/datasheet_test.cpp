@@ -94,6 +94,46 @@ TEST(Datasheet, AFilterDoesNotMakeAnglesWalkLess) {
   }
 }
 
+// The verdicts on a device that is what a sheet says.
+std::vector<std::string> verdicts(const char* sheet, const Model& truth, std::uint64_t seed) {
+  constexpr Hertz kHundred{100.0};
+  const auto printed = study::parse_printed(sheet, Quantity::kAngularRate).value();
+  study::Series series{"gyro_x", {}, {}};
+  std::vector<std::vector<double>> all;
+  for (std::uint32_t k = 0; k < 4; ++k) all.push_back(simulate(truth, 10'000, seed, k));
+  for (const std::vector<double>& x : all) {
+    series.names.push_back("a");
+    series.replicates.emplace_back(std::span(x), kHundred, Quantity::kAngularRate);
+  }
+  std::vector<std::string> out;
+  const auto report = study::compare_with_datasheet(series, printed, 0.95).value();
+  for (const v1::DatasheetFigure& one : report.figures()) out.push_back(one.verdict());
+  return out;
+}
+
+// Each printed term is read where the others are, too: they are no fault of it.
+TEST(Datasheet, WhatIsExactlyAsPrintedMeetsIt) {
+  constexpr Hertz kHundred{100.0};
+  const char* const sheet = "N=1e-4 rad/s/sqrt(Hz), B=2e-4 rad/s, K=1e-4 rad/s^2/sqrt(Hz)";
+  const Model truth =
+      study::printed_model(study::parse_printed(sheet, Quantity::kAngularRate).value(), kHundred);
+  constexpr int kSets = 20;
+  int missed = 0;
+  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
+    for (const std::string& one : verdicts(sheet, truth, seed)) missed += one == "missed" ? 1 : 0;
+  }
+  // One in 40 each by chance, of 60: more than 6 happen once in 1,000.
+  EXPECT_LE(missed, 6) << "seeds 1 to 20";
+}
+
+TEST(Datasheet, WhiteNoiseIsNoRandomWalk) {
+  const Model white{{Term(WhiteNoise{1e-6})}};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (const char* const sheet : {"K=124 deg/h/sqrt(h)", "K=5 deg/h/sqrt(h)"})
+      EXPECT_NE(verdicts(sheet, white, seed).at(0), "missed") << sheet << ", seed " << seed;
+  }
+}
+
 TEST(Datasheet, ARandomWalkBelowTheOtherNoiseIsNotSeen) {
   constexpr Hertz kHundred{100.0};
   const auto printed =
