@@ -94,8 +94,10 @@ DerivedEstimate derived_interval(const Term& term, const std::vector<ParameterEs
     if (p > 0)
       step = std::min(step, 1e-3 * (1.0 - std::min(std::abs(v[p]), 1.0 - 1e-12)) +
                                 (std::abs(v[p]) > 1.0 ? step : 0.0));
-    if (step == 0.0) {
-      moves.push_back(p);
+    if (step == 0.0) {  // of no power: a time does not depend on it
+      const double other =
+          find(derived_with(term.process, p, 1.0, rate), quantity.coefficient, 0.0);
+      if (other != quantity.value) moves.push_back(p);
       continue;
     }
     const double up = find(derived_with(term.process, p, v[p] + step, rate), quantity.coefficient,

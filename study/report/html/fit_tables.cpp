@@ -24,7 +24,7 @@ std::string interval_title(const v1::FitReport& report) {
   return report.confidence() > 0.0 ? percent(report.confidence()) + " interval" : "interval";
 }
 
-std::string parameter_cells(const v1::Parameter& p) {
+std::string parameter_cells(const v1::Term& term, const v1::Parameter& p) {
   const bool bound = only_bounded(p) && p.upper() > 0.0;
   const char* const mood =
       p.observability() == v1::upper_bound_only || p.observability() == v1::indistinguishable
@@ -37,7 +37,7 @@ std::string parameter_cells(const v1::Parameter& p) {
   out += cell("number", bound ? "below " + number(p.upper(), 2, kStyle)
                               : interval(p.value(), p.lower(), p.upper(), kStyle));
   out += cell("", unit_text(p.unit()));
-  return out + cell(mood, observability_words(p));
+  return out + cell(mood, observability_words(term, p));
 }
 
 }  // namespace
@@ -55,7 +55,8 @@ std::string parameter_table(const v1::FitReport& report) {
         escape_markup(term.title()), escape_markup(term.meaning()));
     if (term.parameters().empty()) rows += "<tr>" + title + "<td colspan=\"5\"></td></tr>\n";
     for (int p = 0; p < term.parameters_size(); ++p) {
-      rows += "<tr>" + (p == 0 ? title : "") + parameter_cells(term.parameters(p)) + "</tr>\n";
+      rows +=
+          "<tr>" + (p == 0 ? title : "") + parameter_cells(term, term.parameters(p)) + "</tr>\n";
     }
   }
   if (rows.empty()) return {};

@@ -67,12 +67,13 @@ std::string parameters(const v1::FitReport& report, const TerminalStyle& style) 
   const std::vector<std::string> names = budget_view(report).terms;
   std::vector<std::vector<std::string>> rows;
   for (std::size_t t = 0; t < names.size(); ++t) {
-    for (const v1::Parameter& p : report.terms(static_cast<int>(t)).parameters()) {
+    const v1::Term& term = report.terms(static_cast<int>(t));
+    for (const v1::Parameter& p : term.parameters()) {
       const bool bound = only_bounded(p) && p.upper() > 0.0;
       rows.push_back({names[t], p.name(),
                       bound ? "below " + number(p.upper(), 2, kPlainDigits)
                             : with_interval(p.value(), p.lower(), p.upper(), kPlainDigits),
-                      p.unit() == "1" ? "" : p.unit(), observability_words(p)});
+                      p.unit() == "1" ? "" : p.unit(), observability_words(term, p)});
     }
   }
   if (rows.empty()) return {};

@@ -91,9 +91,11 @@ bool only_bounded(const v1::Parameter& parameter) {
   return parameter.observability() == v1::upper_bound_only;
 }
 
-std::string observability_words(const v1::Parameter& parameter) {
+std::string observability_words(const v1::Term& term, const v1::Parameter& parameter) {
+  const v1::Parameter& power = term.parameters(0);
   switch (parameter.observability()) {
     case v1::observed:
+      if (only_bounded(power) && &parameter != &power) return "seen only if this noise is there";
       return parameter.value() > 0.0 && parameter.lower() == 0.0
                  ? "barely seen: its interval reaches zero"
                  : "seen in the data";

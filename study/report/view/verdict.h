@@ -35,8 +35,9 @@ std::vector<Misfit> misfits(const BudgetView& view);
 std::string misfit_words(const BudgetView& view, const Misfit& misfit);
 
 /// How well the data show a parameter: "seen", "at most 3e-9: record 5 times longer to see it", ...
-/// The upper bound itself stands in the interval's place, see parameter_value.
-std::string observability_words(const v1::Parameter& parameter);
+/// The upper bound itself stands in the interval's place, see parameter_value. A shape of noise
+/// that may not be there is known only if it is. `parameter` is one of the term.
+std::string observability_words(const v1::Term& term, const v1::Parameter& parameter);
 
 /// True where only the upper bound of a parameter is known.
 bool only_bounded(const v1::Parameter& parameter);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "core/inference/intervals.h"
 #include "core/inference/parameter_covariance.h"
 #include "core/support/distributions.h"
 #include "core/support/parallel.h"
@@ -182,6 +183,24 @@ TEST(WhiteNoise, IsNotTakenByAMarkovProcess) {
       EXPECT_GT(std::get<WhiteNoise>(white->process).sigma2, 0.5) << model << ", seed " << seed;
     }
   }
+}
+
+// The time of a process without power was its start, as if it were known exactly.
+TEST(Intervals, OfATimeThatNothingShowsAreWide) {
+  const Term term{Process(Ar1{0.0, 0.97})};
+  const std::vector<ParameterEstimate> estimates = {
+      {0.0, 1e-9, 0.0, 2e-9, Observability::kUpperBound},
+      {0.97, INFINITY, -1.0 + 1e-6, 1.0 - 1e-9, Observability::kIndistinguishable}};
+  constexpr Hertz kHundred{100.0};
+  for (const DerivedQuantity& one : derived(term.process, kHundred)) {
+    if (one.coefficient != Coefficient::kCorrelationTime) continue;
+    const DerivedEstimate found =
+        derived_interval(term, estimates, Eigen::MatrixXd::Zero(2, 2), one, kHundred, 1.96);
+    EXPECT_EQ(found.lower, 0.0);
+    EXPECT_GT(found.upper, 1e6);
+    return;
+  }
+  FAIL() << "an AR1 has a correlation time";
 }
 
 TEST(Intervals, SayWhatTheDataSay) {
