@@ -184,8 +184,8 @@ Suggestion search_low_pass(const Current& current, Suggestions& others) {
     const auto* const change = std::get_if<NoiseChange>(&other.added);
     if (change == nullptr || !(other.score_nats > 0.0)) continue;
     const WhittleEstimate fit = whittle(change->start, current.pooled);
-    const std::size_t term = *similar_term(fit.model, change->added);
-    if (!hardly_rings(fit.model.terms[term].process)) {
+    const auto term = similar_term(fit.model, change->added);
+    if (!term || !hardly_rings(fit.model.terms[*term].process)) {
       special = special || fit.objective < reached + kClearly;
     } else if (fit.objective > reached - kClearly) {
       other.score_nats = 0.0;

@@ -234,7 +234,8 @@ void review_noise(const Current& current, TriedTerm& tried) {
   const FittedModel& with = tried.fitted;
   const Process& added = std::get<NoiseChange>(tried.suggestion.added).added;
   const Model& noise = with.fit.model.noise;
-  const Process& fitted = noise.terms[*similar_term(noise, added)].process;
+  const auto term = similar_term(noise, added);
+  const Process& fitted = term ? noise.terms[*term].process : added;
   const bool lags = tried.cause == "gauss_markov" || tried.cause == "second_order" ||
                     (tried.cause == "resonance" && hardly_rings(fitted));
   if (lags && is_bandwidth(fitted, noise)) {
