@@ -131,12 +131,14 @@ Result<std::vector<recording::Replicate>> read_input(const InputArguments& argum
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
                                        arguments.import, line.progress());
   }
-  auto replicates = [&] {
-    ProgressLine line("reading");
-    return recording::import_files(arguments.files, arguments.import, line.progress());
-  }();
+  auto replicates = read_again(arguments);
   if (replicates) tell_preflight(*replicates);
   return replicates;
+}
+
+Result<std::vector<recording::Replicate>> read_again(const InputArguments& arguments) {
+  ProgressLine line("reading");
+  return recording::import_files(arguments.files, arguments.import, line.progress());
 }
 
 Result<std::vector<std::vector<recording::Replicate>>> read_streams(

@@ -13,8 +13,11 @@ bool is_recording(const InputArguments& arguments);
 /// The replicates of the user's files; series borrow from them.
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments);
 
-/// The same as a stream of its own for each sensor of another rate, unless the user names what to
-/// read: a camera of two topics gives rates, then accelerations.
+/// The files of read_input() once more: what the preflight found in them is not told again.
+Result<std::vector<recording::Replicate>> read_again(const InputArguments& arguments);
+
+/// The same as read_input(), as a stream of its own for each sensor of another rate, unless the
+/// user names what to read: a camera of two topics gives rates, then accelerations.
 Result<std::vector<std::vector<recording::Replicate>>> read_streams(
     const InputArguments& arguments);
 

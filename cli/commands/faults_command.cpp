@@ -14,9 +14,10 @@ bool same_file(const std::filesystem::path& one, const std::filesystem::path& ot
   return std::filesystem::equivalent(one, other, ignored);
 }
 
-// What a fault did to a file is left out where noise is learnt, and searched.
+// What a fault did to a file is left out where noise is learnt, and searched. Of a recording
+// nothing is left out.
 InputArguments with_faults(InputArguments input) {
-  if (is_recording(input)) return input;  // nothing is left out of it
+  if (is_recording(input)) return input;
   input.import.use_disturbed = true;
   input.import.use_frozen = true;
   return input;
@@ -42,7 +43,9 @@ int run(const FaultsArguments& arguments) {
   const bool elsewhere = !training.files.empty();
   const auto replicates = read_together(with_faults(arguments.input));
   if (!replicates) return print_error(replicates.error());
-  const auto good = read_together(elsewhere ? training : arguments.input);
+  const auto good = elsewhere                       ? read_together(training)
+                    : is_recording(arguments.input) ? replicates
+                                                    : read_again(arguments.input);
   if (!good) return print_error(good.error());
   auto done = [&] {
     ProgressLine line("searching");

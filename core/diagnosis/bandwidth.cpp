@@ -1,6 +1,5 @@
 #include "core/diagnosis/bandwidth.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

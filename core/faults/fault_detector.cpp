@@ -157,8 +157,8 @@ std::optional<Fault> FaultDetector::finish() { return suspicion_ ? decide() : st
 
 std::optional<Fault> FaultDetector::decide() {
   const Fault out = suspicion_->verdict();
-  const bool over = out.end > 0;
-  if (out.kind != FaultKind::kStep && !over) {
+  const bool stays_wrong = out.kind != FaultKind::kStep && out.end == 0;
+  if (stays_wrong) {
     std::erase_if(used_, [&](Eigen::Index sensor) {
       return std::find(out.sensors.begin(), out.sensors.end(), sensor) != out.sensors.end();
     });

@@ -47,7 +47,7 @@ void Suspicion::follow(FaultKind kind, std::size_t index, const Evidence& eviden
   }
 }
 
-// Whoever looks longer at a step sees it as high.
+// A longer look at a real step finds the same height.
 bool Suspicion::came_back(std::size_t index) const {
   constexpr double kLess = 0.7;
   constexpr double kSurely = 3.0;  // standard errors

@@ -70,7 +70,7 @@ class Suspicion {
   // What came after the strongest: of steps, the last that looked twice as long at the same one; of
   // noise, the strongest that began when that had ended.
   EvidenceTable later_;
-  std::size_t now_ = 0;  // the last reading that was looked at, and one
+  std::size_t now_ = 0;  // one past the last reading that was looked at
   std::vector<double> own_noise_;
 };
 

@@ -49,7 +49,7 @@ std::string summary_of(const v1::StationarityReport& report, const NearStationar
   const std::string who = moving_words(report.spread());
   const std::string moves = !who.empty() ? "Different: " + who + "."
                             : report.replicates() < kFewestForEach
-                                ? "Which of them differs, three replicates would show."
+                                ? "To tell which of them differs takes three replicates."
                                 : "No single parameter stands out.";
   if (!report.misfit().rejected() && !report.heterogeneity().rejected()) {
     return fmt::format(

@@ -20,7 +20,7 @@ struct Best {
   double share = 0.0;  // of the variance
 };
 
-// Of a walk, from the minimum of the curve on.
+// Of a random walk, which shows behind the minimum of the curve.
 Best best_point(const Model& model, std::size_t term, const v1::DeviationReport& measured) {
   const Model alone{{model.terms[term]}};
   Best out;

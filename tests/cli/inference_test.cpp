@@ -42,6 +42,12 @@ class Inference : public testing::Program {
   }
 };
 
+TEST_F(Inference, TwoReplicatesDoNotTellWhichParameterDiffers) {
+  const json two = json_of("test s_1.h5 loud_1.h5 --model 'AR1 + WN'");
+  EXPECT_NE(two["summary"].get<std::string>().find("takes three replicates"), std::string::npos)
+      << two["summary"];
+}
+
 TEST_F(Inference, TestTellsTheFourAnswersApart) {
   const std::string stable = "test s_?.h5 --model ";
   const std::string moved = "test s_?.h5 loud_?.h5 --model ";

@@ -117,6 +117,16 @@ TEST_F(PlainFiles, WhatCannotBeIsRefusedInPlainWords) {
   }
 }
 
+// Nothing was calibrated: a script must see that.
+TEST_F(PlainFiles, ACalibrationWithoutAModelIsAFailure) {
+  std::string text = "t,wx [rad/s]\n";
+  for (int i = 0; i < 2000; ++i) text += std::to_string(0.01 * i) + ",0.125\n";
+  put("constant.csv", text);
+  const Outcome done = run("calibrate constant.csv --no-diagnose");
+  EXPECT_EQ(done.status, 1);
+  EXPECT_NE(done.out.find("0 of 1 channels have a model"), std::string::npos) << done.out;
+}
+
 // A RealSense has two sensors of two rates.
 TEST_F(PlainFiles, SensorsOfTwoRatesAreCalibratedAlike) {
   write_imu("a.csv", 8000, 4);

@@ -196,7 +196,18 @@ TEST_F(Rest, DisturbanceIsUsedWhereItIsAskedFor) {
       "rad/s", options);
   ASSERT_TRUE(got) << got.error().message;
   ASSERT_EQ(got->size(), 1U);
-  expect_parts(findings(got->front()), {"disturbed from", "used, as it was asked for"});
+  expect_parts(findings(got->front()), {"disturbed from", "usual scatter): used"});
+}
+
+// A channel that hangs for most of the time has no usual scatter: its sound part, at the beginning,
+// was told as a disturbance of 10¹³ times that.
+TEST_F(Rest, WhatComesBeforeAHangIsNoDisturbance) {
+  auto rows = rest(8);
+  for (std::size_t i = 8'000; i < rows.size(); ++i) rows[i][1] = rows[8'000][1];
+  const auto got = imported(rows);
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(findings(got->front()).find("wy changes from"), std::string::npos)
+      << findings(got->front());
 }
 
 TEST_F(Rest, AStepOfOneAxisIsToldAndUsed) {

@@ -344,7 +344,7 @@ class Judge {
                          begin, end, one.channel, rough(one.size)));
       } else if (one.several) {
         find(Severity::kDoubt, fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {} times its "
-                                           "usual scatter): used, as it was asked for",
+                                           "usual scatter): used",
                                            begin, end, one.channel, rough(one.size)));
       } else {
         find(

@@ -66,11 +66,11 @@ Document document(const v1::FaultReport& report, Digits digits) {
   section.badge = !sound ? "faulty" : watched ? "no fault" : "not watched";
   section.mood = !sound ? Mood::kBad : watched ? Mood::kGood : Mood::kNeutral;
   section.facts = fmt::format(
-      "{} · {:g} Hz · {} sensors · {} · fitted to {} {} · {} false alarms per hour "
-      "allowed",
+      "{} · {:g} Hz · {} sensors · {} · fitted to {} · {} false alarms per hour allowed",
       report.model(), report.rate_hz(), report.sensors_size(),
-      counted(report.replicates_size(), "replicate"), report.trained_on(),
-      report.trained_elsewhere() ? "others" : "of them",
+      counted(report.replicates_size(), "replicate"),
+      report.trained_elsewhere() ? counted(report.trained_on(), "other replicate")
+                                 : "what is sound of these",
       number(report.false_alarms_per_hour(), 3, digits));
   section.summary = report.summary();
   std::set<std::string> drawn;

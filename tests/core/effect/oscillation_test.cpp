@@ -131,6 +131,30 @@ TEST(Oscillation, AnotherSensorMayShowIt) {
   }
 }
 
+// A tone that keeps its frequency for long, and drifts over minutes, may be that of a fan; one that
+// changes within some turns is none.
+TEST(Oscillation, ADriftingToneMayBeAMachine) {
+  for (const bool drifts : {true, false}) {
+    RandomStream random(61);
+    std::vector<double> phase{0.0};
+    for (int t = 0; t < 4 * 8192 + 2; ++t) {
+      const double away = drifts ? 0.004 * std::sin(kTurn * t / 5000.0) : 0.02 * random.normal();
+      phase.push_back(phase.back() + kTurn * (0.16 + away));
+    }
+    const auto subject = subject_of(
+        {.seed = 61, .added = [&](std::size_t k, double s) {
+           return 1.2 * std::cos(phase[8192 * k + static_cast<std::size_t>(std::lround(s * 50.0))]);
+         }});
+    const FittedModel fit = fitted(subject);
+    const Current current = current_of(fit.regression, fit.fit);
+    const std::vector<TriedTerm> tried =
+        try_all(current, effect_named("oscillation").search(SearchView(current)));
+    ASSERT_EQ(tried.size(), 1U) << drifts;
+    const auto& could = tried[0].could_be;
+    EXPECT_EQ(std::find(could.begin(), could.end(), "wandering_line") != could.end(), drifts);
+  }
+}
+
 // A resonance at the same place is never called an oscillation: ten seeds.
 TEST(Oscillation, NoiseThatRingsIsNone) {
   FIGURES_ALONE();

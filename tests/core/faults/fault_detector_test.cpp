@@ -33,6 +33,10 @@ FaultDetector detector_of(const ArrayModel& model, double an_hour = 1e-3) {
   return {model, Hertz{1.0}, options};
 }
 
+bool is_only(const Fault& fault, FaultKind kind, std::size_t sensor) {
+  return fault.kind == kind && fault.sensors == std::vector{static_cast<Eigen::Index>(sensor)};
+}
+
 TEST(FaultDetector, NamesTheSensorThatSteps) {
   const ArrayModel model = coloured_model();
   const FaultDetector designed = detector_of(model);
@@ -46,8 +50,7 @@ TEST(FaultDetector, NamesTheSensorThatSteps) {
     const std::vector<Fault> found = faults_in(detector, data);
     ASSERT_FALSE(found.empty()) << run;
     const Fault& fault = found.front();
-    const bool named = fault.kind == FaultKind::kStep && fault.sensors.size() == 1 &&
-                       fault.sensors.front() == static_cast<Eigen::Index>(sensor);
+    const bool named = is_only(fault, FaultKind::kStep, sensor);
     right += named ? 1 : 0;
     if (!named) continue;
     EXPECT_NEAR(fault.size, 4.0, 4.5 * fault.size_error);
@@ -75,8 +78,7 @@ TEST(FaultDetector, ASpikeIsShortNoise) {
       const std::vector<Fault> found = faults_in(detector, data);
       ASSERT_FALSE(found.empty()) << run;
       const Fault& fault = found.front();
-      const bool named = fault.kind == FaultKind::kNoisy && fault.sensors.size() == 1 &&
-                         fault.sensors.front() == static_cast<Eigen::Index>(sensor);
+      const bool named = is_only(fault, FaultKind::kNoisy, sensor);
       right += named ? 1 : 0;
       if (!named) continue;
       EXPECT_NEAR(static_cast<double>(fault.end), static_cast<double>(kOnset + length), 8.0);
