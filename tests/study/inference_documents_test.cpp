@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "study/figure/svg.h"
+#include "study/report/documents/datasheet_document.h"
 #include "study/words/text.h"
 #include "tests/study/markup_check.h"
 
@@ -218,6 +219,20 @@ TEST(InferenceDocuments, FaultsAreMarkedWhereTheyAre) {
   EXPECT_EQ(document(quiet, Digits::kPlain).sections[0].badge, "not watched");
   quiet.set_watched_s(60.0);
   EXPECT_EQ(document(quiet, Digits::kPlain).sections[0].badge, "no fault");
+}
+
+// A figure that was not seen is not met.
+TEST(InferenceDocuments, ADataSheetIsMetByWhatWasSeen) {
+  v1::DatasheetReports all;
+  v1::DatasheetReport& report = *all.add_channels();
+  report.mutable_measured();
+  const auto badge = [&] { return document(all, Digits::kPlain).sections.at(0).badge; };
+  report.add_figures()->set_verdict("not seen");
+  EXPECT_EQ(badge(), "not seen");
+  report.add_figures()->set_verdict("met");
+  EXPECT_EQ(badge(), "met");
+  report.add_figures()->set_verdict("missed");
+  EXPECT_EQ(badge(), "missed");
 }
 
 TEST(InferenceDocuments, CrossCovariancesOfManyPairsShowThoseThatShareNoise) {

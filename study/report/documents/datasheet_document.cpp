@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "study/report/documents/preflight_section.h"
 #include "study/report/figures/datasheet_figure.h"
 #include "study/report/view/verdict.h"
@@ -27,18 +29,22 @@ std::vector<std::string> row_of(const v1::DatasheetFigure& figure, Digits digits
           figure.verdict()};
 }
 
-Mood mood_of(const v1::DatasheetReport& report) {
-  if (!report.has_measured()) return Mood::kNeutral;
-  for (const v1::DatasheetFigure& one : report.figures())
-    if (one.verdict() == "missed") return Mood::kBad;
-  return Mood::kGood;
+bool any(const v1::DatasheetReport& report, std::string_view verdict) {
+  return std::any_of(report.figures().begin(), report.figures().end(),
+                     [&](const v1::DatasheetFigure& one) { return one.verdict() == verdict; });
+}
+
+// Where no figure was seen, none is met.
+void add_verdict(const v1::DatasheetReport& report, Section& to) {
+  if (!report.has_measured()) return;
+  to.badge = any(report, "missed") ? "missed" : any(report, "met") ? "met" : "not seen";
+  to.mood = to.badge == "missed" ? Mood::kBad : to.badge == "met" ? Mood::kGood : Mood::kNeutral;
 }
 
 Section section_of(const v1::DatasheetReport& report, Digits digits) {
   Section out;
   out.title = report.channel().empty() ? "Printed figures" : channel_name(report.channel());
-  out.mood = mood_of(report);
-  if (report.has_measured()) out.badge = out.mood == Mood::kBad ? "missed" : "met";
+  add_verdict(report, out);
   out.facts = fmt::format("{} at {:g} Hz", report.model(), report.rate_hz());
   out.summary = report.summary();
   out.panel = datasheet_figure(report);
