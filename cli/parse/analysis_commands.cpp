@@ -89,6 +89,8 @@ ParsedCommand wv_command(CLI::App& program) {
           refuse(out.svg ? "--svg" : "--report", "needs --allan or --hadamard");
         if (out.deviation && out.measure.robust)
           refuse("--robust", "is for the wavelet variance, not for deviations");
+        if (out.deviation && out.measure.per_octave != 1)
+          refuse("--per-octave", "is for the wavelet variance, not for deviations");
         return out;
       }};
 }

@@ -112,7 +112,6 @@ ParsedCommand mixed_command(CLI::App& program) {
   add_json(*mixed, *raw);
   add_report(*mixed, *raw);
   add_model(*mixed, *raw, study::kDefaultMixedModel);
-  add_weights(*mixed, *raw);
   mixed
       ->add_option("--regress", options->regressors,
                    "Regressor: a channel, time, or NAME=a,b,c with one channel per series")
@@ -137,7 +136,6 @@ ParsedCommand mixed_command(CLI::App& program) {
             out.mixed.model = model_from(*raw);
             for (const std::string& group : *groups) out.mixed.groups.push_back(names_in(group));
             out.mixed.regression.confidence = raw->confidence;
-            out.mixed.regression.weighting = weighting_from(raw->weights);
             return out;
           }};
 }

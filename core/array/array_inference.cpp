@@ -84,6 +84,20 @@ double value_of(const ArrayModel& model, const ArrayParameter& parameter) {
   return latent.power(parameter.row, parameter.column);
 }
 
+void set_value(ArrayModel& model, const ArrayParameter& parameter, double value) {
+  Latent& latent = model.latents[parameter.latent];
+  if (parameter.parameter > 0) {
+    std::vector<double> all = values(latent.term.process);
+    all[parameter.parameter] = value;
+    set_values(latent.term.process, all);
+  } else if (latent.matrix()) {
+    latent.power(parameter.row, parameter.column) = value;
+    latent.power(parameter.column, parameter.row) = value;
+  } else {
+    latent.set_scalar(value);
+  }
+}
+
 Eigen::MatrixXd parameter_slopes(const ArrayFit& fit, const Pairs& pairs, const Scales& scales) {
   const Eigen::ArrayXd m = scales.half_widths();
   const auto n = m.size();
@@ -126,12 +140,7 @@ void fill_estimates(ArrayFit& fit, double confidence, double samples,
         parameter.estimate.observability == Observability::kUpperBound) {
       const auto error_at = [&](double power) {
         ArrayModel moved = fit.model;
-        Latent& grown = moved.latents[parameter.latent];
-        if (grown.matrix()) {
-          grown.power(parameter.row, parameter.row) = power;
-        } else {
-          grown.set_scalar(power);
-        }
+        set_value(moved, parameter, power);
         return std::sqrt(std::max(covariance_under(moved).matrix(at, at), 0.0));
       };
       parameter.estimate.upper = upper_bound(value, parameter.estimate.upper, z, error_at);

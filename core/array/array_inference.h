@@ -13,6 +13,7 @@ namespace imunoise {
 /// together, in the order of packed_index().
 std::vector<ArrayParameter> parameters_of(const ArrayModel& model);
 double value_of(const ArrayModel& model, const ArrayParameter& parameter);
+void set_value(ArrayModel& model, const ArrayParameter& parameter, double value);
 
 /// Covariance of a fit's parameters, were the noise that of the model given, which differs from the
 /// fit's in its powers alone.

@@ -25,14 +25,10 @@ double get(const ArrayModel& model, const ArrayParameter& parameter) {
 }
 
 void set(ArrayModel& model, const ArrayParameter& parameter, double at) {
-  Latent& latent = model.latents[parameter.latent];
   if (parameter.parameter > 0) {
-    set_searched(latent.term.process, parameter.parameter, at);
-  } else if (latent.matrix()) {
-    latent.power(parameter.row, parameter.column) = at;
-    latent.power(parameter.column, parameter.row) = at;
+    set_searched(model.latents[parameter.latent].term.process, parameter.parameter, at);
   } else {
-    latent.set_scalar(at);
+    set_value(model, parameter, at);
   }
 }
 

@@ -111,7 +111,7 @@ MixedRegression mixed_regression(const Model& written, const ArrayLayout& layout
                            Scales::for_samples(static_cast<std::size_t>(residual.rows())));
     left = regression.residual(found.value);
     out.noise = make_efficient(fit_array(written, layout, std::span(&moments, 1),
-                                         {options.weighting, true, options.confidence}, part),
+                                         {.confidence = options.confidence}, part),
                                std::span(&left, 1), options.confidence, part);
     found = regression.under(out.noise.model);
     if (progress.stopped()) return out;

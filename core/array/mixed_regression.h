@@ -9,7 +9,6 @@
 namespace imunoise {
 
 struct RegressionOptions {
-  Weighting weighting = Weighting::kFull;
   double confidence = 0.95;
   std::size_t bootstraps = 199;  ///< 0: no bootstrap, and no robust intervals
   std::uint64_t seed = 1;

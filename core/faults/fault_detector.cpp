@@ -49,10 +49,13 @@ void FaultDetector::design() {
     const std::int64_t block = std::int64_t{1} << l;
     const double alarms = share * static_cast<double>(block) / static_cast<double>(lengths);
     const Eigen::Index fewest = l == 0 ? 1 : StepWatch::kMostBlocks / 2 + 1;
-    designed_.steps.emplace_back(model_, used_, block, fewest, std::min(kMostOften, alarms));
+    designed_.steps.emplace_back(model_, options_.doubt, used_, block, fewest,
+                                 std::min(kMostOften, alarms));
   }
   const auto count = static_cast<Eigen::Index>(used_.size());
-  designed_.noise.emplace_back(noise_directions(designed_.steps.front().filter(), used_), share);
+  const InnovationFilter& parity = designed_.steps.front().filter();
+  const Eigen::MatrixXd directions = noise_directions(parity, used_);
+  designed_.noise.emplace_back(directions, options_.doubt.degrees(parity, directions), share);
   designed_.noise.emplace_back(Eigen::MatrixXd::Identity(count, count));
   for (const Eigen::Index sensor : used_) {
     designed_.own.emplace_back(InnovationFilter(model_, sensor_row(model_.sensors, sensor), 1));
@@ -150,7 +153,8 @@ std::optional<Fault> FaultDetector::feed(const Eigen::Ref<const Eigen::VectorXd>
   }
   if (!suspicion_) return std::nullopt;
   gather();
-  return suspicion_->due(taken_) ? decide() : std::nullopt;
+  const bool decided = suspicion_->due(taken_) && !now_.stuck.front().in_doubt();
+  return decided ? decide() : std::nullopt;
 }
 
 std::optional<Fault> FaultDetector::finish() { return suspicion_ ? decide() : std::nullopt; }

@@ -13,12 +13,14 @@
 namespace imunoise {
 
 struct FaultOptions {
-  /// Of the whole detector, under the model, in operation: all sensors, kinds and durations.
+  /// Of the whole detector, in operation: all sensors, kinds and durations.
   double false_alarms_per_hour = 0.1;
   /// Samples that the model was fitted to: the history that predictions use is no longer.
   std::size_t longest = 100'000;
   /// Least difference between two readings, one a sensor; empty: all are continuous.
   std::vector<double> resolution{};
+  /// How far off the model may be.
+  ModelDoubt doubt{};
 };
 
 /// Names the sensor of an array that steps, sticks or grows noisy, reading by reading, in bounded

@@ -14,27 +14,6 @@ namespace {
 constexpr double kUnknownRamp = 1e4;
 constexpr double kRounding = 1e-12;  // of a power: what projecting common noise leaves
 
-// R(h), h = 0 .. count - 1, of the differences of projected block means.
-std::vector<Eigen::MatrixXd> difference_covariances(const ArrayModel& model,
-                                                    const Eigen::MatrixXd& projection,
-                                                    std::int64_t block, Eigen::Index count) {
-  const Eigen::Index p = projection.rows();
-  std::vector<Eigen::MatrixXd> out(static_cast<std::size_t>(count), Eigen::MatrixXd::Zero(p, p));
-  const auto length = static_cast<double>(block);
-  for (const Latent& latent : model.latents) {
-    const Eigen::MatrixXd power = projection * latent.power * projection.transpose();
-    if (power.norm() <= kRounding * latent.power.norm()) continue;
-    const SumCovariance sums = sum_covariance(latent.term.process);
-    const ScaleCovariance haar(sums, block, block);
-    const double ramp = kUnknownRamp * sums.slope_squared * length * length;
-    for (Eigen::Index h = 0; h < count; ++h) {
-      const double lag = length * static_cast<double>(h);
-      out[static_cast<std::size_t>(h)] += (4.0 * haar(lag) + ramp) * power;
-    }
-  }
-  return out;
-}
-
 // A predictor u_k ≈ Σ_j coefficients[j] u_(k-1-j) and the covariance of its error.
 struct Predictor {
   std::vector<Eigen::MatrixXd> coefficients;
@@ -55,6 +34,26 @@ void extend(Predictor& to, const std::vector<Eigen::MatrixXd>& r) {
 }
 
 }  // namespace
+
+std::vector<Eigen::MatrixXd> difference_covariances(const ArrayModel& model,
+                                                    const Eigen::MatrixXd& projection,
+                                                    std::int64_t block, Eigen::Index count) {
+  const Eigen::Index p = projection.rows();
+  std::vector<Eigen::MatrixXd> out(static_cast<std::size_t>(count), Eigen::MatrixXd::Zero(p, p));
+  const auto length = static_cast<double>(block);
+  for (const Latent& latent : model.latents) {
+    const Eigen::MatrixXd power = projection * latent.power * projection.transpose();
+    if (power.norm() <= kRounding * latent.power.norm()) continue;
+    const SumCovariance sums = sum_covariance(latent.term.process);
+    const ScaleCovariance haar(sums, block, block);
+    const double ramp = kUnknownRamp * sums.slope_squared * length * length;
+    for (Eigen::Index h = 0; h < count; ++h) {
+      const double lag = length * static_cast<double>(h);
+      out[static_cast<std::size_t>(h)] += (4.0 * haar(lag) + ramp) * power;
+    }
+  }
+  return out;
+}
 
 Eigen::MatrixXd parity_rows(Eigen::Index sensors, const std::vector<Eigen::Index>& used) {
   const auto n = static_cast<Eigen::Index>(used.size());
@@ -82,7 +81,7 @@ bool parity_is_noisy(const ArrayModel& model) {
 
 InnovationFilter::InnovationFilter(const ArrayModel& model, const Eigen::MatrixXd& projection,
                                    std::int64_t block)
-    : projection_(projection) {
+    : projection_(projection), block_(block) {
   const Eigen::Index p = projection.rows();
   const std::vector<Eigen::MatrixXd> r = difference_covariances(model, projection, block, kHistory);
   Predictor predictor{{}, r.front()};

@@ -20,6 +20,12 @@ Eigen::MatrixXd sensor_row(Eigen::Index sensors, Eigen::Index used);
 /// exactly and the smallest difference would be a fault.
 bool parity_is_noisy(const ArrayModel& model);
 
+/// R(h), h = 0 .. count - 1, of the differences of block means, projected on p rows (p × p each):
+/// see InnovationFilter.
+std::vector<Eigen::MatrixXd> difference_covariances(const ArrayModel& model,
+                                                    const Eigen::MatrixXd& projection,
+                                                    std::int64_t block, Eigen::Index count);
+
 /// Makes white noise out of an array's noise. The means x_k of successive blocks of readings,
 /// projected on p rows, are predicted from the kHistory blocks before, without knowing their
 /// constant level, and the errors of the prediction are scaled to unit covariance.
@@ -37,6 +43,8 @@ class InnovationFilter {
   /// `projection` is p × I, `block` = L ≥ 1 the samples in a block.
   InnovationFilter(const ArrayModel& model, const Eigen::MatrixXd& projection, std::int64_t block);
 
+  const Eigen::MatrixXd& projection() const { return projection_; }
+  std::int64_t block() const { return block_; }
   Eigen::Index inputs() const { return projection_.rows(); }  ///< p
   Eigen::Index outputs() const {
     return from_differences_.rows();
@@ -50,7 +58,8 @@ class InnovationFilter {
   const Eigen::VectorXd& conditional_variances() const { return conditional_; }
 
  private:
-  Eigen::MatrixXd projection_;        // p × I
+  Eigen::MatrixXd projection_;  // p × I
+  std::int64_t block_;
   Eigen::MatrixXd from_differences_;  // r × p·kHistory
   Eigen::VectorXd conditional_;       // kHistory, where p = 1
 };

@@ -8,6 +8,7 @@
 
 #include "core/support/distributions.h"
 #include "core/support/random.h"
+#include "core/support/roots.h"
 
 namespace imunoise {
 namespace {
@@ -30,6 +31,18 @@ std::vector<double> thresholds_of(double share) {
         chi_square_quantile(1.0 - chance_of(w, share), static_cast<double>(std::size_t{1} << w)));
   }
   return out;
+}
+
+// The threshold of a sum of `samples` squares that chance exceeds as often, where their variance is
+// known with so many degrees of freedom.
+double as_known(double threshold, double samples, double degrees) {
+  constexpr double kMost = 50.0;  // of its logarithm
+  const double log_tail = log_chi_square_tail(threshold, samples);
+  const auto beyond = [&](double log_ratio) {
+    return log_f_tail(std::exp(log_ratio), samples, degrees) - log_tail;
+  };
+  return beyond(kMost) > 0.0 ? std::numeric_limits<double>::infinity()
+                             : samples * std::exp(root_between(beyond, 0.0, kMost));
 }
 
 // E[1 / number of windows that alarm together with one], over all lengths and sensors: draws white
@@ -76,13 +89,16 @@ NoiseWatch::NoiseWatch(Eigen::MatrixXd directions)
       waiting_(Eigen::MatrixXd::Zero(directions_.rows(), kWindows)),
       ended_(Eigen::MatrixXd::Zero(directions_.rows(), kWindows)) {}
 
-NoiseWatch::NoiseWatch(Eigen::MatrixXd directions, double false_alarms)
+NoiseWatch::NoiseWatch(Eigen::MatrixXd directions, double degrees, double false_alarms)
     : NoiseWatch(std::move(directions)) {
   const double each =
       false_alarms / (static_cast<double>(kWindows) * static_cast<double>(directions_.rows()));
   double share = each;
   for (int round = 0; round < kRounds; ++round) share = each / mean_share(directions_, share);
   thresholds_ = thresholds_of(share);
+  if (!std::isfinite(degrees)) return;
+  for (std::size_t w = 0; w < kWindows; ++w)
+    thresholds_[w] = as_known(thresholds_[w], static_cast<double>(std::size_t{1} << w), degrees);
 }
 
 bool NoiseWatch::feed(const Eigen::Ref<const Eigen::VectorXd>& innovation) {

@@ -14,15 +14,16 @@ struct NoiseEvidence {
 };
 
 /// Tests of the variance of white innovations along one direction a sensor, over windows of 1, 2, 4
-/// .. 2¹⁴ samples that lie end to end: exactly χ² where nothing is wrong. Each length of window has
+/// .. 2¹⁴ samples that lie end to end: exactly χ² where nothing is wrong and the variance is known,
+/// F where it was fitted. Each length of window has
 /// an equal share of the false alarms, and within it each sensor.
 class NoiseWatch {
  public:
   static constexpr std::size_t kWindows = 15;
 
-  /// `directions` holds one unit row a sensor; `false_alarms` is how many times a sample it may cry
-  /// wolf.
-  NoiseWatch(Eigen::MatrixXd directions, double false_alarms);
+  /// `directions` holds one unit row a sensor; `degrees` of freedom is how well the variance of the
+  /// innovations is known; `false_alarms` is how many times a sample it may cry wolf.
+  NoiseWatch(Eigen::MatrixXd directions, double degrees, double false_alarms);
   /// One that gives evidence and no alarms.
   explicit NoiseWatch(Eigen::MatrixXd directions);
 

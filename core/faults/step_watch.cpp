@@ -1,13 +1,26 @@
 #include "core/faults/step_watch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/faults/clusters.h"
+#include "core/support/distributions.h"
 
 namespace imunoise {
+namespace {
 
-StepWatch::StepWatch(const ArrayModel& model, const std::vector<Eigen::Index>& used,
-                     std::int64_t block, Eigen::Index fewest_blocks, double false_alarms)
+// The threshold of z that chance exceeds as often, where its variance is known with so many degrees
+// of freedom.
+double as_known(double threshold, double degrees) {
+  if (!std::isfinite(degrees)) return threshold;
+  return -student_quantile(normal_tail(threshold), degrees);
+}
+
+}  // namespace
+
+StepWatch::StepWatch(const ArrayModel& model, const ModelDoubt& doubt,
+                     const std::vector<Eigen::Index>& used, std::int64_t block,
+                     Eigen::Index fewest_blocks, double false_alarms)
     : block_(block),
       fewest_blocks_(fewest_blocks),
       stream_(InnovationFilter(model, parity_rows(model.sensors, used), block)) {
@@ -31,7 +44,8 @@ StepWatch::StepWatch(const ArrayModel& model, const std::vector<Eigen::Index>& u
       }
     }
   }
-  threshold_ = cluster_threshold(matched_, r, false_alarms);
+  threshold_ =
+      as_known(cluster_threshold(matched_, r, false_alarms), doubt.degrees(filter, matched_));
 }
 
 bool StepWatch::feed(const Eigen::Ref<const Eigen::VectorXd>& parity) {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/faults/innovations.h"
+#include "core/faults/model_doubt.h"
 
 namespace imunoise {
 
@@ -22,8 +22,8 @@ class StepWatch {
   static constexpr Eigen::Index kMostBlocks = 7;
 
   /// `used` are the sensors to watch; `false_alarms` how many times a block it may cry wolf.
-  StepWatch(const ArrayModel& model, const std::vector<Eigen::Index>& used, std::int64_t block,
-            Eigen::Index fewest_blocks, double false_alarms);
+  StepWatch(const ArrayModel& model, const ModelDoubt& doubt, const std::vector<Eigen::Index>& used,
+            std::int64_t block, Eigen::Index fewest_blocks, double false_alarms);
 
   std::int64_t block() const { return block_; }
   double threshold() const { return threshold_; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "core/faults/innovations.h"
@@ -27,11 +26,13 @@ StuckWatch::StuckWatch(const ArrayModel& model, std::vector<Eigen::Index> used,
     const Eigen::VectorXd& variances = filter.conditional_variances();
     const double step = std::max(resolution[static_cast<std::size_t>(sensor)],
                                  kContinuous * std::sqrt(variances(0)));
+    const double rounding = step * step / 12.0;  // its variance
     double log_chance = 0.0;
     std::size_t n = 0;
     while (n < kMostRepetitions && (n < kFewest || log_chance > wanted)) {
       const auto known = std::min(static_cast<Eigen::Index>(n), InnovationFilter::kHistory - 1);
-      log_chance += std::log(step) - 0.5 * std::log(2.0 * std::numbers::pi * variances(known));
+      const double unrounded = std::max(0.0, variances(known) - rounding);
+      log_chance += std::log(std::erf(step / std::sqrt(8.0 * unrounded)));
       ++n;
     }
     most_.push_back(n < kMostRepetitions ? n : 0);
@@ -47,6 +48,13 @@ bool StuckWatch::feed(const Eigen::Ref<const Eigen::VectorXd>& readings) {
   }
   before_ = readings;
   return stuck;
+}
+
+bool StuckWatch::in_doubt() const {
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    if (2 * repeated_[i] >= most_[i] && repeated_[i] < most_[i]) return true;
+  }
+  return false;
 }
 
 std::size_t StuckWatch::repeated(Eigen::Index index) const {

@@ -11,9 +11,10 @@ namespace imunoise {
 /// Waits for readings that repeat themselves longer than a sensor's noise lets them. Of a sensor
 /// with resolution q, the model says that N + 1 readings in a row are equal with probability at
 /// most
-///   qᴺ (2π)^(-N/2) Π_j S_j^(-1/2),
-/// S_j the variance of a difference of readings given the j - 1 before it: the volume of one step
-/// of the converter times the density of the differences where it is largest, at zero.
+///   Π_j erf(q / √(8 S_j)),  j = 1 .. N,
+/// S_j the variance of a difference of readings given the j - 1 before it, less that of rounding:
+/// no interval as long as q holds the next reading more often than one in the middle of its
+/// distribution.
 class StuckWatch {
  public:
   /// Fewer repetitions may be a transport that delivered a sample again.
@@ -30,6 +31,8 @@ class StuckWatch {
   /// Takes the next readings of all sensors; true when one of those used has repeated itself too
   /// long.
   bool feed(const Eigen::Ref<const Eigen::VectorXd>& readings);
+  /// Whether one of those used repeats itself half as long as it must: it may be stuck.
+  bool in_doubt() const;
   /// How often the last reading of `used[index]` has been repeated, and the log-likelihood that a
   /// stuck sensor gains by it; 0 while it is not too often.
   std::size_t repeated(Eigen::Index index) const;

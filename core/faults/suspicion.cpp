@@ -73,10 +73,21 @@ void Suspicion::offer_own_noise(std::size_t index, double gain) {
   own_noise_[index] = std::max(own_noise_[index], gain);
 }
 
+// That it repeats one reading is unlikely whatever its level; that this level is another one is
+// unlikely in addition.
+double Suspicion::gain(FaultKind kind, std::size_t index) const {
+  const auto strongest = [&](FaultKind of) {
+    return strongest_[static_cast<std::size_t>(of)][index].gain;
+  };
+  const double step = came_back(index) ? 0.0 : strongest(FaultKind::kStep);
+  if (kind == FaultKind::kStep) return step;
+  const double alone = strongest(kind);
+  return kind == FaultKind::kStuck && alone > 0.0 ? alone + step : alone;
+}
+
 Fault Suspicion::verdict() const {
   const auto gain_of = [&](std::size_t k, std::size_t i) {
-    const bool none = static_cast<FaultKind>(k) == FaultKind::kStep && came_back(i);
-    return none ? 0.0 : strongest_[k][i].gain;
+    return gain(static_cast<FaultKind>(k), i);
   };
   std::size_t kind = 0;
   std::size_t worst = 0;
@@ -85,14 +96,10 @@ Fault Suspicion::verdict() const {
       if (gain_of(k, i) > gain_of(kind, worst)) kind = k, worst = i;
     }
   }
-  const auto suspects = [&](const auto& gain) {
-    std::vector<std::size_t> out;
-    for (std::size_t i = 0; i < sensors_.size(); ++i) {
-      if (gain(i) > gain(worst) - kToTellApart) out.push_back(i);
-    }
-    return out;
-  };
-  std::vector<std::size_t> named = suspects([&](std::size_t i) { return gain_of(kind, i); });
+  std::vector<std::size_t> named;
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    if (gain_of(kind, i) > gain_of(kind, worst) - kToTellApart) named.push_back(i);
+  }
   if (named.size() > 1 && static_cast<FaultKind>(kind) == FaultKind::kNoisy) {
     worst = *std::max_element(named.begin(), named.end(), [&](std::size_t a, std::size_t b) {
       return own_noise_[a] < own_noise_[b];
@@ -108,7 +115,7 @@ Fault Suspicion::verdict() const {
             0,
             best.size,
             best.size_error,
-            best.gain};
+            gain_of(kind, worst)};
   for (const std::size_t i : named) out.sensors.push_back(sensors_[i]);
   if (out.kind == FaultKind::kNoisy && is_over(worst)) out.end = best.end;
   return out;

@@ -58,6 +58,7 @@ class Suspicion {
 
  private:
   void follow(FaultKind kind, std::size_t index, const Evidence& evidence);
+  double gain(FaultKind kind, std::size_t index) const;
   bool came_back(std::size_t index) const;
   bool is_over(std::size_t index) const;
 

@@ -51,6 +51,7 @@ TEST_F(WvDeviation, TableReportAndPicture) {
   EXPECT_NE(read("a.svg").find("<svg"), std::string::npos);
   EXPECT_EQ(run("wv nist.csv --rate 1 --svg a.svg").status, 2);
   EXPECT_EQ(run("wv nist.csv --rate 1 --allan --hadamard").status, 2);
+  EXPECT_EQ(run("wv nist.csv --rate 1 --allan --per-octave 2").status, 2);
 }
 
 TEST_F(WvDeviation, AFitNamesThreeBiasInstabilities) {

@@ -100,6 +100,18 @@ TEST_F(Odd, TimesThatAreWanted) {
   EXPECT_EQ((*got)[1].channels[0].count, 90U);
 }
 
+TEST_F(Odd, TimesThatNoSampleHasAreTold) {
+  ImportOptions options;
+  options.exclude = {{-10.0, -5.0}, {0.5, 0.6}, {99.0, 100.0}};
+  const auto got = odd(
+      "t [s],x", [](int i) { return fmt::format("{:.2f},1", 0.01 * i); }, options);
+  ASSERT_TRUE(got) << got.error().message;
+  const std::string told = findings(got->front());
+  expect_parts(told, {"--exclude -10..-5 leaves nothing out: the samples are from 0 to",
+                      "--exclude 99..100 leaves nothing out"});
+  EXPECT_EQ(told.find("0.5..0.6"), std::string::npos);
+}
+
 TEST_F(Odd, UnitsOfEachKind) {
   const auto row = [](int i) { return fmt::format("{:.2f},0.1,0.1,0.2,9.79", 0.01 * i); };
   ImportOptions options;

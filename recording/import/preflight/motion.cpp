@@ -1,9 +1,12 @@
 #include "recording/import/preflight/motion.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/stillness/stillness.h"
+#include "core/support/rough.h"
 #include "recording/import/preflight/holes.h"
 #include "recording/import/table/names.h"
 
@@ -22,6 +25,16 @@ bool mostly_hangs(const Column& column) {
 }
 
 }  // namespace
+
+std::string Motion::said(double from, double to, std::string_view done) const {
+  if (several)
+    return fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {} times its usual scatter): {}",
+                       from, to, channel, rough(size), done);
+  return fmt::format(
+      "{} changes from {:.6g} to {:.6g} s, by {} times its usual scatter, and no other channel "
+      "does: {}; --exclude {:.6g}..{:.6g} leaves it out",
+      channel, from, to, rough(size), done, from, to);
+}
 
 std::vector<std::size_t> channels_of_motion(const std::vector<Column>& columns,
                                             const std::vector<Unit>& units) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/support/units.h"
@@ -19,6 +20,9 @@ struct Motion {
   std::string channel;   ///< that showed it most
   double size = 0.0;     ///< in its usual scatter
   bool several = false;  ///< two channels or more at the same time: the sensor, not one channel
+
+  /// `from` and `to` in seconds; `done`: "used" or "left out".
+  std::string said(double from, double to, std::string_view done) const;
 };
 
 /// The columns of angular rates and accelerations, by their units, else by their names.

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/support/counted.h"
-#include "core/support/rough.h"
 #include "recording/import/preflight/cuts.h"
 #include "recording/import/preflight/dropped_rows.h"
 #include "recording/import/preflight/frozen.h"
@@ -295,7 +294,14 @@ class Judge {
   void leave_out_times() {
     if (options_.from) cuts_.add(0, row_at(*options_.from));
     if (options_.until) cuts_.add(row_at(*options_.until), rows_);
-    for (const TimeSpan& one : options_.exclude) cuts_.add(row_at(one.begin), row_at(one.end));
+    for (const TimeSpan& one : options_.exclude) {
+      const Cut cut{row_at(one.begin), row_at(one.end)};
+      cuts_.add(cut.begin, cut.end);
+      if (cut.begin == cut.end)
+        find(Severity::kDoubt, fmt::format("--exclude {:.6g}..{:.6g} leaves nothing out: the "
+                                           "samples are from 0 to {:.6g} s",
+                                           one.begin, one.end, time_of(rows_ - 1)));
+    }
   }
 
   void find_frozen() {
@@ -330,31 +336,17 @@ class Judge {
       find(Severity::kDoubt,
            "the sensor does not lie still for more than half of the time: its "
            "motion is taken for noise");
-    std::size_t told = 0;
+    std::size_t count = 0;
     for (const Motion& one : all) {
       const bool out = one.several && !moves && !options_.use_disturbed;
       if (out) cuts_.add(one.begin, one.end);
-      if (moves || told++ >= kTold) continue;
+      if (moves || count++ >= kTold) continue;
       const double begin = time_of(one.begin);
       const double end = time_of(std::min(one.end, rows_ - 1));
-      if (out) {
-        find(Severity::kLeftOut,
-             fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {} times its "
-                         "usual scatter): left out",
-                         begin, end, one.channel, rough(one.size)));
-      } else if (one.several) {
-        find(Severity::kDoubt, fmt::format("disturbed from {:.6g} to {:.6g} s ({} by {} times its "
-                                           "usual scatter): used",
-                                           begin, end, one.channel, rough(one.size)));
-      } else {
-        find(
-            Severity::kDoubt,
-            fmt::format("{} changes from {:.6g} to {:.6g} s, by {} times its usual scatter, and no "
-                        "other channel does: used; --exclude {:.6g}..{:.6g} leaves it out",
-                        one.channel, begin, end, rough(one.size), begin, end));
-      }
+      find(out ? Severity::kLeftOut : Severity::kDoubt,
+           one.said(begin, end, out ? "left out" : "used"));
     }
-    if (told > kTold) find(Severity::kLeftOut, fmt::format("{} more disturbances", told - kTold));
+    if (count > kTold) find(Severity::kLeftOut, fmt::format("{} more disturbances", count - kTold));
   }
 
   Result<void> cut_stretches() {

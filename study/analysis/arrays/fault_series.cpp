@@ -114,8 +114,8 @@ void add_notes(const v1::FaultReport& report, const FaultDetector& detector,
   }
   if (trained < kFewReadings) {
     notes.push_back(fmt::format(
-        "The model was fitted to {} readings. From fewer than {}, it is known so badly that false "
-        "alarms may be a hundred times as frequent as allowed.",
+        "The model was fitted to {} readings and knows slow noise only roughly. The thresholds "
+        "allow for that: small faults are found late or not at all. Train on {} or more.",
         report::count(trained, report::Digits::kTypeset),
         report::count(kFewReadings, report::Digits::kTypeset)));
   }
@@ -166,6 +166,7 @@ Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors, const T
   for (const Signal& one : good.front().replicates) how.longest = std::max(how.longest, one.size());
   for (const Series& one : good) how.resolution.push_back(resolution_of(one));
   const Hertz rate = sensors.front().replicates.front().rate();
+  how.doubt = ModelDoubt(fit);
   FaultDetector detector(fit.model, rate, how);
 
   v1::FaultReport out;

@@ -152,6 +152,35 @@ TEST(FaultDetector, NamesTheSensorThatSticksAndGoesOnWithTheOthers) {
   }
 }
 
+// Readings of twice the noise's resolution repeat by themselves, and one that sticks off the mean
+// looks like a step, too: both together are more likely of a sensor that sticks.
+TEST(FaultDetector, CoarseReadingsThatStickOffTheMeanAreNoStep) {
+  constexpr double kStep = 2.0;
+  const ArrayModel model = array_model("WN", 3, {1.0 + kStep * kStep / 12.0});
+  FaultOptions options;
+  options.false_alarms_per_hour = 1e-3;
+  options.longest = 1 << 12;
+  options.resolution = {kStep, kStep, kStep};
+  const FaultDetector designed(model, Hertz{1.0}, options);
+  const ArrayModel white = array_model("WN", 3, {1.0});
+  int right = 0;
+  constexpr int kRuns = 24;
+  for (std::uint32_t run = 0; run < kRuns; ++run) {
+    Readings data = healthy(white, run, kOnset + 500);
+    const std::size_t sensor = run % 3;
+    for (auto& one : data) {
+      for (double& x : one) x = kStep * std::round(x / kStep);
+    }
+    for (std::size_t t = kOnset; t < data[sensor].size(); ++t) data[sensor][t] = 2.0 * kStep;
+    FaultDetector detector = designed;
+    const std::vector<Fault> found = faults_in(detector, data);
+    ASSERT_FALSE(found.empty()) << run;
+    right += is_only(found.front(), FaultKind::kStuck, sensor) ? 1 : 0;
+  }
+  std::printf("%d of %d stuck sensors named\n", right, kRuns);
+  EXPECT_EQ(right, kRuns);
+}
+
 TEST(FaultDetector, TellsTwoSensorsApartByTheirNoiseOnly) {
   const ArrayModel model = array_model("RW[corr] + WN", 2, {1e-5, 1.0}, 0.5);
   const FaultDetector designed = detector_of(model);

@@ -25,11 +25,10 @@ constexpr Hertz kRate{1.0};
 // False alarms by the kind they are taken for, of recordings of 2^17 samples at one reading a
 // second.
 std::array<double, kFaultKinds> false_alarms(const ArrayModel& truth, const ArrayModel& believed,
-                                             double an_hour, std::size_t recordings) {
+                                             double an_hour, std::size_t recordings,
+                                             FaultOptions options = {.longest = 1 << 11}) {
   constexpr std::size_t kSamples = 1 << 17;
-  FaultOptions options;
   options.false_alarms_per_hour = an_hour;
-  options.longest = 1 << 11;
   const FaultDetector designed(believed, kRate, options);
   std::vector<std::array<double, kFaultKinds>> alarms(recordings);
   for_each_index(recordings, [&](std::size_t r) {
@@ -71,22 +70,29 @@ TEST(FaultTrial, CriesWolfAsOftenAsItMay) {
 
 TEST(FaultTrial, FalseAlarmsUnderAFittedModel) {
   constexpr std::size_t kRecordings = 24;
+  constexpr std::uint32_t kSets = 8;
   const double hours = kRecordings * (1 << 17) / 3600.0;
   const ArrayModel truth = coloured_model();
   const Model written =
       parse_array_model("RW[corr] + AR1[corr] + WN + RES(r=0.97, omega=0.5)[all]", kRate).value();
-  double most = 0.0;
-  for (std::uint32_t set = 0; set < 4; ++set) {
-    const WaveletCovariance measured =
-        testing::simulated_moments(truth, 1 << 17, kSeed, 1000 + set, 2);
-    const ArrayFit fit = fit_array(written, {3, {}}, std::span(&measured, 1));
-    const auto found = false_alarms(truth, fit.model, 0.1, kRecordings);
-    const double ratio = (found[0] + found[1]) / (hours * 0.1 * 2.0 / 3.0);
-    std::printf("fitted to 2^17 readings: %.0f + %.0f false alarms, %.2f times what was allowed\n",
-                found[0], found[1], ratio);
-    most = std::max(most, ratio);
+  for (const std::size_t readings :
+       {std::size_t{3000}, std::size_t{10'000}, std::size_t{1} << 17}) {
+    double sum = 0.0;
+    for (std::uint32_t set = 0; set < kSets; ++set) {
+      const WaveletCovariance measured =
+          testing::simulated_moments(truth, readings, kSeed, 1000 + set, 2);
+      const ArrayFit fit = fit_array(written, {3, {}}, std::span(&measured, 1));
+      FaultOptions options;
+      options.longest = readings;
+      options.doubt = ModelDoubt(fit);
+      const auto found = false_alarms(truth, fit.model, 0.1, kRecordings, options);
+      const double ratio = (found[0] + found[1]) / (hours * 0.1 * 2.0 / 3.0);
+      std::printf("fitted to %zu readings: %.0f steps + %.0f noisy, %.2f times what was allowed\n",
+                  readings, found[0], found[1], ratio);
+      sum += ratio;
+    }
+    EXPECT_LT(sum / kSets, 2.0) << readings << " readings";
   }
-  EXPECT_LT(most, 2.5);
 }
 
 // Siegmund's approximation (1985, eq. 2.57) of the mean time of a one-sided CUSUM of N(shift, 1)
@@ -202,8 +208,6 @@ TEST(FaultTrial, DelaysOfSticking) {
     const Delays found = delays(coloured, kAnHour, FaultKind::kStuck, stuck, resolution);
     std::printf("stuck, resolution %3.1f: %5.1f readings, %3.0f %% named\n", resolution, found.mean,
                 100.0 * found.named);
-    // Fails at the coarsest resolution (79 %): where readings repeat by themselves, a sensor that
-    // sticks far off looks like a step for long.
     EXPECT_GT(found.named, 0.9) << "resolution " << resolution;
   }
 }
