@@ -10,9 +10,31 @@ namespace {
 
 using Index = Eigen::Index;
 
-double normal_density(double x, double mean, double deviation) {
+// Of a normal distribution, but for a constant.
+double log_density(double x, double mean, double deviation) {
   const double z = (x - mean) / deviation;
-  return std::exp(-0.5 * z * z) / deviation;  // the common factor 1/√2π cancels
+  return -0.5 * z * z - std::log(deviation);
+}
+
+// Values that lie close to each other, as one.
+struct Bin {
+  double mean = 0.0;
+  double count = 0.0;
+};
+
+std::vector<Bin> binned(const std::vector<double>& x, double centre, double deviation) {
+  constexpr double kWidth = 1.0 / 256.0;  // standard deviations
+  constexpr double kReach = 8.0;          // what lies further out is in the last bins
+  constexpr auto kBins = static_cast<std::size_t>(2.0 * kReach / kWidth);
+  std::vector<Bin> out(kBins);
+  for (const double one : x) {
+    const double at = ((one - centre) / deviation + kReach) / kWidth;
+    Bin& bin = out[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(kBins - 1)))];
+    bin.count += 1.0;
+    bin.mean += (one - bin.mean) / bin.count;
+  }
+  std::erase_if(out, [](const Bin& one) { return one.count == 0.0; });
+  return out;
 }
 
 // Log-likelihood of two normal distributions of one width over that of a single one: by EM from the
@@ -25,6 +47,7 @@ double mixture_gain(const std::vector<double>& x) {
   for (const double one : x) variance += (one - mean) * (one - mean) / n;
   if (!(variance > 0.0)) return 0.0;
   const double wide = std::sqrt(variance);
+  const std::vector<Bin> bins = binned(x, mean, wide);
   double low = mean - wide;
   double high = mean + wide;
   double share = 0.5;
@@ -37,15 +60,18 @@ double mixture_gain(const std::vector<double>& x) {
     double squares = 0.0;
     double before = gain;
     gain = 0.0;
-    for (const double one : x) {
-      const double at_low = (1.0 - share) * normal_density(one, low, width);
-      const double at_high = share * normal_density(one, high, width);
-      const double part = at_high / (at_low + at_high);
-      weight += part;
-      sum_low += (1.0 - part) * one;
-      sum_high += part * one;
-      squares += (1.0 - part) * (one - low) * (one - low) + part * (one - high) * (one - high);
-      gain += std::log((at_low + at_high) / normal_density(one, mean, wide));
+    for (const auto& [one, count] : bins) {
+      const double at_low = std::log1p(-share) + log_density(one, low, width);
+      const double at_high = std::log(share) + log_density(one, high, width);
+      const double most = std::max(at_low, at_high);
+      const double both = std::exp(at_low - most) + std::exp(at_high - most);
+      const double part = std::exp(at_high - most) / both;
+      weight += count * part;
+      sum_low += count * (1.0 - part) * one;
+      sum_high += count * part * one;
+      squares +=
+          count * ((1.0 - part) * (one - low) * (one - low) + part * (one - high) * (one - high));
+      gain += count * (most + std::log(both) - log_density(one, mean, wide));
     }
     if (weight < 2.0 || weight > n - 2.0) return 0.0;
     share = weight / n;
