@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "recording/import/table/names.h"
+#include "recording/import/table/time_names.h"
 
 namespace imunoise::cli {
 namespace {

@@ -36,6 +36,7 @@ constexpr std::array kUnits = {
     NamedUnit{"mdps", Quantity::kAngularRate, kDegree * 1e-3},
     NamedUnit{"deg/h", Quantity::kAngularRate, kDegree / kHour},
     NamedUnit{"m/s^2", Quantity::kAcceleration, 1.0},
+    NamedUnit{"cm/s^2", Quantity::kAcceleration, 1e-2},
     NamedUnit{"mm/s^2", Quantity::kAcceleration, 1e-3},
     NamedUnit{"g", Quantity::kAcceleration, kGravity},
     NamedUnit{"mg", Quantity::kAcceleration, kGravity * 1e-3},
@@ -66,12 +67,15 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 std::string normalise(std::string_view text) {
   std::string out(text);
   for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
-           {" ", ""},           {".s", "s"},         {"°C", "degC"},    {"°", "deg"},
-           {"µ", "u"},          {"μ", "u"},          {"²", "^2"},       {"**", "^"},
-           {"s-2", "/s^2"},     {"s^-2", "/s^2"},    {"//", "/"},       {"degrees", "deg"},
-           {"/sec", "/s"},      {"/hour", "/h"},     {"/hr", "/h"},     {"·", ""},
-           {"m/s/s", "m/s^2"},  {"m/s2", "m/s^2"},   {"s-1", "/s"},     {"s^-1", "/s"},
-           {"celsius", "degC"}, {"Celsius", "degC"}, {"degree_", "deg"}}) {
+           {" ", ""},           {"(", ""},         {")", ""},           {"⁻", "^-"},
+           {"¹", "1"},          {"^-²", "^-2"},    {"º", "deg"},        {"DPS", "dps"},
+           {"Deg/", "deg/"},    {"/Sec", "/s"},    {"degree/", "deg/"}, {"/second", "/s"},
+           {".s", "s"},         {"°C", "degC"},    {"°", "deg"},        {"µ", "u"},
+           {"μ", "u"},          {"²", "^2"},       {"**", "^"},         {"s-2", "/s^2"},
+           {"s^-2", "/s^2"},    {"//", "/"},       {"degrees", "deg"},  {"/sec", "/s"},
+           {"/hour", "/h"},     {"/hr", "/h"},     {"·", ""},           {"m/s/s", "m/s^2"},
+           {"m/s2", "m/s^2"},   {"s-1", "/s"},     {"s^-1", "/s"},      {"celsius", "degC"},
+           {"Celsius", "degC"}, {"degree_", "deg"}}) {
     replace_all(out, from, to);
   }
   return out;

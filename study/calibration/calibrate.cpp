@@ -262,9 +262,10 @@ Result<v1::Calibration> calibrate_files(const std::vector<std::vector<Replicate>
     for (const recording::Channel& one : streams.front().front().channels)
       names += (names.empty() ? "" : ", ") + one.name;
     return fail(fmt::format(
-        "no channel is known to be an angular rate or an acceleration; give units, such "
-        "as --unit '{}=deg/s', or name channels with --channel (it has: {})",
-        streams.front().front().channels.front().name, names));
+        "no channel is known to be an angular rate or an acceleration; give the unit of all, such "
+        "as --unit deg/s, or of some, such as --unit 'NAME=deg/s', or name channels with --channel "
+        "(it has: {})",
+        names));
   }
   v1::Calibration out;
   out.set_version(kCalibrationVersion);

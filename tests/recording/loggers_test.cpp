@@ -208,5 +208,123 @@ TEST_F(Loggers, ABlankBeforeTheZone) {
   EXPECT_DOUBLE_EQ(none->front().rate.value, 100.0);
 }
 
+// Two sensors take turns; each is read by itself, at its own rate.
+TEST_F(Loggers, AColumnThatSaysWhichSensorARowIsOf) {
+  for (const char* const name : {"imu_id", "I", "instance"}) {
+    const auto got = table(fmt::format("t [s],{},gyro_x [rad/s]", name), [&](int i) {
+      return fmt::format("{:.4f},{},{:.6e}", 0.005 * i, i % 2, noise(i, 0) + 5.0 * (i % 2));
+    });
+    ASSERT_TRUE(got) << got.error().message;
+    EXPECT_NEAR(got->front().rate.value, 100.0, 1e-6);
+    EXPECT_EQ(channels_of(got->front()), "imu0_gyro_x imu1_gyro_x ");
+    EXPECT_EQ(got->front().channels[1].count, static_cast<std::size_t>(kLoggedRows / 2));
+    EXPECT_NEAR(got->front().channels[1].signal().value(7), noise(15, 0) + 5.0, 1e-6);
+    expect_parts(said_of(*got), {"which of 2 sensors a row is of"});
+  }
+  // One sensor that is named in each row is no table of several.
+  const auto one = table("t [s],imu_id,gyro_x [rad/s]", [&](int i) {
+    return fmt::format("{:.4f},3,{:.6e}", 0.01 * i, noise(i, 0));
+  });
+  ASSERT_TRUE(one) << one.error().message;
+  EXPECT_EQ(channels_of(one->front()), "imu_id gyro_x ");
+  EXPECT_FALSE(table("t [s],sensor,x,y,z", [&](int i) {
+    return fmt::format("{:.4f},{},{}", 0.005 * i, i % 2 == 0 ? "gyro" : "acc", three(i));
+  }));
+  expect_parts(error_of(path("table.csv")), {"names the sensor of each row (acc, gyro)"});
+}
+
+// Late stamps lose nothing, and neither do early ones.
+TEST_F(Loggers, EarlyStampsAreNoGaps) {
+  for (const double early : {0.005, 0.003}) {
+    const auto got = table("t [s],gyro_x [rad/s]", [&](int i) {
+      return fmt::format("{:.4f},{:.6e}", 0.005 * i - (i % 50 == 30 ? early : 0.0), noise(i, 0));
+    });
+    ASSERT_TRUE(got) << got.error().message;
+    EXPECT_EQ(got->size(), 1U) << said_of(*got);
+    EXPECT_NEAR(got->front().rate.value, 200.0, 1e-6);
+  }
+  // A sample that is lost beside a late stamp still is.
+  const auto lost = table("t [s],gyro_x [rad/s]", [&](int i) {
+    const int at = i < 2000 ? i : i + 1;
+    return fmt::format("{:.4f},{:.6e}", 0.005 * at + (i == 1998 ? 0.0045 : 0.0), noise(i, 0));
+  });
+  ASSERT_TRUE(lost) << lost.error().message;
+  EXPECT_EQ(lost->size(), 2U);
+}
+
+TEST_F(Loggers, TimesWhoseUnitIsAGuessSaySo) {
+  const auto steps = [&](const char* name) {
+    return table(fmt::format("{},gyro_x [rad/s]", name),
+                 [&](int i) { return fmt::format("{},{:.6e}", 123456 + i, noise(i, 0)); });
+  };
+  const auto guessed = steps("time");
+  ASSERT_TRUE(guessed);
+  expect_parts(said_of(*guessed), {"is a guess: in milliseconds", "at 1000 Hz instead of 1 Hz"});
+  const auto stated = steps("time_ms");
+  ASSERT_TRUE(stated);
+  EXPECT_EQ(said_of(*stated).find("guess"), std::string::npos);
+  // The name of a counter of 100 us, which another device of Xsens counts in microseconds.
+  const auto dot = table("SampleTimeFine,Gyr_X", [&](int i) {
+    return fmt::format("{},{:.6e}", 500000 + 5000 * i, noise(i, 0));
+  });
+  ASSERT_TRUE(dot);
+  EXPECT_NEAR(dot->front().rate.value, 200.0, 1e-6);
+}
+
+TEST_F(Loggers, DatesAndHoursInColumnsOfOtherNames) {
+  for (const char* const name : {"", "Recorded", "hours"}) {
+    const bool hours = std::string_view(name) == "hours";
+    const auto got = table(fmt::format("{},gyro_x [rad/s]", name), [&](int i) {
+      const std::string date = fmt::format("2026-11-29 12:00:{:06.3f}", 0.01 * i);
+      return fmt::format("{},{:.6e}", hours ? fmt::format("{:.10f}", 0.01 * i / 3600.0) : date,
+                         noise(i, 0));
+    });
+    ASSERT_TRUE(got) << got.error().message;
+    EXPECT_NEAR(got->front().rate.value, 100.0, 1e-2) << name;
+    EXPECT_EQ(channels_of(got->front()), "gyro_x ");
+  }
+  // What is stated to be a temperature is no time, however steadily it rises.
+  EXPECT_FALSE(table("temp [degC],gyro_x [rad/s]", [&](int i) {
+    return fmt::format("{:.6f},{:.6e}", 25.0 + 1e-5 * i, noise(i, 0));
+  }));
+  expect_parts(error_of(path("table.csv")), {"no time column"});
+}
+
+TEST_F(Loggers, LinesAboutTheDeviceOfAnyNumberAndShape) {
+  const auto row = [&](int i) { return fmt::format("{:.2f},{}", 0.01 * i, three(i)); };
+  const std::string names = "t [s],gyro_x [rad/s],gyro_y [rad/s],gyro_z [rad/s]";
+  for (const std::string head :
+       {"Device,A1\nFirmware,v2\nMode,x\nSite,y\n", "Device: A1\nRate: 100 Hz\nA: b\nC: d\nE: f\n",
+        "Device,A1,,\nRate,100,,\nMode,x,,\n", "one line\ntwo line\nthree line\nfour line\n"}) {
+    const auto got = table(head + names, row);
+    ASSERT_TRUE(got) << head << got.error().message;
+    EXPECT_EQ(channels_of(got->front()), "gyro_x gyro_y gyro_z ") << head;
+    EXPECT_EQ(got->front().channels[0].count, static_cast<std::size_t>(kLoggedRows)) << head;
+  }
+  // A row of kinds between names and units, and a unit that is none here.
+  const auto kinds = table(
+      "Time,Gyro_X,Gyro_Y,Battery\nCAL,CAL,CAL,CAL\nms,deg/s,deg/s,%",
+      [&](int i) { return fmt::format("{},{:.6e},{:.6e},98", 10 * i, noise(i, 0), noise(i, 1)); });
+  ASSERT_TRUE(kinds) << kinds.error().message;
+  EXPECT_EQ(channels_of(kinds->front()), "Gyro_X Gyro_Y ");
+  EXPECT_EQ(kinds->front().channels[0].unit.symbol, "deg/s");
+}
+
+TEST_F(Loggers, ASecondTableInAFileIsNoPartOfTheFirst) {
+  EXPECT_FALSE(table("t [s],acc_x [m/s^2]", [&](int i) {
+    return i == 2000 ? std::string("t [s],gyro_x [rad/s]")
+                     : fmt::format("{:.2f},{:.6e}", 0.01 * (i % 2000), noise(i, 0));
+  }));
+  expect_parts(error_of(path("table.csv")), {"row 2002", "begin a second table"});
+}
+
+TEST_F(Loggers, EmptyColumnsAreLeftOutWithAStatedRateToo) {
+  const auto got = table(
+      "gyro_x [rad/s],empty,", [&](int i) { return fmt::format("{:.6e},,", noise(i, 0)); },
+      at_rate(100));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(channels_of(got->front()), "gyro_x ");
+}
+
 }  // namespace
 }  // namespace imunoise::recording

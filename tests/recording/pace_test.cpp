@@ -10,6 +10,7 @@
 
 #include "recording/import/preflight/clock.h"
 #include "recording/import/table/names.h"
+#include "recording/import/table/time_names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -52,6 +53,16 @@ TEST(Names, PeopleCallThem) {
   EXPECT_EQ(role_of("gyro2_x").sensor, "2");
   EXPECT_EQ(common_name(role_of("gyro2_x")), "gyro_x");
   EXPECT_EQ(role_of("angular_velocity.x").sensor, role_of("linear_acceleration.z").sensor);
+  for (const char* name : {"gyr_x_radps", "gyro_z_rad_per_sec", "gyro_rad_s_1"}) {
+    EXPECT_EQ(role_of(name).unit, "rad/s") << name;
+  }
+  for (const char* name : {"accX_mss", "acc_y_m_per_s2", "acc_mps2_2"}) {
+    EXPECT_EQ(role_of(name).unit, "m/s^2") << name;
+  }
+  EXPECT_EQ(role_of("imu0_gx_dps").unit, "deg/s");
+  EXPECT_EQ(role_of("imu0_gx_dps").sensor, "imu0");
+  EXPECT_EQ(common_name(role_of("gyro_x_filt")), "gyro_x");
+  EXPECT_EQ(*time_unit("time", "milliseconds since 2026-11-29 00:00:00"), 1e-3);
 }
 
 std::vector<double> even(std::size_t count, double step) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
+#include "recording/import/table/time_names.h"
 
 namespace imunoise::recording {
 

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -70,13 +71,28 @@ class NpzFile {
   }
 
  private:
+  static bool is_array(const ZipMember& member) {
+    return std::string_view(member.name).ends_with(".npy");
+  }
+
+  // Other programs save ZIP archives, too.
+  tl::unexpected<Error> refuse(const std::vector<ZipMember>& members) const {
+    const bool spreadsheet = std::any_of(members.begin(), members.end(), [](const ZipMember& one) {
+      return one.name.starts_with("xl/") || one.name == "content.xml";
+    });
+    return fail(fmt::format("{}: {}", file_.name(),
+                            spreadsheet ? "is a spreadsheet: save its table as CSV"
+                                        : "is a ZIP archive without NumPy arrays: unpack it, and "
+                                          "name the files in it"));
+  }
+
   // Finds the arrays, and reads those of one number.
   Result<void> learn() {
     Result<std::vector<ZipMember>> members = zip_members(file_);
     if (!members) return tl::make_unexpected(members.error());
+    if (std::none_of(members->begin(), members->end(), is_array)) return refuse(*members);
     for (ZipMember& member : *members) {
-      if (!std::string_view(member.name).ends_with(".npy") || arrays_.size() == kMostArrays)
-        continue;
+      if (!is_array(member) || arrays_.size() == kMostArrays) continue;
       const auto stream = open_member(file_, member);
       if (!stream) return tl::make_unexpected(stream.error());
       const Result<NpyPreamble> preamble = read_npy_preamble(file_.name(), **stream);

@@ -10,8 +10,8 @@
 #include "recording/hdf5/attributes.h"
 #include "recording/import/hdf5/hdf5_dataset.h"
 #include "recording/import/table/array_columns.h"
-#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
+#include "recording/import/table/time_names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -105,9 +105,10 @@ FoundDataset describe(hid_t file, const std::string& path, const std::string& me
   out.shape = dataset->shape();
   out.about.scale = read_number_attribute(dataset->id(), "scale_factor");
   out.about.offset = read_number_attribute(dataset->id(), "add_offset");
-  out.about.unit = read_string_attribute(dataset->id(), "units");
-  if (out.about.unit && !*out.about.unit)
-    out.about.unit = read_string_attribute(dataset->id(), "unit");
+  for (const char* const name : {"units", "unit", "Units", "Unit"}) {
+    out.about.unit = read_string_attribute(dataset->id(), name);
+    if (!out.about.unit || *out.about.unit) break;
+  }
   if (!out.shape.is_single()) return out;
   // What cannot be read is told once the dataset is wanted.
   (void)dataset->read(0, false, [&](const Samples& number) {

@@ -11,8 +11,8 @@
 #include "recording/import/table/array_columns.h"
 #include "recording/import/table/file.h"
 #include "recording/import/table/format.h"
-#include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
+#include "recording/import/table/time_names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -38,6 +38,10 @@ Result<bool> claims_hdf5(const UnknownFile& file) {
                    [&](const char* known) { return file.extension == known; })) {
     return false;
   }
+  if (file.head.starts_with("CDF"))
+    return fail(
+        fmt::format("{}: is a NetCDF file of version 3; convert it with nccopy -k netCDF-4 IN OUT",
+                    file.content.name()));
   return fail(
       fmt::format("{}: is not an HDF5 file, despite its name (MATLAB files of version 4 must be "
                   "saved anew); it may be truncated: copy it again",

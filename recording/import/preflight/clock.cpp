@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "recording/import/table/names.h"
+#include "recording/import/table/time_names.h"
 
 namespace imunoise::recording {
 namespace {
@@ -25,9 +25,12 @@ constexpr double kDay = 86400.0;      // s
 constexpr double kTick = 1e-7;        // s
 constexpr double kUsualRate = 200.0;  // Hz, of inertial sensors
 constexpr double kHighestRate = 1e6;  // Hz: no such sensor is as fast
+constexpr double kSlowRate = 10.0;    // Hz: hardly any is as slow
+
+constexpr double kXsensTick = 1e-4;  // s
 
 std::string_view name_of(double seconds) {
-  if (seconds == 1e-4) return "tenths of milliseconds";
+  if (seconds == kXsensTick) return "tenths of milliseconds";
   if (seconds == 60.0) return "minutes";
   if (seconds == 3600.0) return "hours";
   if (seconds == kDay) return "days";
@@ -159,6 +162,8 @@ double period_of_blocks(const Clock& clock) {
   return count > 0 ? sum / static_cast<double>(count) : median;
 }
 
+constexpr std::string_view kBySteps = " (by their steps)";
+
 struct JudgedUnit {
   double seconds;
   std::string_view how;
@@ -178,7 +183,7 @@ JudgedUnit judge_unit(double first, double step) {
   // 100 ns since the year 1 (.NET) or since 1601 (Windows), of this century.
   const bool ticks = (first > 6.3e17 && first < 6.7e17) || (first > 1.25e17 && first < 1.6e17);
   if (ticks && step * kTick * kHighestRate > 1.0) return {kTick, " (by their values)"};
-  if (step <= 1.0) return {1.0, " (by their steps)"};
+  if (step <= 1.0) return {1.0, kBySteps};
   const TimeUnit* best = &kTimeUnits[1];
   const auto distance = [&](const TimeUnit& unit) {
     return std::abs(std::log(1.0 / (step * unit.seconds) / kUsualRate));
@@ -186,7 +191,18 @@ JudgedUnit judge_unit(double first, double step) {
   for (const TimeUnit& unit : kTimeUnits) {
     if (distance(unit) < distance(*best)) best = &unit;
   }
-  return {best->seconds, " (by their steps)"};
+  return {best->seconds, kBySteps};
+}
+
+// Numbers that rise by one may be seconds, or milliseconds of a sensor at 1 kHz.
+std::string doubt_of(const JudgedUnit& judged, double step) {
+  constexpr double kFiner = 1e-3;
+  const double rate = 1.0 / (step * judged.seconds);
+  if (judged.how != kBySteps || !(rate < kSlowRate) || judged.seconds * kFiner < 1e-9) return "";
+  return fmt::format(
+      "that the times are in {} is a guess: in {}, the samples come at {:.4g} Hz instead of {:.4g} "
+      "Hz; say which with --time-unit",
+      name_of(judged.seconds), name_of(judged.seconds * kFiner), rate / kFiner, rate);
 }
 
 }  // namespace
@@ -231,8 +247,12 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
     judged = {*unit, " (--time-unit)"};
   } else if (*stated) {
     judged = {**stated, ""};
+    // Xsens names the counter of its DOT sensors, which counts microseconds, as those of its MTi.
+    const bool by_name = column.unit.empty() && judged.seconds == kXsensTick;
+    if (by_name && step * kXsensTick * kSlowRate > 1.0) judged = {1e-6, kBySteps};
   } else {
     judged = judge_unit(first, step);
+    out.doubt_ = doubt_of(judged, step);
   }
   out.unit_ = judged.seconds;
   out.rounding_ *= judged.seconds;

@@ -36,6 +36,8 @@ class Clock {
   double rounding() const { return rounding_; }
   /// "column t, milliseconds (by its steps)"
   const std::string& said() const { return said_; }
+  /// Why the unit may be another one; empty: it is stated, or the rate is usual.
+  const std::string& doubt() const { return doubt_; }
   /// Whether stamps show each sample's own time: nearly all steps are one period within a tenth.
   bool even() const { return even_; }
   /// Whether samples are lost throughout: no stretch of 64 is without a longer step.
@@ -63,6 +65,7 @@ class Clock {
   bool even_ = false;
   bool loses_ = false;
   std::string said_;
+  std::string doubt_;
 };
 
 }  // namespace imunoise::recording

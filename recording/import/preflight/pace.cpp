@@ -85,12 +85,20 @@ bool is_made_up_for(const Clock& clock, double period, std::size_t at) {
   return false;
 }
 
+// The stamp before this one came early: the step to it was short, and both steps are two periods.
+bool came_early(const Clock& clock, double period, std::size_t at) {
+  if (at < 2 || clock.step(at - 1) > 0.5 * period) return false;
+  const bool late = at > 2 && clock.step(at - 2) > 1.5 * period;  // before the short step
+  const double both = clock.at(at) - clock.at(at - 2);
+  return !late && std::abs(both - 2.0 * period) < 0.5 * period;
+}
+
 // Even stamps show each lost sample, however near the next loss is; a late stamp is made up for by
-// the next step.
+// the next step, an early one makes up for its own.
 std::optional<Shift> lost_at(const Clock& clock, double period, std::size_t at) {
   if (!clock.even() || clock.step(at) < 1.5 * period) return std::nullopt;
   const bool late = at + 1 < clock.size() && clock.step(at + 1) < 0.5 * period;
-  if (late) return std::nullopt;
+  if (late || came_early(clock, period, at)) return std::nullopt;
   const double seconds = clock.step(at) - period;
   return Shift{seconds, seconds, true};
 }

@@ -223,6 +223,7 @@ class Judge {
       find(Severity::kDoubt, fmt::format("stamps are coarse or come in bursts (jitter {:.2g} "
                                          "periods): short gaps may stay hidden",
                                          pace.jitter));
+    if (!clock_->doubt().empty()) find(Severity::kDoubt, clock_->doubt());
     if (pace.backwards > 0)
       find(Severity::kDoubt,
            fmt::format("{} stamps go back for a moment: are rows out of order?", pace.backwards));
@@ -383,9 +384,10 @@ class Judge {
 Result<Judged> judge(const std::string& file, Table table, const std::vector<std::string>& wanted,
                      const ImportOptions& options) {
   drop_sparse(put_first(wanted, table.columns), table.columns);
-  Result<Table> apart = take_apart(file, std::move(table), options);
+  std::vector<std::string> names = wanted;
+  Result<Table> apart = take_apart(file, std::move(table), options, names);
   if (!apart) return tl::make_unexpected(apart.error());
-  const std::size_t count = put_first(wanted, apart->columns);
+  const std::size_t count = put_first(names, apart->columns);
   return Judge(file, std::move(*apart), count, options).judged();
 }
 

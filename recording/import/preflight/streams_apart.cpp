@@ -17,7 +17,8 @@
 namespace imunoise::recording {
 namespace {
 
-constexpr double kMany = 0.1;      // of the rows
+constexpr double kMany = 0.1;            // of the rows
+constexpr std::size_t kRowsOfEach = 16;  // of each sensor
 constexpr double kFarthest = 4e9;  // s: 127 years. Differences of such times fit into int64 as ns.
 
 struct Missing {
@@ -106,6 +107,64 @@ bool is_many(const Missing& missing, const Column& in) {
   return static_cast<double>(missing.count) > kMany * static_cast<double>(size(in.samples));
 }
 
+// The column that says which of several sensors a row is of: small whole numbers, each in many
+// rows.
+std::optional<std::size_t> column_of_sensors(const Table& table) {
+  constexpr std::size_t kMost = 16;  // sensors
+  constexpr double kHighest = 1e6;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const Column& column = table.columns[c];
+    const auto* const values = std::get_if<std::vector<double>>(&column.samples);
+    if (values == nullptr || !names_a_sensor(column.name)) continue;
+    std::map<double, std::size_t> rows;
+    for (const double one : *values) {
+      const bool number = one >= 0.0 && one < kHighest && one == std::floor(one);
+      if (!number || ++rows[one] == 0 || rows.size() > kMost) {
+        rows.clear();
+        break;
+      }
+    }
+    const bool each = std::all_of(rows.begin(), rows.end(),
+                                  [](const auto& one) { return one.second >= kRowsOfEach; });
+    if (rows.size() > 1 && each) return c;
+  }
+  return std::nullopt;
+}
+
+std::string name_of(const TimedStream& sensor, const std::string& column) {
+  return fmt::format("{}_{}", sensor.name, column);
+}
+
+// The rows of each sensor, a stream imuN each.
+std::vector<TimedStream> streams_of_sensors(Table& table, std::size_t which, const Clock& clock) {
+  const auto sensors = std::get<std::vector<double>>(table.columns[which].samples);
+  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(which));
+  std::map<double, TimedStream> out;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    TimedStream& to = out[sensors[i]];
+    const double time = std::clamp(clock.at(i), -kFarthest, kFarthest);
+    to.times.push(static_cast<std::int64_t>(std::llround(time * 1e9)));
+  }
+  for (auto& [sensor, to] : out) {
+    to.name = fmt::format("imu{}", sensor);
+    for (const Column& from : table.columns) {
+      std::vector<double> values;
+      std::visit(
+          [&](const auto& numbers) {
+            for (std::size_t i = 0; i < sensors.size(); ++i) {
+              if (sensors[i] == sensor) values.push_back(static_cast<double>(numbers[i]));
+            }
+          },
+          from.samples);
+      to.columns.push_back(
+          Column{name_of(to, from.name), std::move(values), from.scale, from.offset, from.unit});
+    }
+  }
+  std::vector<TimedStream> streams;
+  for (auto& [sensor, stream] : out) streams.push_back(std::move(stream));
+  return streams;
+}
+
 }  // namespace
 
 std::size_t put_first(const std::vector<std::string>& names, std::vector<Column>& columns) {
@@ -137,10 +196,11 @@ void drop_sparse(std::size_t wanted, std::vector<Column>& columns) {
   columns.erase(std::remove_if(first, columns.end(), of_other_rows), columns.end());
 }
 
-Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options) {
+Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options,
+                         std::vector<std::string>& wanted) {
+  leave_out_empty(table);
   if (!table.time || options.rate) return table;
   const std::size_t rows = size(table.time->stamps);
-  leave_out_empty(table);
   std::map<std::uint64_t, std::vector<Column*>> groups;
   bool many = false;
   const std::vector<Missing> missing = missing_of_sensors(table.columns);
@@ -148,20 +208,35 @@ Result<Table> take_apart(const std::string& file, Table table, const ImportOptio
     many = many || static_cast<double>(missing[c].count) > kMany * static_cast<double>(rows);
     groups[missing[c].which].push_back(&table.columns[c]);
   }
-  if (!many) return table;
+  const std::optional<std::size_t> sensors = column_of_sensors(table);
+  if (!many && !sensors) return table;
   const auto clock = Clock::read(fmt::format("{}: column {}", file, table.time->name), *table.time,
                                  options.time_unit);
   if (!clock) return tl::make_unexpected(clock.error());
   std::vector<TimedStream> streams;
-  for (const auto& [which, columns] : groups) streams.push_back(stream_of(columns, *clock));
+  if (sensors) {
+    const std::string name = table.columns[*sensors].name;
+    streams = streams_of_sensors(table, *sensors, *clock);
+    table.notes.push_back(
+        fmt::format("column {} says which of {} sensors a row is of: each has "
+                    "channels of its own",
+                    name, streams.size()));
+    std::vector<std::string> named;
+    for (const TimedStream& one : streams) {
+      for (const std::string& column : wanted) named.push_back(name_of(one, column));
+    }
+    wanted = std::move(named);
+  } else {
+    for (const auto& [which, columns] : groups) streams.push_back(stream_of(columns, *clock));
+  }
   // What was wanted was chosen by the reader.
   ImportOptions all = options;
   all.topic.clear();
-  if (options.channels.size() != 1) all.channels.clear();
+  if (options.channels.size() != 1 || sensors) all.channels.clear();
   Result<Table> out = join_streams(file, std::move(streams), table.time->name, all, "channel");
   if (!out) return out;
   out->notes.insert(out->notes.begin(), table.notes.begin(), table.notes.end());
-  out->notes.emplace_back("rows hold different sensors");
+  if (!sensors) out->notes.emplace_back("rows hold different sensors");
   if (out->time) out->time->said = clock->said();
   out->unreadable = table.unreadable;
   out->first_unreadable = table.first_unreadable;

@@ -22,8 +22,10 @@ void drop_sparse(std::size_t wanted, std::vector<Column>& columns);
 
 /// Leaves out columns without a value. Where columns miss more than a tenth of their values: takes
 /// those apart that have values in different rows, leaves out rows without any, and joins columns
-/// of one rate again (join_streams()). Every other table is returned as it came. Error: see
-/// Clock::read and join_streams.
-Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options);
+/// of one rate again (join_streams()). Where a column says which sensor a row is of, each sensor
+/// gets columns of its own, as do its names in `wanted`. Every other table is returned as it came.
+/// Error: see Clock::read and join_streams.
+Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options,
+                         std::vector<std::string>& wanted);
 
 }  // namespace imunoise::recording

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <vector>
 
+#include "recording/import/table/words.h"
+
 namespace imunoise::recording {
 namespace {
 
@@ -32,6 +34,8 @@ constexpr std::array kStems = {
     Stem{"angularvelocity", Quantity::kAngularRate, false, false, "rad/s"},
     Stem{"linearacceleration", Quantity::kAcceleration, false, false, "m/s^2"},
     Stem{"gyrorad", Quantity::kAngularRate, false, false, "rad/s"},
+    Stem{"gyroadc", Quantity::kAngularRate},
+    Stem{"accsmooth", Quantity::kAcceleration},
     Stem{"accelerometerms2", Quantity::kAcceleration, false, false, "m/s^2"},
     Stem{"angularrate", Quantity::kAngularRate},
     Stem{"rotationrate", Quantity::kAngularRate},
@@ -60,109 +64,19 @@ constexpr std::array kStems = {
     Stem{"temperature", Quantity::kTemperature},
     Stem{"temp", Quantity::kTemperature}};
 
-struct Suffix {
-  std::string_view text;
-  double seconds;
-};
-constexpr std::array kTimeSuffixes = {
-    Suffix{"s", 1.0},   Suffix{"sec", 1.0},   Suffix{"secs", 1.0},   Suffix{"seconds", 1.0},
-    Suffix{"ms", 1e-3}, Suffix{"msec", 1e-3}, Suffix{"us", 1e-6},    Suffix{"usec", 1e-6},
-    Suffix{"ns", 1e-9}, Suffix{"nsec", 1e-9}, Suffix{"nsecs", 1e-9}, Suffix{"nanosec", 1e-9}};
-
-// Only where they are said to be units: t_min may be a minimum.
-constexpr std::array kLongTimes = {Suffix{"min", 60.0}, Suffix{"minutes", 60.0},
-                                   Suffix{"h", 3600.0}, Suffix{"hours", 3600.0}};
-
-// Times whose name is their unit: those of Arduino, of Xsens devices, and of ROS, which has
-// nanoseconds beside them.
-constexpr std::array kTimesOfOneUnit = {
-    Suffix{"millis", 1e-3}, Suffix{"micros", 1e-6}, Suffix{"sampletimefine", 1e-4},
-    Suffix{"sec", 1.0},     Suffix{"secs", 1.0},    Suffix{"seconds", 1.0},
-    Suffix{"nsec", 1e-9},   Suffix{"nsecs", 1e-9},  Suffix{"nanosec", 1e-9}};
-
 // They say how a number was made, not what it is.
-constexpr std::array<std::string_view, 6> kAttributes = {"raw", "imu",          "lsb",
-                                                         "cal", "uncalibrated", "calibrated"};
+constexpr std::array<std::string_view, 11> kAttributes = {
+    "raw",  "imu",      "lsb",  "cal", "uncalibrated", "calibrated",
+    "filt", "filtered", "body", "lp",  "lpf"};
 
 constexpr std::array<std::string_view, 17> kCounterNames = {
     "packetcounter", "packetcount", "packet",      "counter",   "count",        "cnt",
     "seq",           "sequence",    "headerseq",   "index",     "idx",          "fieldheaderseq",
     "samplenumber",  "samplecount", "framenumber", "rownumber", "samplecounter"};
 
-constexpr std::array<std::string_view, 24> kTimeNames = {"t",
-                                                         "time",
-                                                         "timestamp",
-                                                         "timestamps",
-                                                         "stamp",
-                                                         "headerstamp",
-                                                         "fieldheaderstamp",
-                                                         "rosbagtimestamp",
-                                                         "timestampsample",
-                                                         "utctime",
-                                                         "timeutc",
-                                                         "utc",
-                                                         "datetime",
-                                                         "localtime",
-                                                         "systemtime",
-                                                         "sensortime",
-                                                         "loggingtime",
-                                                         "hosttime",
-                                                         "elapsed",
-                                                         "elapsedtime",
-                                                         "secondselapsed",
-                                                         "tow",
-                                                         "gpstow",
-                                                         "towgps"};
-
-bool is_alnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
-char to_lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
-// "imu.angularVelocity_x" is imu, angular, velocity, x.
-std::vector<std::string> words_of(std::string_view name) {
-  std::vector<std::string> out;
-  bool open = false;
-  char before = ' ';
-  for (const char c : name) {
-    if (!is_alnum(c)) {
-      open = false;
-    } else {
-      if (!open || (is_upper(c) && !is_upper(before))) out.emplace_back();
-      out.back() += to_lower(c);
-      open = true;
-    }
-    before = c;
-  }
-  return out;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += word;
-  return out;
-}
-
 template <class Names>
 bool is_one_of(const Names& names, std::string_view text) {
   return std::find(names.begin(), names.end(), text) != names.end();
-}
-
-const Suffix* time_of_one_unit(std::string_view text) {
-  const auto* const found = std::find_if(kTimesOfOneUnit.begin(), kTimesOfOneUnit.end(),
-                                         [&](const Suffix& one) { return one.text == text; });
-  return found == kTimesOfOneUnit.end() ? nullptr : found;
-}
-
-// The name without its last word, if that is a unit of time of this length.
-std::optional<std::string> stem_without(std::string_view name, double seconds) {
-  std::vector<std::string> words = words_of(name);
-  if (words.empty()) return std::nullopt;
-  const std::string last = std::move(words.back());
-  words.pop_back();
-  const bool unit = std::any_of(kTimeSuffixes.begin(), kTimeSuffixes.end(), [&](const auto& one) {
-    return one.text == last && one.seconds == seconds;
-  });
-  return unit ? std::optional(joined(words)) : std::nullopt;
 }
 
 const Stem* stem_of(std::string_view text) {
@@ -182,16 +96,20 @@ struct UnitWords {
 };
 constexpr std::array kUnitWords = {UnitWords{"rad", "s", Quantity::kAngularRate, "rad/s"},
                                    UnitWords{"rads", "", Quantity::kAngularRate, "rad/s"},
+                                   UnitWords{"radps", "", Quantity::kAngularRate, "rad/s"},
                                    UnitWords{"deg", "s", Quantity::kAngularRate, "deg/s"},
                                    UnitWords{"degs", "", Quantity::kAngularRate, "deg/s"},
+                                   UnitWords{"degps", "", Quantity::kAngularRate, "deg/s"},
                                    UnitWords{"dps", "", Quantity::kAngularRate, "deg/s"},
                                    UnitWords{"mdps", "", Quantity::kAngularRate, "mdps"},
                                    UnitWords{"deg", "h", Quantity::kAngularRate, "deg/h"},
                                    UnitWords{"deg", "hr", Quantity::kAngularRate, "deg/h"},
                                    UnitWords{"dph", "", Quantity::kAngularRate, "deg/h"},
+                                   UnitWords{"degph", "", Quantity::kAngularRate, "deg/h"},
                                    UnitWords{"m", "s2", Quantity::kAcceleration, "m/s^2"},
                                    UnitWords{"ms2", "", Quantity::kAcceleration, "m/s^2"},
                                    UnitWords{"mps2", "", Quantity::kAcceleration, "m/s^2"},
+                                   UnitWords{"mss", "", Quantity::kAcceleration, "m/s^2"},
                                    UnitWords{"mg", "", Quantity::kAcceleration, "mg"},
                                    UnitWords{"g", "", Quantity::kAcceleration, "g"}};
 
@@ -202,6 +120,30 @@ bool is_axis_of(std::string_view word, Quantity quantity) {
   if (word.size() < 2 || !is_axis(word.back())) return false;
   const Stem* const sensor = stem_of(word.substr(0, word.size() - 1));
   return sensor != nullptr && sensor->quantity == quantity;
+}
+
+// "imu0", "mpu2": a device, not what it measures.
+bool is_device(std::string_view word) {
+  constexpr std::array<std::string_view, 8> kDevices = {"imu", "sensor", "mpu",  "icm",
+                                                        "bmi", "lsm",    "unit", "node"};
+  return is_one_of(kDevices, word.substr(0, word.find_last_not_of("0123456789") + 1));
+}
+
+// One way to write the words of a unit: "rad_per_sec" is rad, s; the axis before it.
+void order_unit(std::vector<std::string>& words) {
+  std::erase(words, "per");
+  for (std::string& word : words) word = word == "sec" ? "s" : word;
+  const bool digit = words.size() > 2 && words.back().size() == 1 && is_axis(words.back().front());
+  if (!digit) return;
+  for (const UnitWords& one : kUnitWords) {
+    const std::size_t count = one.second.empty() ? 1 : 2;
+    if (words.size() < count + 2 ||
+        words[words.size() - 2] != (count == 2 ? one.second : one.first))
+      continue;
+    if (count == 2 && words[words.size() - 3] != one.first) continue;
+    std::rotate(words.end() - static_cast<std::ptrdiff_t>(count) - 1, words.end() - 1, words.end());
+    return;
+  }
 }
 
 // Takes the words of a unit off the end of a name that has an axis, or a sensor of that kind,
@@ -250,7 +192,15 @@ bool glob(std::string_view pattern, std::string_view text) {
 }  // namespace
 
 bool is_counter_name(std::string_view name) {
-  return is_one_of(kCounterNames, joined(words_of(name)));
+  return is_one_of(kCounterNames, joined_words(words_of(name)));
+}
+
+bool names_a_sensor(std::string_view name) {
+  constexpr std::array<std::string_view, 21> kNames = {
+      "i",        "id",           "imu",    "imuid",    "imunumber", "imuindex", "sensor",
+      "sensorid", "sensornumber", "device", "deviceid", "instance",  "inst",     "board",
+      "boardid",  "node",         "nodeid", "unitid",   "variable",  "signal",   "axis"};
+  return is_one_of(kNames, joined_words(words_of(name)));
 }
 
 bool is_norm_name(std::string_view name) {
@@ -261,19 +211,18 @@ bool is_norm_name(std::string_view name) {
                      [&](const std::string& word) { return is_one_of(kNorms, word); });
 }
 
-std::optional<std::string> stem_of_seconds(std::string_view name) {
-  return stem_without(name, 1.0);
-}
-std::optional<std::string> stem_of_nanoseconds(std::string_view name) {
-  return stem_without(name, 1e-9);
-}
-
 Role role_of(std::string_view name) {
   std::vector<std::string> words = words_of(name);
   if (words.size() > 1)
     std::erase_if(words, [](const std::string& word) { return is_one_of(kAttributes, word); });
+  order_unit(words);
   const UnitWords* const stated = take_unit(words);
-  const std::string text = joined(words);
+  std::string device;
+  if (words.size() == 2 && is_device(words.front())) {
+    device = words.front();  // "imu0_gx"
+    words.erase(words.begin());
+  }
+  const std::string text = joined_words(words);
   if (text.size() > 1 && is_axis(text.back())) {
     // "gyro2_x": the number of the sensor may stand behind.
     const std::string_view before = std::string_view(text).substr(0, text.size() - 1);
@@ -286,7 +235,7 @@ Role role_of(std::string_view name) {
     const bool own = stated != nullptr && stem != nullptr && stated->quantity == stem->quantity;
     if (stem != nullptr && stem->quantity != Quantity::kTemperature)
       return {stem->quantity, text.back(), stem->increment, own ? stated->unit : stem->unit,
-              std::string(before.substr(0, letters - stem->text.size())) +
+              device + std::string(before.substr(0, letters - stem->text.size())) +
                   std::string(before.substr(letters))};
   }
   const Stem* const stem = stem_of(text);
@@ -342,45 +291,6 @@ std::vector<std::string> split_names(std::string_view names) {
     names.remove_prefix(comma == std::string_view::npos ? names.size() : comma + 1);
   }
   return out;
-}
-
-bool is_time_name(std::string_view name) {
-  std::vector<std::string> words = words_of(name);
-  const auto known = [&] {
-    const std::string text = joined(words);
-    return is_one_of(kTimeNames, text) || time_of_one_unit(text) != nullptr;
-  };
-  if (words.empty()) return false;
-  if (known()) return true;
-  const bool suffixed = std::any_of(kTimeSuffixes.begin(), kTimeSuffixes.end(),
-                                    [&](const Suffix& one) { return one.text == words.back(); });
-  words.pop_back();
-  return suffixed && known();
-}
-
-Result<std::optional<double>> time_unit(std::string_view name, std::string_view unit) {
-  const auto seconds = [](std::string_view text) -> std::optional<double> {
-    for (const Suffix& one : kTimeSuffixes) {
-      if (one.text == text) return one.seconds;
-    }
-    return std::nullopt;
-  };
-  if (unit.empty()) {
-    const std::vector<std::string> words = words_of(name);
-    if (const Suffix* const known = time_of_one_unit(joined(words)))
-      return std::optional(known->seconds);
-    if (words.empty() || words.size() == 1) return std::optional<double>();
-    return seconds(words.back() == "elapsed" ? words.front() : words.back());
-  }
-  if (unit == "µs" || unit == "μs") return std::optional(1e-6);
-  if (const auto known = seconds(unit)) return known;
-  for (const Suffix& one : kLongTimes) {
-    if (one.text == unit) return std::optional(one.seconds);
-  }
-  return fail(fmt::format(
-      "'{}' is not a unit of time that is known here (h, min, s, ms, us, ns); correct it, give "
-      "--time-unit, or give --rate HZ to ignore the times",
-      unit));
 }
 
 }  // namespace imunoise::recording

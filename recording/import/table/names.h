@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/support/result.h"
 #include "core/support/units.h"
 
 namespace imunoise::recording {
@@ -24,13 +23,11 @@ struct Role {
 /// "PacketCounter", "seq", "index": a column that counts rows.
 bool is_counter_name(std::string_view name);
 
+/// "imu_id", "sensor", "I": a column that says which sensor a row is of.
+bool names_a_sensor(std::string_view name);
+
 /// "Absolute acceleration", "acc_norm": a column of a vector's length.
 bool is_norm_name(std::string_view name);
-
-/// The name of a time in seconds without that word ("header.stamp" of "header.stamp.sec"), and of
-/// one in nanoseconds ("header.stamp.nanosec"), which may be all of it; none for any other name.
-std::optional<std::string> stem_of_seconds(std::string_view name);
-std::optional<std::string> stem_of_nanoseconds(std::string_view name);
 
 /// "wx", "gyr_x", "angular_velocity.x", "accelX", "linear_acceleration.z", "imu_temp", ...
 Role role_of(std::string_view name);
@@ -44,13 +41,5 @@ bool matches(std::string_view pattern, std::string_view name);
 
 /// "ax,ay,az" taken apart.
 std::vector<std::string> split_names(std::string_view names);
-
-/// True for the names of time columns: t, time, timestamp, header.stamp, ... (any case), also with
-/// _s, _ms, _us, _ns.
-bool is_time_name(std::string_view name);
-
-/// Seconds per stored number of a time column. `unit` is what the header states ("" for nothing:
-/// then the name's suffix counts). Nothing when neither states a unit. Error: not a unit of time.
-Result<std::optional<double>> time_unit(std::string_view name, std::string_view unit);
 
 }  // namespace imunoise::recording

@@ -82,8 +82,12 @@ Result<Unit> stated_unit(std::string_view text, const Role& role) {
   if (text.empty() || text == "-") {
     return role.unit.empty() ? Unit{"1", Quantity::kUnknown, 1.0} : parse_unit(role.unit);
   }
-  // Some apps write G for g; no accelerometer measures gauss.
-  return parse_unit(text == "G" && role.quantity == Quantity::kAcceleration ? "g" : text);
+  // G is gauss, but some apps write it for g: no accelerometer measures gauss.
+  const bool g = role.quantity == Quantity::kAcceleration;
+  const bool gauss = role.quantity == Quantity::kMagneticFluxDensity;
+  if (g && (text == "G" || text == "mG")) return parse_unit(text == "G" ? "g" : "mg");
+  if (gauss && (text == "G" || text == "Gauss")) return parse_unit("gauss");
+  return parse_unit(gauss && text == "mG" ? "mgauss" : text);
 }
 
 }  // namespace

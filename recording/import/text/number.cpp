@@ -49,10 +49,10 @@ std::optional<int> take_part(std::string_view& text, std::string_view separator)
   return take_digits(text, 2);
 }
 
-// ".25", in ns; 0 where there is none.
+// ".25", in ns; 0 where there is none. Some apps write ":250".
 std::int64_t take_fraction(std::string_view& text) {
   std::int64_t out = 0;
-  if (!take_char(text, ".,")) return out;
+  if (!take_char(text, ".,:")) return out;
   std::int64_t unit = 100'000'000;
   while (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0) {
     out += (text.front() - '0') * unit;

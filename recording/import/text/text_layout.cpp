@@ -10,6 +10,7 @@
 #include "recording/import/table/array_columns.h"
 #include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
+#include "recording/import/table/time_names.h"
 #include "recording/import/text/number.h"
 
 namespace imunoise::recording {
@@ -27,6 +28,13 @@ Kind kind_of(const std::vector<std::string>& fields) {
     (is_numeric(field) || read_calendar(field) ? number : text) = true;
   }
   return number && text ? Kind::kMixed : number ? Kind::kNumbers : Kind::kText;
+}
+
+bool mostly_numbers(const std::vector<std::string>& fields) {
+  const auto numbers = std::count_if(fields.begin(), fields.end(), [](const std::string& field) {
+    return is_numeric(field) || read_calendar(field);
+  });
+  return 2 * numbers > std::ssize(fields);
 }
 
 // Of the first row that has more columns than any table, counted before a line of a megabyte
@@ -105,13 +113,64 @@ std::optional<Start> after_preamble(const std::vector<TextHead::Row>& rows, char
   return Start{delimiter, names};
 }
 
+// "[deg/s]" without its brackets; empty where nothing is stated.
+std::string unit_in(const std::string& field) {
+  const bool square = field.size() > 2 && field.front() == '[' && field.back() == ']';
+  const bool round = field.size() > 2 && field.front() == '(' && field.back() == ')';
+  const std::string unit = square || round ? field.substr(1, field.size() - 2) : field;
+  return is_missing(unit) || unit == "-" ? std::string() : unit;
+}
+
+bool is_known_unit(const std::string& unit) {
+  return parse_unit(unit).has_value() || (!unit.empty() && time_unit("", unit).has_value());
+}
+
+// At least half of what is stated: the others may be of other things.
+bool is_row_of_units(const TextHead::Row& row, char delimiter) {
+  std::size_t stated = 0;
+  std::size_t known = 0;
+  for (const std::string& field : split_header(row.text, delimiter)) {
+    const std::string unit = unit_in(field);
+    if (unit.empty()) continue;
+    if (is_numeric(unit)) return false;
+    ++stated;
+    known += is_known_unit(unit) ? 1U : 0U;
+  }
+  return known > 0 && 2 * known >= stated;
+}
+
+std::ptrdiff_t known_names(const TextHead::Row& row, char delimiter) {
+  const std::vector<std::string> fields = split_header(row.text, delimiter);
+  return std::count_if(fields.begin(), fields.end(), [](const std::string& field) {
+    const std::string name = parse_header_field(field).name;
+    return is_time_name(name) || role_of(name).quantity != Quantity::kUnknown;
+  });
+}
+
+// The row of names where all rows have as many fields: of the rows before the numbers the last of
+// those that have the most names of sensors.
+std::size_t row_of_names(const std::vector<TextHead::Row>& rows, char delimiter) {
+  std::size_t first = 0;
+  while (first < rows.size() && !mostly_numbers(split_header(rows[first].text, delimiter))) ++first;
+  if (first < 2 || first == rows.size()) return 0;
+  std::size_t best = 0;
+  std::ptrdiff_t most = known_names(rows[0], delimiter);
+  for (std::size_t r = 1; r < first; ++r) {
+    const std::ptrdiff_t known = known_names(rows[r], delimiter);
+    if (known == 0 || known < most || is_row_of_units(rows[r], delimiter)) continue;
+    most = known;
+    best = r;
+  }
+  return best;
+}
+
 Start find_start(const std::vector<TextHead::Row>& rows, std::optional<char> stated) {
   if (stated) {
-    if (agrees(rows, *stated)) return {*stated, 0};
+    if (agrees(rows, *stated)) return {*stated, row_of_names(rows, *stated)};
     return after_preamble(rows, *stated).value_or(Start{*stated, 0});
   }
   for (const char delimiter : kDelimiters) {
-    if (agrees(rows, delimiter)) return {delimiter, 0};
+    if (agrees(rows, delimiter)) return {delimiter, row_of_names(rows, delimiter)};
   }
   for (const char delimiter : kDelimiters) {
     if (const auto found = after_preamble(rows, delimiter)) return *found;
@@ -198,19 +257,19 @@ Result<bool> take_units(TextLayout& layout, const TextHead& head) {
   const TextHead::Row& row = head.rows[layout.header_rows];
   const std::vector<std::string> fields = split_header(row.text, layout.delimiter);
   if (kind_of(fields) == Kind::kNumbers) return false;
-  const auto units = [&](const std::string& text) {
-    const bool square = text.size() > 2 && text.front() == '[' && text.back() == ']';
-    const bool round = text.size() > 2 && text.front() == '(' && text.back() == ')';
-    const std::string unit = square || round ? text.substr(1, text.size() - 2) : text;
-    return is_missing(unit) ? std::string() : unit;
-  };
   if (fields.size() != layout.columns.size()) return false;
+  const bool some = std::any_of(fields.begin(), fields.end(), [&](const std::string& field) {
+    return !is_numeric(field) && parse_unit(unit_in(field)).has_value();
+  });
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::string unit = units(fields[i]);
-    const bool known =
-        unit.empty() || unit == "-" ||
-        (is_time_name(layout.columns[i].name) ? time_unit(layout.columns[i].name, unit).has_value()
-                                              : parse_unit(unit).has_value());
+    const std::string unit = unit_in(fields[i]);
+    const std::string& name = layout.columns[i].name;
+    // Beside units that are known, one of another thing leaves its column out.
+    const bool may_be_axis = name.size() == 1 || role_of(name).quantity != Quantity::kUnknown;
+    const bool foreign = some && !is_numeric(unit) && !may_be_axis;
+    const bool known = unit.empty() || (is_time_name(name) ? time_unit(name, unit).has_value()
+                                                           : parse_unit(unit).has_value());
+    if (foreign) continue;
     if (known) continue;
     if (kind_of(fields) == Kind::kMixed) return false;  // samples with a flaw: told with its row
     return fail(
@@ -219,7 +278,7 @@ Result<bool> take_units(TextLayout& layout, const TextHead& head) {
                     head.file, row.line, unit, layout.columns[i].name));
   }
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (layout.columns[i].unit.empty()) layout.columns[i].unit = units(fields[i]);
+    if (layout.columns[i].unit.empty()) layout.columns[i].unit = unit_in(fields[i]);
   }
   return true;
 }
@@ -230,6 +289,14 @@ bool have_one_shape(const std::vector<TextHead::Row>& rows) {
   return rows.empty() || columns_beyond_all(rows) > 0 ||
          std::any_of(kDelimiters.begin(), kDelimiters.end(),
                      [&](char delimiter) { return agrees(rows, delimiter); });
+}
+
+bool hold_few_numbers(const std::vector<TextHead::Row>& rows) {
+  return std::none_of(rows.begin(), rows.end(), [](const TextHead::Row& row) {
+    return std::any_of(kDelimiters.begin(), kDelimiters.end(), [&](char delimiter) {
+      return mostly_numbers(split_header(row.text, delimiter));
+    });
+  });
 }
 
 Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& options) {
@@ -261,6 +328,10 @@ Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& opti
   if (*header) {
     take_names(layout, first);
     ++layout.header_rows;
+    const bool row_between = head.rows.size() > layout.header_rows + 1 &&
+                             is_row_of_units(head.rows[layout.header_rows + 1], layout.delimiter) &&
+                             !is_row_of_units(head.rows[layout.header_rows], layout.delimiter);
+    if (row_between) ++layout.header_rows;
     if (head.rows.size() > layout.header_rows) {
       const Result<bool> units = take_units(layout, head);
       if (!units) return tl::make_unexpected(units.error());

@@ -42,6 +42,9 @@ struct TextLayout {
 /// Whether one delimiter cuts all rows into the same number of fields, two or more.
 bool have_one_shape(const std::vector<TextHead::Row>& rows);
 
+/// Whether no row has more numbers than words: the table begins later, or holds few numbers.
+bool hold_few_numbers(const std::vector<TextHead::Row>& rows);
+
 /// Error: no rows; a first row of which one cannot tell whether it is a header; a row of units with
 /// an unknown one or of the wrong length.
 Result<TextLayout> detect_layout(const TextHead& head, const ImportOptions& options);

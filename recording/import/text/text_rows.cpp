@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "core/support/counted.h"
+#include "recording/import/table/names.h"
+#include "recording/import/table/time_names.h"
 #include "recording/import/text/number.h"
 
 namespace imunoise::recording {
@@ -127,9 +129,27 @@ void RowParser::leave_out(std::size_t line_number, const std::string& what) {
   std::fill(row_.begin(), row_.end(), std::numeric_limits<double>::quiet_NaN());
 }
 
+// A row of names, but not those of this table.
+bool RowParser::begins_another_table(const std::vector<std::string>& fields) const {
+  std::size_t known = 0;
+  bool same = fields.size() == layout_.columns.size();
+  for (std::size_t c = 0; c < fields.size(); ++c) {
+    if (is_numeric(fields[c])) return false;
+    const std::string name = parse_header_field(fields[c]).name;
+    same = same && (name == layout_.columns[c].name || layout_.unnamed[c]);
+    known += is_time_name(name) || of_inertia(role_of(name).quantity) ? 1U : 0U;
+  }
+  return known > 1 && !same;
+}
+
 // Quoted numbers, missing values, and every kind of trouble.
 std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size_t line_number) {
   const std::vector<std::string> fields = split_fields(line, layout_.delimiter);
+  if (begins_another_table(fields))
+    return Error{fmt::format(
+        "{}: row {}: other names ({}, {}, ...) begin a second table; save each table in a file of "
+        "its own",
+        file_, line_number, fields[0], fields[1])};
   if (fields.size() != row_.size()) {
     leave_out(line_number,
               fmt::format("{} where the table has {} columns (separated by {})",

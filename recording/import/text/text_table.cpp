@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <utility>
 
 #include "core/support/utf8.h"
@@ -12,6 +14,7 @@
 #include "recording/import/table/format.h"
 #include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
+#include "recording/import/table/time_names.h"
 #include "recording/import/text/number.h"
 #include "recording/import/text/text_layout.h"
 #include "recording/import/text/text_rows.h"
@@ -90,7 +93,8 @@ Head read_head(LineReader& lines, const std::string& file) {
   read_up_to(kHeadRows, lines, head);
   const bool labview =
       !head.text.rows.empty() && head.text.rows.front().text.starts_with("LabVIEW Measurement");
-  if (labview || !have_one_shape(head.text.rows)) read_up_to(kPreambleRows, lines, head);
+  if (labview || !have_one_shape(head.text.rows) || hold_few_numbers(head.text.rows))
+    read_up_to(kPreambleRows, lines, head);
   return head;
 }
 
@@ -116,7 +120,32 @@ std::vector<bool> columns_of_text(const TextHead& head, const TextLayout& layout
   return out;
 }
 
-bool is_of_motion(const HeaderField& column) { return of_inertia(role_of(column.name).quantity); }
+bool is_of_motion(const HeaderField& column) {
+  const Result<Unit> unit = parse_unit(column.unit);
+  return of_inertia(role_of(column.name).quantity) || (unit && of_inertia(unit->quantity));
+}
+
+// "gyro" and "acc" by turns in a column that names the sensor of each row: one table would mix
+// them.
+Result<void> one_sensor_a_row(const TextHead& head, const TextLayout& layout,
+                              const std::vector<bool>& text) {
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    if (!text[c] || !names_a_sensor(layout.columns[c].name)) continue;
+    std::set<std::string> named;
+    for (std::size_t r = layout.header_rows; r < head.rows.size(); ++r) {
+      const auto fields = split_fields(head.rows[r].text, layout.delimiter);
+      if (fields.size() == layout.columns.size()) named.insert(fields[c]);
+    }
+    if (named.size() < 2) continue;
+    return fail(
+        fmt::format("{}: column {} names the sensor of each row ({}, {}): put the rows of each "
+                    "sensor into a file of its own",
+                    head.file, layout.columns[c].name, *named.begin(), *std::next(named.begin())));
+  }
+  return {};
+}
+
+constexpr const char* kHoldsTimes = "holds times";
 
 // Why a column is no channel unless it is asked for; empty: it is one. `others`: there are channels
 // of motion.
@@ -126,7 +155,7 @@ std::string why_left_out(const HeaderField& column, bool text, bool others) {
   if (is_norm_name(column.name)) return "is the length of a vector";
   const bool unit = !column.unit.empty() && column.unit != "-" && !parse_unit(column.unit);
   if (!unit || !others || role_of(column.name).quantity != Quantity::kUnknown) return "";
-  return time_unit("", column.unit) ? "holds times"
+  return time_unit("", column.unit) ? kHoldsTimes
                                     : fmt::format("is in {}, which is no unit here", column.unit);
 }
 
@@ -158,20 +187,44 @@ std::optional<std::size_t> nanoseconds_of(const TextLayout& layout, std::size_t 
   return std::nullopt;
 }
 
+// The first column whose first rows are all dates and times.
+std::optional<std::size_t> calendar_of(const TextHead& head, const TextLayout& layout) {
+  std::vector<std::size_t> times(layout.columns.size(), 0);
+  for (std::size_t r = layout.header_rows; r < head.rows.size(); ++r) {
+    const std::vector<std::string> fields = split_fields(head.rows[r].text, layout.delimiter);
+    if (fields.size() != times.size()) return std::nullopt;
+    for (std::size_t c = 0; c < times.size(); ++c) times[c] += read_calendar(fields[c]) ? 1U : 0U;
+  }
+  const auto found = std::find(times.begin(), times.end(), head.rows.size() - layout.header_rows);
+  if (found == times.end() || *found == 0) return std::nullopt;
+  return static_cast<std::size_t>(found - times.begin());
+}
+
+// Whether a column without the name of a time may be one all the same.
+bool may_be_time(const HeaderField& column) {
+  return column.unit.empty() || column.unit == "-" || time_unit("", column.unit);
+}
+
 Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stated_rate,
                        const ImportOptions& options) {
   Plan plan;
   plan.notes = layout.notes;
   std::vector<Offer> offers;
   const std::vector<bool> text = columns_of_text(head, layout);
+  std::optional<std::size_t> time = time_of(layout);
+  if (!time) time = calendar_of(head, layout);
+  if (auto one = one_sensor_a_row(head, layout, text); !one)
+    return tl::make_unexpected(one.error());
   const bool others =
       !options.beside && std::any_of(layout.columns.begin(), layout.columns.end(), is_of_motion);
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const HeaderField& column = layout.columns[c];
-    const bool channel = !is_time_name(column.name) && !layout.unnamed[c];
+    const bool channel = !is_time_name(column.name) && !layout.unnamed[c] && c != time;
     const std::string why = channel ? why_left_out(column, text[c], others) : std::string();
     offers.push_back({column.name, channel && why.empty(), column.unit});
-    if (!why.empty()) plan.notes.push_back(fmt::format("column {} {}: left out", column.name, why));
+    const bool the_time = c == 0 && !time && !stated_rate && why == kHoldsTimes;
+    if (!why.empty() && !the_time)
+      plan.notes.push_back(fmt::format("column {} {}: left out", column.name, why));
   }
   Result<std::vector<std::size_t>> channels = select_columns(head.file, offers, options);
   if (!channels) return tl::make_unexpected(channels.error());
@@ -179,13 +232,14 @@ Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stat
   plan.wanted.assign(offers.size(), false);
   for (const std::size_t c : plan.channels) plan.wanted[c] = true;
   if (options.rate) return plan;
-  plan.time = time_of(layout);
+  plan.time = time;
   if (plan.time) {
     plan.wanted[*plan.time] = false;
     plan.nanoseconds = nanoseconds_of(layout, *plan.time);
     if (plan.nanoseconds && plan.wanted[*plan.nanoseconds]) plan.nanoseconds.reset();  // a channel
     if (plan.nanoseconds) plan.wanted[*plan.nanoseconds] = true;
-  } else if (!text.front() && !layout.unnamed.front() && !stated_rate) {
+  } else if (!text.front() && !layout.unnamed.front() && !stated_rate &&
+             may_be_time(layout.columns.front())) {
     plan.may_be_time = 0;
     plan.wanted.front() = true;
   }
@@ -255,7 +309,7 @@ void take_time(const TextLayout& layout, const Plan& plan, RowParser& rows, Tabl
   std::vector<double> values = rows.take(c);
   if (rises_steadily(values)) {
     to.notes.push_back(fmt::format("column {} rises steadily: it is the time", column.name));
-    to.time = TimeColumn{column.name, "", std::move(values)};
+    to.time = TimeColumn{column.name, column.unit == "-" ? "" : column.unit, std::move(values)};
     return;
   }
   const auto wanted = std::find(plan.channels.begin(), plan.channels.end(), c);

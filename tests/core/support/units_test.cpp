@@ -11,13 +11,14 @@ namespace imunoise {
 namespace {
 
 TEST(Units, ParsesTheSpellingsPeopleUse) {
-  for (const char* text : {"deg/s", "°/s", "dps", "degrees/sec", "deg s-1", "deg s^-1"}) {
+  for (const char* text : {"deg/s", "°/s", "dps", "degrees/sec", "deg s-1", "deg s^-1", "º/s",
+                           "Deg/Sec", "DPS", "degree/s", "deg/second", "°·s⁻¹"}) {
     const Result<Unit> unit = parse_unit(text);
     ASSERT_TRUE(unit) << text << ": " << unit.error().message;
     EXPECT_EQ(unit->quantity, Quantity::kAngularRate) << text;
     EXPECT_DOUBLE_EQ(unit->to_si, 0.017453292519943295) << text;
   }
-  for (const char* text : {"m/s^2", "m/s²", "m/s2", "m/s/s", "m s-2"}) {
+  for (const char* text : {"m/s^2", "m/s²", "m/s2", "m/s/s", "m s-2", "m/(s^2)", "m·s⁻²"}) {
     const Result<Unit> unit = parse_unit(text);
     ASSERT_TRUE(unit) << text;
     EXPECT_EQ(unit->quantity, Quantity::kAcceleration) << text;
