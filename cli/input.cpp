@@ -119,14 +119,21 @@ Result<std::vector<recording::Replicate>> read_with_witnesses(
   return read_input(arguments);
 }
 
+Result<void> check_for_recording(const recording::ImportOptions& options) {
+  if (options.time_unit || options.from || options.until || !options.exclude.empty() ||
+      options.use_disturbed || options.strict || !options.units.empty())
+    return fail(
+        "--unit, --time-unit, --from, --until, --exclude and --strict are for files, not for "
+        "folders");
+  if (!options.topic.empty() || !options.dbc.empty() || options.delimiter || options.header)
+    return fail("--topic, --dbc, --delimiter and --header are for files, not for folders");
+  return {};
+}
+
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments) {
   if (is_recording(arguments)) {
-    const recording::ImportOptions& options = arguments.import;
-    if (options.time_unit || options.from || options.until || !options.exclude.empty() ||
-        options.use_disturbed || options.strict || !options.units.empty())
-      return fail(
-          "--unit, --time-unit, --from, --until, --exclude and --strict are for files, not for "
-          "folders");
+    if (auto whole = check_for_recording(arguments.import); !whole)
+      return tl::unexpected(whole.error());
     ProgressLine line("reading");
     return recording::import_recording(recording::posix_file_system(), arguments.files.front(),
                                        arguments.import, line.progress());

@@ -10,6 +10,9 @@ namespace imunoise::cli {
 /// Whether the input is the folder of one recording of imunoise, not files or a bag of ROS 2.
 bool is_recording(const InputArguments& arguments);
 
+/// Error: options that are for files, which a recording would ignore.
+Result<void> check_for_recording(const recording::ImportOptions& options);
+
 /// The replicates of the user's files; series borrow from them.
 Result<std::vector<recording::Replicate>> read_input(const InputArguments& arguments);
 

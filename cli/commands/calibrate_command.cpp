@@ -42,6 +42,8 @@ int run(const CalibrateArguments& arguments) {
   options.made_ns = acquire::now_ns();
   const std::filesystem::path& folder = arguments.input.files.front();
   if (!is_recording(arguments.input)) return calibrate_plain_files(arguments, options);
+  if (auto whole = check_for_recording(arguments.input.import); !whole)
+    return print_error(whole.error());
   const Interrupt interrupt;
   recording::FileSystem& files = recording::posix_file_system();
   const auto done = [&] {

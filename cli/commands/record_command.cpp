@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <mutex>
+#include <string>
 
 #include "cli/commands/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/progress_line.h"
+#include "core/support/counted.h"
 #include "core/support/utf8.h"
 #include "daemon/acquire/record_replicate.h"
 #include "daemon/process/ignored_signals.h"
@@ -71,6 +75,18 @@ void add(const acquire::DeviceOutcome& outcome, std::uint32_t replicate, v1::Rec
 
 using report::count;
 
+// As a shell takes it for one word.
+std::string in_shell(const std::string& text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("/._-+:@%").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 std::string describe(const v1::RecordReport& report) {
   std::string out = fmt::format("recorded into {}\n", report::clean_text(report.folder()));
   for (const v1::RecordedTally& one : report.streams()) {
@@ -80,14 +96,15 @@ std::string describe(const v1::RecordReport& report) {
       out += fmt::format(", {} refused ({}{})", count(refusal.samples()), refusal.reason(),
                          refusal.channel().empty() ? "" : " of " + refusal.channel());
     }
-    if (one.disconnections() > 0) out += fmt::format(", unplugged {} times", one.disconnections());
+    if (one.disconnections() > 0)
+      out += fmt::format(", unplugged {}", counted(one.disconnections(), "time"));
     if (!one.failure().empty()) {
       out += fmt::format("\n    given up: {}", report::clean_text(one.failure()));
     }
     out += "\n";
   }
-  return out +
-         fmt::format("Check it with: imunoise verify {}\n", report::clean_text(report.folder()));
+  return out + fmt::format("Check it with: imunoise verify {}\n",
+                           in_shell(report::clean_text(report.folder())));
 }
 
 }  // namespace

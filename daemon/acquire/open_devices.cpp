@@ -55,7 +55,7 @@ Result<OpenDevices> open_devices(
       missing.set_device(plans[i].name);
       missing.set_reason(device.error().message);
     }
-    if (progress.stopped()) return fail("stopped while devices were being opened");
+    if (progress.stopped()) return fail(kStoppedOpening);
     if (out.missing.empty()) return out;
     const std::chrono::duration<double> left = *patience - (Steady::now() - begin);
     if (left <= std::chrono::duration<double>::zero()) break;

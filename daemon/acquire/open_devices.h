@@ -36,6 +36,9 @@ struct OpenDevices {
   std::vector<v1::MissingDevice> missing;
 };
 
+/// The message of open_devices() where the caller stopped it: nothing was recorded yet.
+inline constexpr const char* kStoppedOpening = "stopped while devices were being opened";
+
 /// Opens all, `open(i)` the i-th. With patience: those that do not open are tried again for so
 /// long, then they are missing. Error: one does not open and there is no patience, or none does, or
 /// the caller stopped it.

@@ -263,7 +263,10 @@ class Replicate {
     const bool to_the_end = plan_.duration && interruption_.empty();
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       const Reader& reader = *readers_[i];
-      add_reason(shortfall(i, state, to_the_end && !reader.failure() && reader.connected()));
+      // What is replayed ends with its files.
+      const bool replayed = reader.ended() && recorded_.devices[i].driver() == "replay";
+      const bool whole = to_the_end && !replayed && !reader.failure() && reader.connected();
+      add_reason(shortfall(i, state, whole));
       const auto& seen = reader.disturbances();
       disturbances.insert(disturbances.end(), seen.begin(), seen.end());
       for (const v1::ClockComparison& clock : reader.clocks()) *note_.add_clocks() = clock;

@@ -340,7 +340,7 @@ Result<void> Supervisor::stop(const std::string& campaign, const std::string& re
   if (!under_way.empty() && recording != under_way) {
     return fail(
         fmt::format("{}: replicate {} of {} of recording {} is being recorded and would be "
-                    "interrupted; to stop it anyway, name it: recording = {}",
+                    "interrupted; to stop it anyway, name it: --recording {}",
                     campaign, run.state.status.replicate(), run.state.status.replicates(),
                     under_way, under_way));
   }

@@ -314,7 +314,10 @@ Result<Parameters> Catalogue::parameters(const std::string& device_id) {
     const bool goes_on =
         before != nullptr && std::equal(row.begin(), row.begin() + 4, before->begin());
     v1::ParameterHistory& to = goes_on ? out.back() : out.emplace_back();
+    // A copy of a recording is no further calibration.
+    const bool copy = goes_on && integer(row[10]) == integer((*before)[10]);
     before = &row;
+    if (copy) continue;
     to.set_stream(text(row[0]));
     to.set_channel(text(row[1]));
     to.set_term(text(row[2]));

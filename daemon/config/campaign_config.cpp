@@ -13,6 +13,7 @@
 
 #include "core/effects/parse_full_model.h"
 #include "core/support/counted.h"
+#include "daemon/config/calendar.h"
 #include "daemon/config/device_tables.h"
 #include "daemon/config/quantity_text.h"
 
@@ -59,15 +60,6 @@ void read_times(TableReader& reader, v1::Campaign& out) {
   out.set_settling_s(reader.duration("settling").value_or(0.0));
   out.set_pause_s(reader.duration("pause").value_or(0.0));
   out.set_patience_s(reader.duration("patience").value_or(kPatience));
-}
-
-// systemd decides what a calendar expression means; what can be none is refused here.
-bool may_be_calendar(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return c < 128 &&
-           (std::isalnum(c) != 0 ||
-            std::string_view(" *-:,./~+_").find(static_cast<char>(c)) != std::string_view::npos);
-  });
 }
 
 void read_schedule(const TomlEntry& entry, std::vector<Problem>& problems,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "drivers/plugin/or_throw.h"
@@ -20,12 +22,22 @@ constexpr std::int64_t kRestart = 1'000'000'000;  // ns that a clock goes back w
 constexpr double kRowsOfSilence = 20.0;
 
 // Slope of times over their numbers by least squares: what jitters cancels out. ns a row.
-double period_of(const std::vector<std::int64_t>& times) {
-  const auto n = static_cast<double>(times.size());
+double period_of(const std::vector<double>& numbers, const std::vector<std::int64_t>& times) {
+  const double mean =
+      std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < times.size(); ++i)
-    sum += (static_cast<double>(i) - 0.5 * (n - 1.0)) * static_cast<double>(times[i] - times[0]);
-  return 12.0 * sum / (n * (n * n - 1.0));
+  double squares = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double off = numbers[i] - mean;
+    sum += off * static_cast<double>(times[i] - times[0]);
+    squares += off * off;
+  }
+  return squares > 0.0 ? sum / squares : 0.0;
+}
+
+// By a counter that never goes back but to begin anew; 1 without one.
+double rows_between(std::optional<std::uint64_t> before, std::optional<std::uint64_t> counter) {
+  return before && counter && *counter > *before ? static_cast<double>(*counter - *before) : 1.0;
 }
 
 double to_three_digits(double value) {
@@ -110,10 +122,15 @@ void TextDevice::learn_columns() {
 void TextDevice::learn_rate() {
   RowReader reader = *rows_;
   std::vector<std::int64_t> times;
+  std::vector<double> numbers;  // by the counter, which shows rows that are missing
+  std::optional<std::uint64_t> before;
   for (const ArrivedLine& line : heard_) {
     const auto read = reader.read(line.text);
-    if (const auto* const row = std::get_if<TextRow>(&read))
-      times.push_back(row->time_ns.value_or(line.host_time_ns));
+    const auto* const row = std::get_if<TextRow>(&read);
+    if (row == nullptr) continue;
+    numbers.push_back(numbers.empty() ? 0.0 : numbers.back() + rows_between(before, row->counter));
+    before = row->counter;
+    times.push_back(row->time_ns.value_or(line.host_time_ns));
   }
   if (times.empty())
     refuse(fmt::format("no row of {} columns came; the first line is '{:.120}'",
@@ -123,7 +140,7 @@ void TextDevice::learn_rate() {
     return;
   }
   constexpr std::size_t kFewest = 4;
-  const double period = times.size() < kFewest ? 0.0 : period_of(times);
+  const double period = times.size() < kFewest ? 0.0 : period_of(numbers, times);
   if (!(period > 0.0) || (ended_ && stream_.device_time_tick_s == 0.0))
     refuse(
         fmt::format("the rate cannot be measured from {} rows; give it (rate=100), or listen "

@@ -157,6 +157,8 @@ TEST_F(CatalogueCommands, SayWhatTheyCannotDo) {
   expect("calibrate bench", "is not a recording");
   expect("calibrate bench/week-0 --model WM", "WM");
   expect("calibrate bench/week-0 --channel gyro_w", "it has: gyro_x");
+  expect("calibrate bench/week-0 --from 1", "are for files, not for folders");
+  expect("calibrate bench/week-0 --topic a", "are for files, not for folders");
   expect("recordings absent", "absent");
   expect("recordings bench --catalogue absent/x.sqlite", "absent/x.sqlite");
   std::ofstream(folder_ / "junk.sqlite") << "this is no database, whatever its name may say";
@@ -203,6 +205,8 @@ TEST_F(CatalogueCommands, AnArrayMayBeOfSeveralDevices) {
 TEST_F(CatalogueCommands, ACalibrationComparesDevices) {
   record_two(folder_ / "two", 100.0, 100.0);
   const std::string asked = "calibrate two --model WN --no-diagnose --array --array-model WN";
+  const json short_name = json_of("calibrate two --model WN --no-diagnose --channel gyro_x");
+  EXPECT_EQ(short_name["channels"].size(), 2U) << "of both devices";
   const Outcome done = run(asked);
   ASSERT_EQ(done.status, 0) << done.errors;
   EXPECT_NE(done.out.find("20 s together"), std::string::npos) << done.out;

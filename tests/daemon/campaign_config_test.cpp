@@ -1,5 +1,6 @@
 #include "daemon/config/campaign_config.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <iterator>
 #include <map>
 
+#include "daemon/config/calendar.h"
 #include "daemon/config/campaign_keys.h"
 
 namespace imunoise::config {
@@ -231,7 +233,13 @@ TEST(CampaignConfig, SaysWhatWouldBeRight) {
   expect_problem("settling = 2026-01-01", "is a date");
   expect_problem("schedule = { every = \"1 h\" }", "takes 2 h");
   expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give only one");
-  expect_problem("schedule = { calendar = \"Mon; rm\" }", "systemd-analyze calendar");
+  for (const char* const good :
+       {"daily", "Mon 02:00", "Mon,Wed..Fri *-*-1,5 11:12:13", "*:0/15", "2026-11-29",
+        "*-*~01 Europe/Zurich", "Sat,Sun 12:00 UTC", "weekly UTC", "@1395716396"})
+    EXPECT_TRUE(may_be_calendar(good)) << good;
+  for (const char* const wrong : {"Mon; rm", "Mon..Fry 02:00", "every tuesday", "02", "Mon 2:"})
+    expect_problem(fmt::format("schedule = {{ calendar = \"{}\" }}", wrong),
+                   "systemd-analyze calendar");
   expect_problem("schedule = \"now\"", "a table, headed [schedule]");
   expect_problem("stillness = { repeats = 2 }", "repeat_disturbed = true");
   expect_problem("retention = { age = \"0 d\" }", "age");

@@ -163,6 +163,17 @@ TEST_F(CampaignRun, ThirtyDaysEverySixHours) {
   EXPECT_EQ(calibrated_[119], "2026-03-30T181000Z") << "no drift";
 }
 
+// Three replicates take longer than there is from one recording to the next.
+TEST_F(CampaignRun, ARecordingThatIsNeverCompleteIsTold) {
+  campaign_.mutable_schedule()->set_every_s(2 * 3600.0);
+  campaign_.mutable_retention()->set_recordings(2);
+  run(kBegin, kBegin + 24h);
+  EXPECT_TRUE(calibrated_.empty());
+  EXPECT_TRUE(was_told("has 2 of 3 replicates and is left as it is"));
+  const auto kept = std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  EXPECT_LE(kept, 3) << "retention holds for what is left unfinished, too";
+}
+
 TEST_F(CampaignRun, ARestartGoesOnWhereTheManifestSaysItWas) {
   crash_at_ = 2;
   run(kBegin);

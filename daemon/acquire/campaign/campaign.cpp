@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "daemon/acquire/campaign/recordings.h"
+#include "daemon/acquire/open_devices.h"
 #include "recording/store/format/layout.h"
 #include "recording/store/manifest/manifest.h"
 #include "recording/store/recovery/recover.h"
@@ -133,13 +135,18 @@ class Run {
     ReplicateTask task{newest_ ? newest_->folder : std::filesystem::path(), step.attempt,
                        campaign_.replicates() - step.replicate, std::exchange(unfinished_, {})};
     if (step.new_recording) {
+      leave_unfinished();
       task.folder = folder_of_next_;
       memory_.calibrated = memory_.published = false;
     }
     last_ = task.folder;
     const auto note = with_.recorder.record(campaign_, task, Progress({}, stop_));
     follow_clock();
-    if (stop_.stop_requested()) return;
+    if (stop_.stop_requested()) {
+      const bool lost = !note && note.error().message != kStoppedOpening;
+      if (lost) tell({.phase = v1::finished}, note.error().message);
+      return;
+    }
     if (!note) {
       unfinished_ = note.error().message;
       return hold_up(unfinished_);
@@ -149,6 +156,17 @@ class Run {
     if (note->state() != v1::complete) return hold_up(note->reason());
     pause_ = kFirstPause;
     add_news(describe(*note));
+  }
+
+  // The next recording is due, and the newest lacks replicates: it is not calibrated.
+  void leave_unfinished() {
+    const std::uint32_t good = newest_ ? good_replicates(campaign_, newest_->state.notes) : 0;
+    if (!newest_ || good >= campaign_.replicates()) return;
+    add_news(
+        fmt::format("recording {} has {} of {} replicates and is left as it is, because the next "
+                    "is due; opening a device takes time, too: allow more in 'every'",
+                    newest_->folder.string(), good, campaign_.replicates()));
+    tidy();
   }
 
   // The campaign's folder, from the first replicate to the end of the run: another daemon would add
@@ -182,8 +200,8 @@ class Run {
     }
     if (note.disturbances_size() > 0) {
       out += fmt::format(
-          "{}the sensors moved {} times, first at {}", out.empty() ? "" : "; ",
-          note.disturbances_size(),
+          "{}the sensors moved {}, first at {}", out.empty() ? "" : "; ",
+          counted(note.disturbances_size(), "time"),
           recording_name(Time(std::chrono::nanoseconds(note.disturbances(0).begin_ns()))));
     }
     return out;
@@ -205,7 +223,8 @@ class Run {
     if (std::count(tidied->removed.begin(), tidied->removed.end(), recorded_) > 0)
       recorded_.clear();
     if (!tidied->removed.empty())
-      add_news(fmt::format("deleted {} recordings ([retention])", tidied->removed.size()));
+      add_news(
+          fmt::format("deleted {} ([retention])", counted(tidied->removed.size(), "recording")));
     if (tidied->doubtful > 0) {
       add_news(
           fmt::format("{} recordings look older than retention.age but are kept, because the "

@@ -24,9 +24,22 @@ int checked(int result, const char* what) {
   return result;
 }
 
+// A link to a terminal that is gone may be taken over.
+void make_room(const std::filesystem::path& link) {
+  std::error_code unknown;
+  const auto there = std::filesystem::symlink_status(link, unknown);
+  if (there.type() == std::filesystem::file_type::not_found) return;
+  if (!std::filesystem::is_symlink(there))
+    throw std::system_error(EEXIST, std::generic_category(), link.string() + " is no link of ours");
+  if (std::filesystem::exists(link, unknown))
+    throw std::system_error(EADDRINUSE, std::generic_category(), link.string());
+  std::filesystem::remove(link);
+}
+
 }  // namespace
 
 Pty::Pty(std::filesystem::path link) : link_(std::move(link)) {
+  make_room(link_);
   device_end_ = checked(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC), "posix_openpt");
   checked(::grantpt(device_end_), "grantpt");
   checked(::unlockpt(device_end_), "unlockpt");
@@ -37,7 +50,6 @@ Pty::Pty(std::filesystem::path link) : link_(std::move(link)) {
   checked(::ioctl(host_end_, TCGETS2, &mode), "TCGETS2");
   mode.c_iflag = mode.c_oflag = mode.c_lflag = 0;  // bytes pass as they are
   checked(::ioctl(host_end_, TCSETS2, &mode), "TCSETS2");
-  std::filesystem::remove(link_);
   std::filesystem::create_symlink(name.data(), link_);
 }
 

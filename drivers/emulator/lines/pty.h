@@ -10,8 +10,9 @@
 
 namespace imunoise::emulator {
 
-/// A pseudo-terminal as the device end of a serial line; the host opens what `link` points to.
-/// Closing it is unplugging. Throws std::system_error.
+/// A pseudo-terminal as the device end of a serial line; the host opens what `link` points to: a
+/// link that nobody serves is replaced, anything else stays. Closing it is unplugging. Throws
+/// std::system_error.
 class Pty {
  public:
   explicit Pty(std::filesystem::path link);

@@ -41,6 +41,7 @@ class EmulatedOnLine final : public plugin::Device {
  public:
   EmulatedOnLine(const InProcessPlan& plan, const plugin::Host& host) : serial_(plan.serial) {
     const bool can = plan.driver == "can";
+    if (can && serial_.empty()) serial_ = "EMULATED";  // not the place, which is new each time
     const std::string place = (can ? "unix:" : "") + folder_.file(plan.driver);
     served_ = plugin::or_throw(serve({.driver = plan.driver,
                                       .place = place,

@@ -84,9 +84,8 @@ Result<std::unique_ptr<ServedDevice>> serve(const ServePlan& plan) {
     }
   } catch (const std::exception& error) {
     return fail(fmt::format(
-        "{}: cannot be served ({}); without CAN in the kernel serve it at unix:PATH, and see that "
-        "the place is free and may be written",
-        plan.place, error.what()));
+        "{}: cannot be served ({}); see that the place is free and may be written{}", plan.place,
+        error.what(), plan.driver == "can" ? "; without CAN in the kernel, take unix:PATH" : ""));
   }
   return fail(fmt::format(
       "{}: cannot be served to other programs; emulate it where it is recorded: imunoise record "

@@ -145,7 +145,9 @@ std::vector<TimedStream> streams_of_sensors(Table& table, std::size_t which, con
     const double time = std::clamp(clock.at(i), -kFarthest, kFarthest);
     to.times.push(static_cast<std::int64_t>(std::llround(time * 1e9)));
   }
-  for (auto& [sensor, to] : out) {
+  for (auto& one : out) {
+    const double sensor = one.first;
+    TimedStream& to = one.second;
     to.name = fmt::format("imu{}", sensor);
     for (const Column& from : table.columns) {
       std::vector<double> values;

@@ -292,6 +292,7 @@ bool have_one_shape(const std::vector<TextHead::Row>& rows) {
 }
 
 bool hold_few_numbers(const std::vector<TextHead::Row>& rows) {
+  if (columns_beyond_all(rows) > 0) return false;
   return std::none_of(rows.begin(), rows.end(), [](const TextHead::Row& row) {
     return std::any_of(kDelimiters.begin(), kDelimiters.end(), [&](char delimiter) {
       return mostly_numbers(split_header(row.text, delimiter));

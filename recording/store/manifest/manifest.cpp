@@ -145,6 +145,19 @@ v1::Manifest whole_manifest(const v1::RecordingManifest& recording,
   return out;
 }
 
+Result<void> check_same(const v1::RecordingManifest& manifest, const v1::RecordedDevice& device) {
+  if (device.driver() == "text") return {};  // it has the name of its file or port for a number
+  for (const v1::RecordedDevice& listed : manifest.devices()) {
+    const bool known = !listed.serial().empty() && !device.serial().empty();
+    if (listed.name() != device.name() || !known || listed.serial() == device.serial()) continue;
+    return fail(fmt::format(
+        "{}: is the device {} in this recording, and now {} answers; record it into another "
+        "folder, or under another name",
+        device.name(), listed.serial(), device.serial()));
+  }
+  return {};
+}
+
 void add_device(v1::RecordingManifest& manifest, const v1::RecordedDevice& device) {
   const auto& devices = manifest.devices();
   if (std::none_of(devices.begin(), devices.end(), [&](const v1::RecordedDevice& other) {

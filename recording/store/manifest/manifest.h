@@ -43,6 +43,8 @@ std::string manifest_stamp(const FileSystem& files, const std::filesystem::path&
 /// The whole of a recording whose only replicate this is.
 v1::Manifest whole_manifest(const v1::RecordingManifest& recording,
                             const v1::ReplicateManifest& replicate);
+/// Error: a device of another serial number is listed by this name.
+Result<void> check_same(const v1::RecordingManifest& manifest, const v1::RecordedDevice& device);
 /// Adds the device unless it is listed; what is listed stays.
 void add_device(v1::RecordingManifest& manifest, const v1::RecordedDevice& device);
 

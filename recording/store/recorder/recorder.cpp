@@ -12,7 +12,7 @@ namespace {
 // Makes the folder. Its name survives a power cut before anything in it is acknowledged: later than
 // the first manifest it is there for good.
 Result<void> make_root(FileSystem& files, const std::filesystem::path& folder) {
-  if (auto done = files.make_folder(folder); !done) return done;
+  if (auto done = make_folders(files, folder); !done) return done;
   const auto begun = files.exists(folder / kManifestName);
   if (!begun) return tl::make_unexpected(begun.error());
   if (*begun) return {};

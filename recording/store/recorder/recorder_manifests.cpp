@@ -35,7 +35,10 @@ Result<RecorderManifests> RecorderManifests::open(FileSystem& files,
   v1::RecordingManifest& recording = out.recording_;
   if (recording.started_ns() == 0) recording.set_started_ns(plan.started_ns);
   if (recording.campaign().empty()) recording.set_campaign(plan.campaign);
-  for (const v1::RecordedDevice& device : plan.devices) add_device(recording, device);
+  for (const v1::RecordedDevice& device : plan.devices) {
+    if (auto same = out.check(device); !same) return tl::make_unexpected(same.error());
+    add_device(recording, device);
+  }
   out.own_ = std::move(*own);
   if (plan.note) {
     v1::ReplicateNote note = *plan.note;
@@ -51,6 +54,12 @@ Result<void> RecorderManifests::begin(FileSystem& files) {
   erase(*recording_.mutable_settled(), replicate_);
   if (auto done = write_recording_manifest(files, folder_, recording_); !done) return done;
   return write_replicate_manifest(files, folder_, replicate_, own_);
+}
+
+Result<void> RecorderManifests::check(const v1::RecordedDevice& device) const {
+  auto same = check_same(recording_, device);
+  if (!same) return fail(folder_.string() + ": " + same.error().message);
+  return {};
 }
 
 Result<void> RecorderManifests::add(FileSystem& files, const v1::RecordedDevice& device) {

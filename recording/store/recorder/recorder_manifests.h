@@ -24,6 +24,8 @@ class RecorderManifests {
 
   /// Writes both: the recording is not closed, its replicate is open.
   Result<void> begin(FileSystem& files);
+  /// Error: the recording has a device of this name and another serial number.
+  Result<void> check(const v1::RecordedDevice& device) const;
   /// Adds a device and writes both. Error: the disk's; nothing is added.
   Result<void> add(FileSystem& files, const v1::RecordedDevice& device);
   /// Writes both a last time. `settled`: every row is in a listed chunk.

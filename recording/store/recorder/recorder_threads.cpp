@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/support/counted.h"
 #include "recording/store/disk/back_off.h"
 #include "recording/store/recorder/replicate_counts.h"
 #include "recording/store/recovery/seal.h"
@@ -48,6 +49,7 @@ Result<std::size_t> Recorder::Threads::add(const v1::RecordedDevice& device) {
   std::set<std::string> names;  // only this function adds to them, once it records
   for (const Line& line : lines_) names.insert(line.device.name());
   if (auto good = check_new(device, names); !good) return tl::make_unexpected(good.error());
+  if (auto same = manifests_.check(device); !same) return tl::make_unexpected(same.error());
   auto where = make_device_folder(files_, folder_, manifests_.replicate(), device.name());
   if (!where) return tl::make_unexpected(where.error());
   if (auto done = manifests_.add(files_, device); !done) return tl::make_unexpected(done.error());
@@ -326,8 +328,8 @@ Result<void> Recorder::Threads::check_closed(const RecorderState& state) const {
   for (const Line& line : lines_) {
     if (auto back = check_back(line); !back) return back;
     if (line.segments.empty()) continue;
-    return fail(fmt::format("device {}: {} journal segments are not chunks yet: {}",
-                            line.device.name(), line.segments.size(),
+    return fail(fmt::format("device {}: {} not in a chunk yet: {}", line.device.name(),
+                            counted(line.segments.size(), "journal segment"),
                             line.chunk_disk.last_error().message));
   }
   return {};

@@ -148,6 +148,17 @@ TEST_F(HistoryOf, TakesWhatIsAskedFor) {
   EXPECT_NE(history(wrong).error().message.find("there are gyro_x"), std::string::npos);
 }
 
+// A backup beside the recordings is no further evidence.
+TEST_F(HistoryOf, CopiesOfARecordingCountOnce) {
+  add_weeks(kQuiet);
+  for (const char* const copy : {"backup-a", "backup-b"})
+    std::filesystem::copy(root_ / "week-12", root_ / copy,
+                          std::filesystem::copy_options::recursive);
+  const auto got = history();
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(n_of(*got).points_size(), static_cast<int>(kQuiet.size()));
+}
+
 TEST_F(HistoryOf, WithoutACalibrationThereIsNothing) {
   add_recording("monday", 0);
   const auto got = history();

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -39,6 +40,26 @@ TEST(Pty, IsCutOnlyWhenAllIsRead) {
   reader.join();
   ::close(host);
   EXPECT_EQ(read, sent.size());
+}
+
+// Only a link that nobody serves is replaced.
+TEST(Pty, LeavesTheFilesOfOthers) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "imunoise-XXXXXX").string();
+  const std::filesystem::path folder = ::mkdtemp(pattern.data());
+  const std::filesystem::path file = folder / "notes.csv";
+  std::ofstream(file) << "mine";
+  EXPECT_THROW(Pty{file}, std::system_error);
+  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+  const std::filesystem::path link = folder / "line";
+  {
+    const Pty first(link);
+    EXPECT_THROW(Pty{link}, std::system_error) << "somebody serves it";
+    EXPECT_TRUE(std::filesystem::exists(link)) << "and goes on";
+  }
+  std::filesystem::create_symlink(folder / "gone", link);
+  const Pty again(link);
+  EXPECT_TRUE(std::filesystem::exists(link));
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -66,6 +66,18 @@ TEST(TextDriver, RecordsWhatACommandPrintsToItsEnd) {
   EXPECT_EQ((*session)->wire(), "time[ms],counter,x[deg/s]\n" + rows(0, 300));
 }
 
+// Every second row is missing while it listens: the counter shows it.
+TEST(TextDriver, MissingRowsLeaveTheRateAsItIs) {
+  const TemporaryFolder folder;
+  std::ofstream file(folder.path() / "rows.csv");
+  file << "time[ms],counter,x[deg/s]\n";
+  for (int i = 0; i < 300; i += 2) file << rows(i, i + 1);
+  file.close();
+  const auto session = open({{"command", "cat '" + (folder.path() / "rows.csv").string() + "'"}});
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_EQ((*session)->info().streams.at(0).nominal_rate_hz, 200.0);
+}
+
 TEST(TextDriver, SaysWhatKeepsItFromReading) {
   const auto expect = [](const Options& options, const std::string& words) {
     EXPECT_NE(refusal(options).find(words), std::string::npos) << refusal(options);

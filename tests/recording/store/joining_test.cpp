@@ -95,6 +95,31 @@ TEST(Joining, WhileAChunkIsMadeMovesNothingUnderIt) {
   EXPECT_TRUE(verify_recording(disk, kRecording, false)->sound());
 }
 
+// A recording is of one device by each name: another serial number is another sensor.
+TEST(Joining, RefusesAnotherDeviceOfTheSameName) {
+  FakeDisk disk;
+  const RecordingPlan first{"bench", 1, kStart, {test_device("imu0")}};
+  {
+    const auto recorder = Recorder::start(disk, kRecording, first);
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    ASSERT_TRUE((*recorder)->push(0, imu_block(0, 10)));
+    ASSERT_TRUE((*recorder)->close());
+  }
+  v1::RecordedDevice other = test_device("imu0");
+  other.set_serial("0043");
+  const auto refused = Recorder::start(disk, kRecording, {"bench", 2, kStart, {other}});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("0042"), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("0043"), std::string::npos) << refused.error().message;
+  v1::RecordedDevice silent = test_device("imu0");
+  silent.clear_serial();
+  const auto recorder = Recorder::start(disk, kRecording, {"bench", 2, kStart, {silent}});
+  ASSERT_TRUE(recorder) << "one that does not say its number may be the same";
+  other.set_name("imu1");
+  EXPECT_TRUE((*recorder)->add(other));
+  EXPECT_TRUE((*recorder)->close());
+}
+
 TEST(Joining, FailsWithTheDiskAndMayBeTriedAgain) {
   for (const FakeDisk::Call kind : {FakeDisk::Call::kMakeFolder, FakeDisk::Call::kCreate,
                                     FakeDisk::Call::kSync, FakeDisk::Call::kRename}) {
