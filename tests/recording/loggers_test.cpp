@@ -310,6 +310,22 @@ TEST_F(Loggers, LinesAboutTheDeviceOfAnyNumberAndShape) {
   EXPECT_EQ(kinds->front().channels[0].unit.symbol, "deg/s");
 }
 
+// As an Arduino prints for its plotter, with blanks, tabs or commas.
+TEST_F(Loggers, LabelsBeforeEachNumberAreNames) {
+  for (const char* const form : {"t_ms:{},gyro_x_dps:{:.6e}", "t_ms: {}\tgyro_x_dps: {:.6e}",
+                                 "t_ms={} ; gyro_x_dps={:.6e}"}) {
+    std::string text = "_x_dps:0.1\n";  // the log begins within a line
+    for (int i = 0; i < kLoggedRows; ++i)
+      text += fmt::format(fmt::runtime(form), 10 * i, noise(i, 0)) + "\n";
+    const auto got = import_one(write("serial.txt", text));
+    ASSERT_TRUE(got) << form << got.error().message;
+    EXPECT_EQ(channels_of(got->front()), "gyro_x_dps ") << form;
+    EXPECT_EQ(got->front().channels[0].count, static_cast<std::size_t>(kLoggedRows));
+    EXPECT_EQ(got->front().channels[0].unit.symbol, "deg/s");
+    EXPECT_NEAR(got->front().rate.value, 100.0, 1e-9);
+  }
+}
+
 TEST_F(Loggers, ASecondTableInAFileIsNoPartOfTheFirst) {
   EXPECT_FALSE(table("t [s],acc_x [m/s^2]", [&](int i) {
     return i == 2000 ? std::string("t [s],gyro_x [rad/s]")

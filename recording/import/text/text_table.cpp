@@ -15,6 +15,7 @@
 #include "recording/import/table/names.h"
 #include "recording/import/table/select.h"
 #include "recording/import/table/time_names.h"
+#include "recording/import/text/labels.h"
 #include "recording/import/text/number.h"
 #include "recording/import/text/text_layout.h"
 #include "recording/import/text/text_rows.h"
@@ -47,7 +48,8 @@ Result<bool> claims_text(const UnknownFile& file) {
 
 struct Head {
   TextHead text;
-  std::optional<double> rate;  // stated by a comment, Hz
+  std::vector<std::string> labels;  // that stand before each number of a row; empty: none do
+  std::optional<double> rate;       // stated by a comment, Hz
 };
 
 // What begins a comment; 0 characters where none does. "%time" is a name of ROS.
@@ -87,7 +89,7 @@ void read_up_to(std::size_t rows, LineReader& lines, Head& head) {
   }
 }
 
-Head read_head(LineReader& lines, const std::string& file) {
+Head read_head(LineReader& lines, const std::string& file, const ImportOptions& options) {
   Head head;
   head.text.file = file;
   read_up_to(kHeadRows, lines, head);
@@ -95,6 +97,7 @@ Head read_head(LineReader& lines, const std::string& file) {
       !head.text.rows.empty() && head.text.rows.front().text.starts_with("LabVIEW Measurement");
   if (labview || !have_one_shape(head.text.rows) || hold_few_numbers(head.text.rows))
     read_up_to(kPreambleRows, lines, head);
+  if (!options.delimiter && !options.header) head.labels = name_by_labels(head.text.rows);
   return head;
 }
 
@@ -247,10 +250,10 @@ Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stat
 }
 
 // Parses the rows of the head and then the rest of the file.
-Result<void> read_rows(const File& file, const TextHead& head, std::size_t header_rows,
+Result<void> read_rows(const File& file, const Head& head, std::size_t header_rows,
                        LineReader& lines, RowParser& rows, FileProgress& progress) {
-  for (std::size_t i = header_rows; i < head.rows.size(); ++i) {
-    if (auto error = rows.add(head.rows[i].text, head.rows[i].line)) {
+  for (std::size_t i = header_rows; i < head.text.rows.size(); ++i) {
+    if (auto error = rows.add(head.text.rows[i].text, head.text.rows[i].line)) {
       return tl::make_unexpected(std::move(*error));
     }
   }
@@ -260,7 +263,8 @@ Result<void> read_rows(const File& file, const TextHead& head, std::size_t heade
     constexpr std::string_view kSuspect = "#%/ \t";
     const bool suspect = line->empty() || kSuspect.find(line->front()) != std::string_view::npos;
     if (suspect && holds_no_samples(*line)) continue;
-    if (auto error = rows.add(*line, lines.line_number())) {
+    const std::string bare = head.labels.empty() ? "" : without_labels(*line, head.labels);
+    if (auto error = rows.add(head.labels.empty() ? *line : bare, lines.line_number())) {
       return tl::make_unexpected(std::move(*error));
     }
     if (rows.rows() == next_estimate) {
@@ -325,7 +329,7 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   const Result<File> file = File::open(path);
   if (!file) return tl::make_unexpected(file.error());
   LineReader lines(*file, block_bytes);
-  const Head head = read_head(lines, file->name());
+  const Head head = read_head(lines, file->name(), options);
   if (lines.error()) return tl::make_unexpected(*lines.error());
   const Result<TextLayout> layout = detect_layout(head.text, options);
   if (!layout) return tl::make_unexpected(layout.error());
@@ -333,8 +337,7 @@ Result<Table> read_text_table(const std::filesystem::path& path, const ImportOpt
   if (!plan) return tl::make_unexpected(plan.error());
 
   RowParser rows(file->name(), *layout, plan->wanted, plan->time);
-  if (const Result<void> read =
-          read_rows(*file, head.text, layout->header_rows, lines, rows, progress);
+  if (const Result<void> read = read_rows(*file, head, layout->header_rows, lines, rows, progress);
       !read) {
     return tl::make_unexpected(read.error());
   }
