@@ -124,9 +124,12 @@ Result<void> check_for_recording(const recording::ImportOptions& options) {
       options.use_disturbed || options.strict || !options.units.empty())
     return fail(
         "--unit, --time-unit, --from, --until, --exclude and --strict are for files, not for "
-        "folders");
+        "folders of recordings; leave them out");
   if (!options.topic.empty() || !options.dbc.empty() || options.delimiter || options.header)
-    return fail("--topic, --dbc, --delimiter and --header are for files, not for folders");
+    return fail(
+        "--topic, --dbc, --delimiter and --header are for files, not for folders of recordings; "
+        "leave "
+        "them out");
   return {};
 }
 

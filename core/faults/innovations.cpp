@@ -37,7 +37,8 @@ void extend(Predictor& to, const std::vector<Eigen::MatrixXd>& r) {
 
 std::vector<Eigen::MatrixXd> difference_covariances(const ArrayModel& model,
                                                     const Eigen::MatrixXd& projection,
-                                                    std::int64_t block, Eigen::Index count) {
+                                                    std::int64_t block, Eigen::Index count,
+                                                    double ramp) {
   const Eigen::Index p = projection.rows();
   std::vector<Eigen::MatrixXd> out(static_cast<std::size_t>(count), Eigen::MatrixXd::Zero(p, p));
   const auto length = static_cast<double>(block);
@@ -46,10 +47,10 @@ std::vector<Eigen::MatrixXd> difference_covariances(const ArrayModel& model,
     if (power.norm() <= kRounding * latent.power.norm()) continue;
     const SumCovariance sums = sum_covariance(latent.term.process);
     const ScaleCovariance haar(sums, block, block);
-    const double ramp = kUnknownRamp * sums.slope_squared * length * length;
+    const double slope = ramp * sums.slope_squared * length * length;
     for (Eigen::Index h = 0; h < count; ++h) {
       const double lag = length * static_cast<double>(h);
-      out[static_cast<std::size_t>(h)] += (4.0 * haar(lag) + ramp) * power;
+      out[static_cast<std::size_t>(h)] += (4.0 * haar(lag) + slope) * power;
     }
   }
   return out;
@@ -75,7 +76,8 @@ bool parity_is_noisy(const ArrayModel& model) {
   std::vector<Eigen::Index> all(static_cast<std::size_t>(model.sensors));
   std::iota(all.begin(), all.end(), Eigen::Index{0});
   const Eigen::MatrixXd rows = parity_rows(model.sensors, all);
-  const Eigen::MatrixXd covariance = difference_covariances(model, rows, 1, 1).front();
+  const Eigen::MatrixXd covariance =
+      difference_covariances(model, rows, 1, 1, kUnknownRamp).front();
   return covariance.diagonal().minCoeff() > 0.0 && pseudo_inverse(covariance).rank == rows.rows();
 }
 
@@ -83,7 +85,8 @@ InnovationFilter::InnovationFilter(const ArrayModel& model, const Eigen::MatrixX
                                    std::int64_t block)
     : projection_(projection), block_(block) {
   const Eigen::Index p = projection.rows();
-  const std::vector<Eigen::MatrixXd> r = difference_covariances(model, projection, block, kHistory);
+  const std::vector<Eigen::MatrixXd> r =
+      difference_covariances(model, projection, block, kHistory, kUnknownRamp);
   Predictor predictor{{}, r.front()};
   if (p == 1) conditional_.resize(kHistory);
   for (Eigen::Index order = 0; order < kHistory; ++order) {

@@ -21,10 +21,11 @@ Eigen::MatrixXd sensor_row(Eigen::Index sensors, Eigen::Index used);
 bool parity_is_noisy(const ArrayModel& model);
 
 /// R(h), h = 0 .. count - 1, of the differences of block means, projected on p rows (p × p each):
-/// see InnovationFilter.
+/// see InnovationFilter. `ramp` multiplies the variance of a ramp.
 std::vector<Eigen::MatrixXd> difference_covariances(const ArrayModel& model,
                                                     const Eigen::MatrixXd& projection,
-                                                    std::int64_t block, Eigen::Index count);
+                                                    std::int64_t block, Eigen::Index count,
+                                                    double ramp);
 
 /// Makes white noise out of an array's noise. The means x_k of successive blocks of readings,
 /// projected on p rows, are predicted from the kHistory blocks before, without knowing their

@@ -15,17 +15,28 @@ namespace imunoise {
 class ModelDoubt {
  public:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-
   ModelDoubt() = default;  ///< of a model that is the truth
-  explicit ModelDoubt(const ArrayFit& fit);
+  /// `readings`: of each sensor, that the model was fitted to. Whatever the standard errors of a
+  /// fit that hardly tells its processes apart: it saw so many blocks, and fits what they show.
+  ModelDoubt(const ArrayFit& fit, double readings);
 
   /// ν of the variance of Σ_j outputs_j · innovation_j, innovations newest first: of the row of
-  /// `outputs` (rows × r·count) that is known least; kNone where the model is the truth.
+  /// `outputs` (rows × r·count) that is known least, a quarter of the blocks that were seen at
+  /// least; kNone where the model is the truth.
   double degrees(const InnovationFilter& filter, const Eigen::MatrixXd& outputs) const;
 
  private:
-  // A small part of a standard error away from the first, in independent directions.
-  std::vector<ArrayModel> models_;
+  // Two models beside the fit's, which differ in one parameter.
+  struct Direction {
+    ArrayModel below;
+    ArrayModel above;
+    double distance = 0.0;
+  };
+
+  ArrayModel model_;
+  double readings_ = 0.0;
+  std::vector<Direction> directions_;  // one a parameter
+  Eigen::MatrixXd covariance_;         // of the parameters
 };
 
 }  // namespace imunoise

@@ -315,7 +315,8 @@ Result<Parameters> Catalogue::parameters(const std::string& device_id) {
         before != nullptr && std::equal(row.begin(), row.begin() + 4, before->begin());
     v1::ParameterHistory& to = goes_on ? out.back() : out.emplace_back();
     // A copy of a recording is no further calibration.
-    const bool copy = goes_on && integer(row[10]) == integer((*before)[10]);
+    const std::int64_t started = integer(row[10]);  // 0: unknown, of what was repaired
+    const bool copy = goes_on && started != 0 && started == integer((*before)[10]);
     before = &row;
     if (copy) continue;
     to.set_stream(text(row[0]));

@@ -35,9 +35,14 @@ double period_of(const std::vector<double>& numbers, const std::vector<std::int6
   return squares > 0.0 ? sum / squares : 0.0;
 }
 
-// By a counter that never goes back but to begin anew; 1 without one.
-double rows_between(std::optional<std::uint64_t> before, std::optional<std::uint64_t> counter) {
-  return before && counter && *counter > *before ? static_cast<double>(*counter - *before) : 1.0;
+// By a counter that never goes back but to begin anew; 1 without one, and where it leaps: in `ns`
+// hardly more than this many rows of `period` can have passed.
+double rows_between(std::optional<std::uint64_t> before, std::optional<std::uint64_t> counter,
+                    double ns, double period) {
+  constexpr double kMost = 10.0;
+  if (!before || !counter || *counter <= *before) return 1.0;
+  const auto rows = static_cast<double>(*counter - *before);
+  return rows * period <= kMost * ns ? rows : 1.0;
 }
 
 double to_three_digits(double value) {
@@ -122,15 +127,13 @@ void TextDevice::learn_columns() {
 void TextDevice::learn_rate() {
   RowReader reader = *rows_;
   std::vector<std::int64_t> times;
-  std::vector<double> numbers;  // by the counter, which shows rows that are missing
-  std::optional<std::uint64_t> before;
+  std::vector<std::optional<std::uint64_t>> counters;
   for (const ArrivedLine& line : heard_) {
     const auto read = reader.read(line.text);
     const auto* const row = std::get_if<TextRow>(&read);
     if (row == nullptr) continue;
-    numbers.push_back(numbers.empty() ? 0.0 : numbers.back() + rows_between(before, row->counter));
-    before = row->counter;
     times.push_back(row->time_ns.value_or(line.host_time_ns));
+    counters.push_back(row->counter);
   }
   if (times.empty())
     refuse(fmt::format("no row of {} columns came; the first line is '{:.120}'",
@@ -140,6 +143,14 @@ void TextDevice::learn_rate() {
     return;
   }
   constexpr std::size_t kFewest = 4;
+  // By the counter, which shows rows that are missing.
+  const double mean = static_cast<double>(times.back() - times.front()) /
+                      static_cast<double>(std::max<std::size_t>(1, times.size() - 1));
+  std::vector<double> numbers{0.0};
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const auto passed = static_cast<double>(times[i] - times[i - 1]);
+    numbers.push_back(numbers.back() + rows_between(counters[i - 1], counters[i], passed, mean));
+  }
   const double period = times.size() < kFewest ? 0.0 : period_of(numbers, times);
   if (!(period > 0.0) || (ended_ && stream_.device_time_tick_s == 0.0))
     refuse(

@@ -235,9 +235,11 @@ TEST(CampaignConfig, SaysWhatWouldBeRight) {
   expect_problem("schedule = { every = \"6 h\", calendar = \"Mon\" }", "give only one");
   for (const char* const good :
        {"daily", "Mon 02:00", "Mon,Wed..Fri *-*-1,5 11:12:13", "*:0/15", "2026-11-29",
-        "*-*~01 Europe/Zurich", "Sat,Sun 12:00 UTC", "weekly UTC", "@1395716396"})
+        "*-*~01 Europe/Zurich", "Wed, 17:48", "Mon-Fri 02:00", "02:00 utc", "2003-02..04-05",
+        "Sat,Sun 12:00 UTC", "weekly UTC", "@1395716396"})
     EXPECT_TRUE(may_be_calendar(good)) << good;
-  for (const char* const wrong : {"Mon; rm", "Mon..Fry 02:00", "every tuesday", "02", "Mon 2:"})
+  for (const char* const wrong : {"Mon; rm", "Mon..Fry 02:00", "every tuesday", "02",
+                                  "Mon 2:", "25:00", "*-13-1", "1,,2:00", "/5:00"})
     expect_problem(fmt::format("schedule = {{ calendar = \"{}\" }}", wrong),
                    "systemd-analyze calendar");
   expect_problem("schedule = \"now\"", "a table, headed [schedule]");

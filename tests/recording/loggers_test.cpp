@@ -334,6 +334,34 @@ TEST_F(Loggers, ASecondTableInAFileIsNoPartOfTheFirst) {
   expect_parts(error_of(path("table.csv")), {"row 2002", "begin a second table"});
 }
 
+// What looks like the marks of two sensors, two tables or a clock, and is none.
+TEST_F(Loggers, OrdinaryColumnsAndLinesSplitNothing) {
+  const auto whole = [&](const std::string& head, const std::function<std::string(int)>& row) {
+    const auto got = table(head, row);
+    ASSERT_TRUE(got) << head << ": " << got.error().message;
+    EXPECT_EQ(got->size(), 1U) << head;
+    EXPECT_NEAR(got->front().rate.value, 100.0, 1e-6) << head;
+    EXPECT_GE(got->front().channels[0].count, static_cast<std::size_t>(kLoggedRows - 1)) << head;
+  };
+  for (const char* const name : {"id", "signal", "axis", "i", "instance"})
+    whole(fmt::format("t [s],gyro_x [rad/s],{}", name),
+          [&](int i) { return fmt::format("{:.2f},{:.6e},{}", 0.01 * i, noise(i, 0), i / 500); });
+  whole("t [s],gyro_x [rad/s],signal", [&](int i) {
+    return fmt::format("{:.2f},{:.6e},{}", 0.01 * i, noise(i, 0), i % 2 == 0 ? "good" : "weak");
+  });
+  for (const char* const line : {"\xef\xbb\xbft [s],gyro_x [rad/s]", "reset gyro,again", "T,Gyro_X",
+                                 "t [s],gyro_x [rad/s],note"})
+    whole("t [s],gyro_x [rad/s]", [&](int i) {
+      const int at = i < 2000 ? i : i - 1;
+      return i == 2000 ? std::string(line) : fmt::format("{:.2f},{:.6e}", 0.01 * at, noise(i, 0));
+    });
+  whole("counter_ms,rtc,gyro_x [rad/s]", [&](int i) {
+    return fmt::format("{},2026-11-29 10:00:{:02d},{:.6e}", 10 * i, i / 100 % 60, noise(i, 0));
+  });
+  whole("# rate_hz: 100\nsession,gyro_x [rad/s]",
+        [&](int i) { return fmt::format("2026-11-29 10:00:00,{:.6e}", noise(i, 0)); });
+}
+
 TEST_F(Loggers, EmptyColumnsAreLeftOutWithAStatedRateToo) {
   const auto got = table(
       "gyro_x [rad/s],empty,", [&](int i) { return fmt::format("{:.6e},,", noise(i, 0)); },

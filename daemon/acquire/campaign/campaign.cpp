@@ -161,7 +161,8 @@ class Run {
   // The next recording is due, and the newest lacks replicates: it is not calibrated.
   void leave_unfinished() {
     const std::uint32_t good = newest_ ? good_replicates(campaign_, newest_->state.notes) : 0;
-    if (!newest_ || good >= campaign_.replicates()) return;
+    if (!newest_ || good >= campaign_.replicates() || given_up_ == newest_->folder) return;
+    given_up_ = newest_->folder;
     add_news(
         fmt::format("recording {} has {} of {} replicates and is left as it is, because the next "
                     "is due; opening a device takes time, too: allow more in 'every'",
@@ -273,6 +274,7 @@ class Run {
   std::optional<FoundRecording> newest_;
   std::filesystem::path last_;      // where this process recorded last
   std::filesystem::path recorded_;  // whose replicate it closed last
+  std::filesystem::path given_up_;  // unfinished, as was told
   std::string unfinished_;          // why the last replicate may have stayed open
   std::unique_ptr<recording::FolderLock> own_folder_;
   std::filesystem::path folder_of_next_;

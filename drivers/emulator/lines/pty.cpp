@@ -32,7 +32,8 @@ void make_room(const std::filesystem::path& link) {
   if (!std::filesystem::is_symlink(there))
     throw std::system_error(EEXIST, std::generic_category(), link.string() + " is no link of ours");
   if (std::filesystem::exists(link, unknown))
-    throw std::system_error(EADDRINUSE, std::generic_category(), link.string());
+    throw std::system_error(EADDRINUSE, std::generic_category(),
+                            link.string() + " leads to a terminal; delete it if it is an old one");
   std::filesystem::remove(link);
 }
 

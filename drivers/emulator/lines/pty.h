@@ -11,7 +11,7 @@
 namespace imunoise::emulator {
 
 /// A pseudo-terminal as the device end of a serial line; the host opens what `link` points to: a
-/// link that nobody serves is replaced, anything else stays. Closing it is unplugging. Throws
+/// link that leads nowhere is replaced, anything else stays. Closing it is unplugging. Throws
 /// std::system_error.
 class Pty {
  public:

@@ -249,10 +249,16 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
     judged = {**stated, ""};
     // Xsens names the counter of its DOT sensors, which counts microseconds, as those of its MTi.
     const bool by_name = column.unit.empty() && judged.seconds == kXsensTick;
-    if (by_name && step * kXsensTick * kSlowRate > 1.0) judged = {1e-6, kBySteps};
+    if (by_name && step * kXsensTick * kSlowRate > 1.0) {
+      judged = {1e-6, kBySteps};
+      out.doubt_ = fmt::format(
+          "that the times are in microseconds is a guess: in tenths of milliseconds, as of an MTi, "
+          "the samples come at {:.4g} Hz; if they do, give --rate",
+          1.0 / (step * kXsensTick));
+    }
   } else {
     judged = judge_unit(first, step);
-    out.doubt_ = doubt_of(judged, step);
+    if (out.whole_ != nullptr) out.doubt_ = doubt_of(judged, step);
   }
   out.unit_ = judged.seconds;
   out.rounding_ *= judged.seconds;

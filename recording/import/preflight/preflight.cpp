@@ -298,10 +298,11 @@ class Judge {
     for (const TimeSpan& one : options_.exclude) {
       const Cut cut{row_at(one.begin), row_at(one.end)};
       cuts_.add(cut.begin, cut.end);
-      if (cut.begin == cut.end)
-        find(Severity::kDoubt, fmt::format("--exclude {:.6g}..{:.6g} leaves nothing out: the "
-                                           "samples are from 0 to {:.6g} s",
-                                           one.begin, one.end, time_of(rows_ - 1)));
+      if (!(one.end > 0.0 && one.begin <= time_of(rows_ - 1)))
+        report_.recognised.push_back(
+            fmt::format("--exclude {:.6g}..{:.6g} leaves nothing out: the samples are from 0 to "
+                        "{:.6g} s",
+                        one.begin, one.end, time_of(rows_ - 1)));
     }
   }
 

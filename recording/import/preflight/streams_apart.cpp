@@ -18,6 +18,7 @@ namespace imunoise::recording {
 namespace {
 
 constexpr double kMany = 0.1;            // of the rows
+constexpr double kTurns = 0.25;          // of the rows, that are of another sensor than the last
 constexpr std::size_t kRowsOfEach = 16;  // of each sensor
 constexpr double kFarthest = 4e9;  // s: 127 years. Differences of such times fit into int64 as ns.
 
@@ -115,8 +116,12 @@ std::optional<std::size_t> column_of_sensors(const Table& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const Column& column = table.columns[c];
     const auto* const values = std::get_if<std::vector<double>>(&column.samples);
-    if (values == nullptr || !names_a_sensor(column.name)) continue;
+    if (values == nullptr || !column.unit.empty() || !names_a_sensor(column.name)) continue;
     std::map<double, std::size_t> rows;
+    std::size_t turns = 0;
+    for (std::size_t i = 1; i < values->size(); ++i)
+      turns += (*values)[i] != (*values)[i - 1] ? 1U : 0U;
+    if (static_cast<double>(turns) < kTurns * static_cast<double>(values->size())) continue;
     for (const double one : *values) {
       const bool number = one >= 0.0 && one < kHighest && one == std::floor(one);
       if (!number || ++rows[one] == 0 || rows.size() > kMost) {
@@ -201,6 +206,12 @@ void drop_sparse(std::size_t wanted, std::vector<Column>& columns) {
 Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options,
                          std::vector<std::string>& wanted) {
   leave_out_empty(table);
+  const std::optional<std::size_t> sensors = column_of_sensors(table);
+  if (sensors && (!table.time || options.rate))
+    return fail(
+        fmt::format("{}: column {} says which of several sensors a row is of, and without times "
+                    "they cannot be told apart; put the rows of each into a file of its own",
+                    file, table.columns[*sensors].name));
   if (!table.time || options.rate) return table;
   const std::size_t rows = size(table.time->stamps);
   std::map<std::uint64_t, std::vector<Column*>> groups;
@@ -210,7 +221,6 @@ Result<Table> take_apart(const std::string& file, Table table, const ImportOptio
     many = many || static_cast<double>(missing[c].count) > kMany * static_cast<double>(rows);
     groups[missing[c].which].push_back(&table.columns[c]);
   }
-  const std::optional<std::size_t> sensors = column_of_sensors(table);
   if (!many && !sensors) return table;
   const auto clock = Clock::read(fmt::format("{}: column {}", file, table.time->name), *table.time,
                                  options.time_unit);
@@ -235,7 +245,8 @@ Result<Table> take_apart(const std::string& file, Table table, const ImportOptio
   ImportOptions all = options;
   all.topic.clear();
   if (options.channels.size() != 1 || sensors) all.channels.clear();
-  Result<Table> out = join_streams(file, std::move(streams), table.time->name, all, "channel");
+  Result<Table> out =
+      join_streams(file, std::move(streams), table.time->name, all, sensors ? "sensor" : "channel");
   if (!out) return out;
   out->notes.insert(out->notes.begin(), table.notes.begin(), table.notes.end());
   if (!sensors) out->notes.emplace_back("rows hold different sensors");

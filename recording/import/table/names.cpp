@@ -196,11 +196,10 @@ bool is_counter_name(std::string_view name) {
 }
 
 bool names_a_sensor(std::string_view name) {
-  constexpr std::array<std::string_view, 21> kNames = {
-      "i",        "id",           "imu",    "imuid",    "imunumber", "imuindex", "sensor",
-      "sensorid", "sensornumber", "device", "deviceid", "instance",  "inst",     "board",
-      "boardid",  "node",         "nodeid", "unitid",   "variable",  "signal",   "axis"};
-  return is_one_of(kNames, joined_words(words_of(name)));
+  constexpr std::array<std::string_view, 9> kNames = {"imu",      "imuid",    "imunumber",
+                                                      "imuindex", "sensorid", "sensornumber",
+                                                      "deviceid", "instance", "inst"};
+  return name == "I" || is_one_of(kNames, joined_words(words_of(name)));  // "I" of ArduPilot
 }
 
 bool is_norm_name(std::string_view name) {

@@ -124,6 +124,10 @@ Result<std::vector<std::size_t>> select_columns(std::string_view file,
   if (options.axes_to_judge && !wanted.empty()) {
     const auto axes = axes_beside(out, offers);
     out.insert(out.end(), axes.begin(), axes.end());
+    for (std::size_t i = 0; i < offers.size(); ++i) {
+      if (names_a_sensor(offers[i].name) && std::find(out.begin(), out.end(), i) == out.end())
+        out.push_back(i);
+    }
   }
   if (out.empty())
     return fail(fmt::format("{}: no channel of samples (found: {})", file, listed(offers)));

@@ -223,9 +223,12 @@ Result<Table> join_streams(const std::string& file, std::vector<TimedStream> str
     if (options.topic.empty() && joined(first, other)) {
       names += ", " + other.name;
     } else {
-      table.notes.push_back(fmt::format("{} {} ({:.4g} Hz) is left out: read it with --{} {}", kind,
-                                        other.name, rate, kind, other.name));
-      if (options.topic.empty() && is_inertial(other))
+      const bool apart = kind == "sensor";  // no option chooses one
+      table.notes.push_back(
+          fmt::format("{} {} ({:.4g} Hz) is left out: {}", kind, other.name, rate,
+                      apart ? std::string("put its rows into a file of their own")
+                            : fmt::format("read it with --{} {}", kind, other.name)));
+      if (options.topic.empty() && !apart && is_inertial(other))
         table.others.push_back({other.name, kind == "topic"});
     }
   }

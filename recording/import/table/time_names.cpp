@@ -29,10 +29,9 @@ constexpr std::array kLongTimes = {Suffix{"min", 60.0},          Suffix{"minutes
 // Times whose name is their unit: those of Arduino, of Xsens devices, and of ROS, which has
 // nanoseconds beside them.
 constexpr std::array kTimesOfOneUnit = {
-    Suffix{"millis", 1e-3},  Suffix{"micros", 1e-6},  Suffix{"sampletimefine", 1e-4},
-    Suffix{"sec", 1.0},      Suffix{"secs", 1.0},     Suffix{"seconds", 1.0},
-    Suffix{"minutes", 60.0}, Suffix{"hours", 3600.0}, Suffix{"nsec", 1e-9},
-    Suffix{"nsecs", 1e-9},   Suffix{"nanosec", 1e-9}};
+    Suffix{"millis", 1e-3}, Suffix{"micros", 1e-6}, Suffix{"sampletimefine", 1e-4},
+    Suffix{"sec", 1.0},     Suffix{"secs", 1.0},    Suffix{"seconds", 1.0},
+    Suffix{"nsec", 1e-9},   Suffix{"nsecs", 1e-9},  Suffix{"nanosec", 1e-9}};
 
 constexpr std::array<std::string_view, 26> kTimeNames = {"t",
                                                          "time",

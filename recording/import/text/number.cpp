@@ -52,7 +52,11 @@ std::optional<int> take_part(std::string_view& text, std::string_view separator)
 // ".25", in ns; 0 where there is none. Some apps write ":250".
 std::int64_t take_fraction(std::string_view& text) {
   std::int64_t out = 0;
-  if (!take_char(text, ".,:")) return out;
+  constexpr std::string_view kDigits = "0123456789";
+  const bool colon =
+      text.starts_with(':') && text.find_first_not_of(kDigits, 1) == std::string_view::npos;
+  if (colon && text.size() != 4) return out;
+  if (!take_char(text, colon ? ":" : ".,")) return out;
   std::int64_t unit = 100'000'000;
   while (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0) {
     out += (text.front() - '0') * unit;

@@ -139,27 +139,24 @@ bool is_row_of_units(const TextHead::Row& row, char delimiter) {
   return known > 0 && 2 * known >= stated;
 }
 
+// A word that is a unit ("sec") is no name here.
 std::ptrdiff_t known_names(const TextHead::Row& row, char delimiter) {
   const std::vector<std::string> fields = split_header(row.text, delimiter);
   return std::count_if(fields.begin(), fields.end(), [](const std::string& field) {
     const std::string name = parse_header_field(field).name;
-    return is_time_name(name) || role_of(name).quantity != Quantity::kUnknown;
+    return !is_known_unit(name) && (is_time_name(name) || of_inertia(role_of(name).quantity));
   });
 }
 
-// The row of names where all rows have as many fields: of the rows before the numbers the last of
-// those that have the most names of sensors.
+// The row of names where all rows have as many fields: of the rows before the numbers the one that
+// has the most names of times and sensors.
 std::size_t row_of_names(const std::vector<TextHead::Row>& rows, char delimiter) {
   std::size_t first = 0;
   while (first < rows.size() && !mostly_numbers(split_header(rows[first].text, delimiter))) ++first;
   if (first < 2 || first == rows.size()) return 0;
   std::size_t best = 0;
-  std::ptrdiff_t most = known_names(rows[0], delimiter);
   for (std::size_t r = 1; r < first; ++r) {
-    const std::ptrdiff_t known = known_names(rows[r], delimiter);
-    if (known == 0 || known < most || is_row_of_units(rows[r], delimiter)) continue;
-    most = known;
-    best = r;
+    if (known_names(rows[r], delimiter) > known_names(rows[best], delimiter)) best = r;
   }
   return best;
 }

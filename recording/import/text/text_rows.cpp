@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "core/support/counted.h"
 #include "recording/import/table/names.h"
@@ -129,17 +130,23 @@ void RowParser::leave_out(std::size_t line_number, const std::string& what) {
   std::fill(row_.begin(), row_.end(), std::numeric_limits<double>::quiet_NaN());
 }
 
-// A row of names, but not those of this table.
+// A row of names, most of them of times and sensors, and of other sensors than this table has.
 bool RowParser::begins_another_table(const std::vector<std::string>& fields) const {
   std::size_t known = 0;
-  bool same = fields.size() == layout_.columns.size();
-  for (std::size_t c = 0; c < fields.size(); ++c) {
-    if (is_numeric(fields[c])) return false;
-    const std::string name = parse_header_field(fields[c]).name;
-    same = same && (name == layout_.columns[c].name || layout_.unnamed[c]);
-    known += is_time_name(name) || of_inertia(role_of(name).quantity) ? 1U : 0U;
+  std::set<Quantity> here;
+  for (const std::string& field : fields) {
+    if (is_numeric(field)) return false;
+    const std::string name = parse_header_field(field).name;
+    const Quantity quantity = role_of(name).quantity;
+    if (of_inertia(quantity)) here.insert(quantity);
+    known += is_time_name(name) || of_inertia(quantity) ? 1U : 0U;
   }
-  return known > 1 && !same;
+  std::set<Quantity> above;
+  for (const HeaderField& column : layout_.columns) {
+    if (const Quantity one = role_of(column.name).quantity; of_inertia(one)) above.insert(one);
+  }
+  const bool other = !std::includes(above.begin(), above.end(), here.begin(), here.end());
+  return known > 1 && 2 * known > fields.size() && other;
 }
 
 // Quoted numbers, missing values, and every kind of trouble.

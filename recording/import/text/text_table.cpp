@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -128,16 +129,19 @@ bool is_of_motion(const HeaderField& column) {
   return of_inertia(role_of(column.name).quantity) || (unit && of_inertia(unit->quantity));
 }
 
-// "gyro" and "acc" by turns in a column that names the sensor of each row: one table would mix
-// them.
+// "gyro", "acc", "gyro_x": a word that says which sensor a row is of.
+bool is_sensor(const std::string& word) {
+  return of_inertia(role_of(word).quantity) || of_inertia(role_of(word + "_x").quantity);
+}
+
+// Sensors by turns in a column of words: one table would mix them.
 Result<void> one_sensor_a_row(const TextHead& head, const TextLayout& layout,
                               const std::vector<bool>& text) {
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    if (!text[c] || !names_a_sensor(layout.columns[c].name)) continue;
     std::set<std::string> named;
-    for (std::size_t r = layout.header_rows; r < head.rows.size(); ++r) {
+    for (std::size_t r = layout.header_rows; text[c] && r < head.rows.size(); ++r) {
       const auto fields = split_fields(head.rows[r].text, layout.delimiter);
-      if (fields.size() == layout.columns.size()) named.insert(fields[c]);
+      if (fields.size() == layout.columns.size() && is_sensor(fields[c])) named.insert(fields[c]);
     }
     if (named.size() < 2) continue;
     return fail(
@@ -190,22 +194,36 @@ std::optional<std::size_t> nanoseconds_of(const TextLayout& layout, std::size_t 
   return std::nullopt;
 }
 
-// The first column whose first rows are all dates and times.
-std::optional<std::size_t> calendar_of(const TextHead& head, const TextLayout& layout) {
-  std::vector<std::size_t> times(layout.columns.size(), 0);
-  for (std::size_t r = layout.header_rows; r < head.rows.size(); ++r) {
-    const std::vector<std::string> fields = split_fields(head.rows[r].text, layout.delimiter);
-    if (fields.size() != times.size()) return std::nullopt;
-    for (std::size_t c = 0; c < times.size(); ++c) times[c] += read_calendar(fields[c]) ? 1U : 0U;
-  }
-  const auto found = std::find(times.begin(), times.end(), head.rows.size() - layout.header_rows);
-  if (found == times.end() || *found == 0) return std::nullopt;
-  return static_cast<std::size_t>(found - times.begin());
-}
-
 // Whether a column without the name of a time may be one all the same.
 bool may_be_time(const HeaderField& column) {
   return column.unit.empty() || column.unit == "-" || time_unit("", column.unit);
+}
+
+// The first column whose first rows are dates and times that go on. A first column of rising
+// numbers may be a better clock.
+std::optional<std::size_t> calendar_of(const TextHead& head, const TextLayout& layout) {
+  std::vector<std::vector<std::int64_t>> times(layout.columns.size());
+  std::vector<double> first;
+  for (std::size_t r = layout.header_rows; r < head.rows.size(); ++r) {
+    const std::vector<std::string> fields = split_fields(head.rows[r].text, layout.delimiter);
+    if (fields.size() != times.size()) return std::nullopt;
+    for (std::size_t c = 0; c < times.size(); ++c) {
+      if (const auto time = read_calendar(fields[c])) times[c].push_back(*time);
+    }
+    double number = 0.0;
+    if (is_number(fields.front(), number)) first.push_back(number);
+  }
+  const std::size_t rows = head.rows.size() - layout.header_rows;
+  const bool rises =
+      first.size() == rows && rows > 1 &&
+      std::adjacent_find(first.begin(), first.end(), std::greater_equal<>()) == first.end();
+  if (rises && may_be_time(layout.columns.front())) return std::nullopt;
+  const auto goes_on = [&](const std::vector<std::int64_t>& all) {
+    return all.size() == rows && rows > 1 && all.front() != all.back();
+  };
+  const auto found = std::find_if(times.begin(), times.end(), goes_on);
+  if (found == times.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - times.begin());
 }
 
 Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stated_rate,
@@ -215,7 +233,7 @@ Result<Plan> make_plan(const TextHead& head, const TextLayout& layout, bool stat
   std::vector<Offer> offers;
   const std::vector<bool> text = columns_of_text(head, layout);
   std::optional<std::size_t> time = time_of(layout);
-  if (!time) time = calendar_of(head, layout);
+  if (!time && !stated_rate) time = calendar_of(head, layout);
   if (auto one = one_sensor_a_row(head, layout, text); !one)
     return tl::make_unexpected(one.error());
   const bool others =
@@ -313,7 +331,9 @@ void take_time(const TextLayout& layout, const Plan& plan, RowParser& rows, Tabl
   std::vector<double> values = rows.take(c);
   if (rises_steadily(values)) {
     to.notes.push_back(fmt::format("column {} rises steadily: it is the time", column.name));
-    to.time = TimeColumn{column.name, column.unit == "-" ? "" : column.unit, std::move(values)};
+    const bool named = column.unit.empty() && time_unit("", column.name);  // "hours"
+    const std::string unit = named ? column.name : column.unit;
+    to.time = TimeColumn{column.name, unit == "-" ? "" : unit, std::move(values)};
     return;
   }
   const auto wanted = std::find(plan.channels.begin(), plan.channels.end(), c);

@@ -146,13 +146,14 @@ v1::Manifest whole_manifest(const v1::RecordingManifest& recording,
 }
 
 Result<void> check_same(const v1::RecordingManifest& manifest, const v1::RecordedDevice& device) {
-  if (device.driver() == "text") return {};  // it has the name of its file or port for a number
+  // These have the name of a file, port or interface for a number.
+  if (device.driver() == "text" || device.driver() == "can") return {};
   for (const v1::RecordedDevice& listed : manifest.devices()) {
     const bool known = !listed.serial().empty() && !device.serial().empty();
     if (listed.name() != device.name() || !known || listed.serial() == device.serial()) continue;
     return fail(fmt::format(
-        "{}: is the device {} in this recording, and now {} answers; record it into another "
-        "folder, or under another name",
+        "{}: the recording has the device with the serial number {}, and this one has {}; record "
+        "it into another folder",
         device.name(), listed.serial(), device.serial()));
   }
   return {};

@@ -166,7 +166,9 @@ Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors, const T
   for (const Signal& one : good.front().replicates) how.longest = std::max(how.longest, one.size());
   for (const Series& one : good) how.resolution.push_back(resolution_of(one));
   const Hertz rate = sensors.front().replicates.front().rate();
-  how.doubt = ModelDoubt(fit);
+  std::size_t trained = 0;
+  for (const Signal& one : good.front().replicates) trained += one.size();
+  how.doubt = ModelDoubt(fit, static_cast<double>(trained));
   FaultDetector detector(fit.model, rate, how);
 
   v1::FaultReport out;
@@ -205,8 +207,6 @@ Result<v1::FaultReport> fault_series(const std::vector<Series>& sensors, const T
   out.set_watched_s(watched);
   out.set_summary(summary_of(out));
   std::vector<std::string> notes;
-  std::size_t trained = 0;
-  for (const Signal& one : good.front().replicates) trained += one.size();
   add_notes(out, detector, options, trained, notes);
   for (std::string& note : notes) out.add_notes(std::move(note));
   return out;

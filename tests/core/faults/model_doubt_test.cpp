@@ -35,7 +35,7 @@ TEST(ModelDoubt, TheDifferenceOfTwoSensorsIsKnownTwiceAsWell) {
   const ArrayFit fit = white_fit({1.0, 1.0}, 50.0);
   const InnovationFilter filter(fit.model, parity_rows(2, {0, 1}), 1);
   const Eigen::MatrixXd alone = Eigen::MatrixXd::Ones(1, 1);
-  EXPECT_NEAR(ModelDoubt(fit).degrees(filter, alone), 100.0, 0.1);
+  EXPECT_NEAR(ModelDoubt(fit, 50.0).degrees(filter, alone), 100.0, 0.1);
   EXPECT_EQ(ModelDoubt().degrees(filter, alone), ModelDoubt::kNone);
 }
 
@@ -44,9 +44,35 @@ TEST(ModelDoubt, AUnitOfPowerChangesNothing) {
   const ArrayFit large = white_fit({1e2, 1e4}, 50.0);
   const auto degrees = [](const ArrayFit& fit) {
     const InnovationFilter filter(fit.model, parity_rows(2, {0, 1}), 4);
-    return ModelDoubt(fit).degrees(filter, Eigen::MatrixXd::Ones(1, 1));
+    return ModelDoubt(fit, 50.0).degrees(filter, Eigen::MatrixXd::Ones(1, 1));
   };
   EXPECT_NEAR(degrees(small), degrees(large), 1e-3 * degrees(large));
+}
+
+// A Markov process without power, of which nothing is known, and a ramp: what single readings show
+// is known all the same.
+TEST(ModelDoubt, WhatTheFitCannotTellApartDoesNotBlindIt) {
+  ArrayFit fit;
+  fit.model = testing::array_model("AR1(phi=-0.995) + WN + DR", 2, {1e-9, 1.0, 1e-12});
+  fit.parameters = parameters_of(fit.model);
+  const auto count = static_cast<Eigen::Index>(fit.parameters.size());
+  fit.covariance = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    fit.covariance(i, i) = fit.parameters[static_cast<std::size_t>(i)].parameter > 0 ? 5e3 : 1e-3;
+  for (const std::int64_t block : {1, 64}) {
+    const InnovationFilter filter(fit.model, parity_rows(2, {0, 1}), block);
+    const double degrees =
+        ModelDoubt(fit, 2000.0).degrees(filter, Eigen::MatrixXd::Ones(1, filter.outputs()));
+    EXPECT_GE(degrees, 500.0 / static_cast<double>(block));
+    EXPECT_TRUE(std::isfinite(degrees));
+  }
+  FaultOptions options;
+  options.longest = 2000;
+  options.doubt = ModelDoubt(fit, 2000.0);
+  FaultDetector detector(fit.model, Hertz{1.0}, options);
+  auto data = testing::simulated_array(testing::array_model("WN", 2, {1.0}), 2000, kDoubtSeed, 1);
+  for (std::size_t t = 1000; t < 2000; ++t) data[0][t] += 10.0;
+  EXPECT_FALSE(testing::faults_in(detector, data).empty());
 }
 
 // A variance that is known to 18 % only, compared with those of thousands of readings: taken for
@@ -69,7 +95,7 @@ TEST(ModelDoubt, FewReadingsRaiseNoMoreFalseAlarmsThanAllowed) {
     FaultOptions options;
     options.false_alarms_per_hour = 1.5 * allowed * 3600.0 / kSamples;
     options.longest = 64;
-    options.doubt = ModelDoubt(fit);
+    options.doubt = ModelDoubt(fit, kTrained);
     FaultDetector detector(fit.model, Hertz{1.0}, options);
     const auto data = testing::simulated_array(truth, kSamples, kDoubtSeed, run);
     alarmed += testing::faults_in(detector, data).empty() ? 0 : 1;

@@ -42,7 +42,7 @@ TEST(Pty, IsCutOnlyWhenAllIsRead) {
   EXPECT_EQ(read, sent.size());
 }
 
-// Only a link that nobody serves is replaced.
+// Only a link that leads nowhere is replaced.
 TEST(Pty, LeavesTheFilesOfOthers) {
   std::string pattern = (std::filesystem::temp_directory_path() / "imunoise-XXXXXX").string();
   const std::filesystem::path folder = ::mkdtemp(pattern.data());
@@ -53,7 +53,7 @@ TEST(Pty, LeavesTheFilesOfOthers) {
   const std::filesystem::path link = folder / "line";
   {
     const Pty first(link);
-    EXPECT_THROW(Pty{link}, std::system_error) << "somebody serves it";
+    EXPECT_THROW(Pty{link}, std::system_error) << "it is in use";
     EXPECT_TRUE(std::filesystem::exists(link)) << "and goes on";
   }
   std::filesystem::create_symlink(folder / "gone", link);
