@@ -128,8 +128,7 @@ Result<void> check_for_recording(const recording::ImportOptions& options) {
   if (!options.topic.empty() || !options.dbc.empty() || options.delimiter || options.header)
     return fail(
         "--topic, --dbc, --delimiter and --header are for files, not for folders of recordings; "
-        "leave "
-        "them out");
+        "leave them out");
   return {};
 }
 

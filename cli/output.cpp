@@ -35,11 +35,8 @@ std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string out;
   for (std::string word; std::getline(file, word, '\0');) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:@%+";
-    const bool plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
     if (out.empty()) word = std::filesystem::path(word).filename().string();
-    out += (out.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+    out += (out.empty() ? "" : " ") + in_shell(word);
   }
   return out;
 }
@@ -89,6 +86,15 @@ std::string printable(std::string_view text) {
 int print_error(const Error& error) {
   tell(fmt::format("imunoise: {}\n", printable(error.message)));
   return 1;
+}
+
+std::string in_shell(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:@%+";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
 std::filesystem::path with_word(const std::filesystem::path& path, const std::string& word) {

@@ -22,6 +22,9 @@ int print_error(const Error& error);
 /// Lines of text, without what would steer a terminal (report::clean_text()).
 std::string printable(std::string_view text);
 
+/// A word with the quotes that a shell needs.
+std::string in_shell(const std::string& word);
+
 /// OUT_word.svg of OUT.svg.
 std::filesystem::path with_word(const std::filesystem::path& path, const std::string& word);
 

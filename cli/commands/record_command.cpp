@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <mutex>
-#include <string>
 
 #include "cli/commands/commands.h"
 #include "cli/interrupt.h"
@@ -74,18 +71,6 @@ void add(const acquire::DeviceOutcome& outcome, std::uint32_t replicate, v1::Rec
 }
 
 using report::count;
-
-// As a shell takes it for one word.
-std::string in_shell(const std::string& text) {
-  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("/._-+:@%").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string describe(const v1::RecordReport& report) {
   std::string out = fmt::format("recorded into {}\n", report::clean_text(report.folder()));

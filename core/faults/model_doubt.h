@@ -9,15 +9,16 @@
 
 namespace imunoise {
 
-/// How far off a fitted model may be. A variance that it predicts is known as well as that of ν
+/// Uncertainty of a fitted model. A variance that it predicts is known as well as that of ν
 /// independent samples: ν = 2 over the variance of its logarithm, by the covariance of the fit's
 /// parameters (Satterthwaite 1946).
 class ModelDoubt {
  public:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   ModelDoubt() = default;  ///< of a model that is the truth
-  /// `readings`: of each sensor, that the model was fitted to. Whatever the standard errors of a
-  /// fit that hardly tells its processes apart: it saw so many blocks, and fits what they show.
+  /// `readings`: number of readings of each sensor in the training. A fit that cannot tell its
+  /// processes apart has large standard errors, but still matches the blocks that it saw: they give
+  /// a lower bound of ν.
   ModelDoubt(const ArrayFit& fit, double readings);
 
   /// ν of the variance of Σ_j outputs_j · innovation_j, innovations newest first: of the row of

@@ -30,44 +30,25 @@ bool in_unit_of_inertia(const std::string& units) {
   return unit && of_inertia(unit->quantity);
 }
 
-// The channel of this name; else those that match it.
-std::set<std::string> called(const std::string& wanted, const v1::Manifest& manifest) {
-  std::set<std::string> out;
-  for (const Task& stream : recording::imported_streams(manifest)) {
-    for (const recording::ImportedChannel& channel : stream.channels) {
-      if (channel.name == wanted) return {wanted};
-      if (recording::matches(wanted, channel.name)) out.insert(channel.name);
-    }
-  }
-  return out;
-}
-
 Result<std::vector<Task>> tasks_of(const std::string& folder, const v1::Manifest& manifest,
                                    const std::vector<std::string>& wanted) {
-  std::vector<Task> out;
+  const auto chosen = recording::wanted_of(folder, recording::offers_of(manifest), wanted);
+  if (!chosen) return tl::unexpected(chosen.error());
   std::set<std::string> named;
-  std::string missing;
-  for (const std::string& one : wanted) {
-    const std::set<std::string> found = called(one, manifest);
-    if (found.empty()) missing = one;
-    named.insert(found.begin(), found.end());
-  }
-  std::string known;
+  for (const recording::Wanted& one : *chosen) named.insert(one.name);
+  std::vector<Task> out;
   for (const Task& stream : recording::imported_streams(manifest)) {
     Task task{stream.device, stream.stream, {}};
     for (const recording::ImportedChannel& channel : stream.channels) {
-      known += (known.empty() ? "" : ", ") + channel.name;
       if (wanted.empty() ? in_unit_of_inertia(channel.units) : named.contains(channel.name))
         task.channels.push_back(channel);
     }
     if (!task.channels.empty()) out.push_back(std::move(task));
   }
-  if (!missing.empty())
-    return fail(fmt::format("{}: no channel '{}' (it has: {})", folder, missing, known));
   if (out.empty()) {
     return fail(fmt::format(
         "{}: no channel is an angular rate or an acceleration; name one with --channel ({})",
-        folder, known));
+        folder, fmt::join(named, ", ")));
   }
   return out;
 }

@@ -169,7 +169,7 @@ TEST_F(CampaignRun, ARecordingThatIsNeverCompleteIsTold) {
   campaign_.mutable_retention()->set_recordings(2);
   run(kBegin, kBegin + 24h);
   EXPECT_TRUE(calibrated_.empty());
-  EXPECT_TRUE(was_told("has 2 of 3 replicates and is left as it is"));
+  EXPECT_TRUE(was_told("stays unfinished with 2 of 3 replicates"));
   const auto kept = std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
   EXPECT_LE(kept, 3) << "retention holds for what is left unfinished, too";
 }

@@ -219,7 +219,7 @@ TEST_F(Loggers, AColumnThatSaysWhichSensorARowIsOf) {
     EXPECT_EQ(channels_of(got->front()), "imu0_gyro_x imu1_gyro_x ");
     EXPECT_EQ(got->front().channels[1].count, static_cast<std::size_t>(kLoggedRows / 2));
     EXPECT_NEAR(got->front().channels[1].signal().value(7), noise(15, 0) + 5.0, 1e-6);
-    expect_parts(said_of(*got), {"which of 2 sensors a row is of"});
+    expect_parts(said_of(*got), {"column", "numbers 2 sensors"});
   }
   // One sensor that is named in each row is no table of several.
   const auto one = table("t [s],imu_id,gyro_x [rad/s]", [&](int i) {
@@ -259,7 +259,8 @@ TEST_F(Loggers, TimesWhoseUnitIsAGuessSaySo) {
   };
   const auto guessed = steps("time");
   ASSERT_TRUE(guessed);
-  expect_parts(said_of(*guessed), {"is a guess: in milliseconds", "at 1000 Hz instead of 1 Hz"});
+  expect_parts(said_of(*guessed),
+               {"is a guess: in seconds, the rate is 1 Hz", "in milliseconds, it is 1000 Hz"});
   const auto stated = steps("time_ms");
   ASSERT_TRUE(stated);
   EXPECT_EQ(said_of(*stated).find("guess"), std::string::npos);
@@ -331,7 +332,7 @@ TEST_F(Loggers, ASecondTableInAFileIsNoPartOfTheFirst) {
     return i == 2000 ? std::string("t [s],gyro_x [rad/s]")
                      : fmt::format("{:.2f},{:.6e}", 0.01 * (i % 2000), noise(i, 0));
   }));
-  expect_parts(error_of(path("table.csv")), {"row 2002", "begin a second table"});
+  expect_parts(error_of(path("table.csv")), {"row 2002", "a second table begins here"});
 }
 
 // What looks like the marks of two sensors, two tables or a clock, and is none.

@@ -107,8 +107,8 @@ TEST_F(Odd, TimesThatNoSampleHasAreTold) {
       "t [s],x", [](int i) { return fmt::format("{:.2f},1", 0.01 * i); }, options);
   ASSERT_TRUE(got) << got.error().message;
   const std::string told = findings(got->front());
-  expect_parts(told, {"--exclude -10..-5 leaves nothing out: the samples are from 0 to",
-                      "--exclude 99..100 leaves nothing out"});
+  expect_parts(told, {"--exclude -10..-5 excludes no sample: the file covers 0 to",
+                      "--exclude 99..100 excludes no sample"});
   EXPECT_EQ(told.find("0.5..0.6"), std::string::npos);
 }
 

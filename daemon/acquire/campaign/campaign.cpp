@@ -164,8 +164,8 @@ class Run {
     if (!newest_ || good >= campaign_.replicates() || given_up_ == newest_->folder) return;
     given_up_ = newest_->folder;
     add_news(
-        fmt::format("recording {} has {} of {} replicates and is left as it is, because the next "
-                    "is due; opening a device takes time, too: allow more in 'every'",
+        fmt::format("recording {} stays unfinished with {} of {} replicates, because the next one "
+                    "is due; increase 'every': opening a device takes time, too",
                     newest_->folder.string(), good, campaign_.replicates()));
     tidy();
   }

@@ -30,10 +30,11 @@ void make_room(const std::filesystem::path& link) {
   const auto there = std::filesystem::symlink_status(link, unknown);
   if (there.type() == std::filesystem::file_type::not_found) return;
   if (!std::filesystem::is_symlink(there))
-    throw std::system_error(EEXIST, std::generic_category(), link.string() + " is no link of ours");
+    throw std::system_error(EEXIST, std::generic_category(),
+                            link.string() + " is not a symbolic link");
   if (std::filesystem::exists(link, unknown))
     throw std::system_error(EADDRINUSE, std::generic_category(),
-                            link.string() + " leads to a terminal; delete it if it is an old one");
+                            link.string() + " leads to a terminal; delete it if no emulator runs");
   std::filesystem::remove(link);
 }
 

@@ -200,9 +200,10 @@ std::string doubt_of(const JudgedUnit& judged, double step) {
   const double rate = 1.0 / (step * judged.seconds);
   if (judged.how != kBySteps || !(rate < kSlowRate) || judged.seconds * kFiner < 1e-9) return "";
   return fmt::format(
-      "that the times are in {} is a guess: in {}, the samples come at {:.4g} Hz instead of {:.4g} "
-      "Hz; say which with --time-unit",
-      name_of(judged.seconds), name_of(judged.seconds * kFiner), rate / kFiner, rate);
+      "the unit of the times is a guess: in {}, the rate is {:.4g} Hz; in {}, it is {:.4g} Hz. "
+      "State "
+      "it with --time-unit",
+      name_of(judged.seconds), rate, name_of(judged.seconds * kFiner), rate / kFiner);
 }
 
 }  // namespace
@@ -252,9 +253,10 @@ Result<Clock> Clock::read(const std::string& place, const TimeColumn& column,
     if (by_name && step * kXsensTick * kSlowRate > 1.0) {
       judged = {1e-6, kBySteps};
       out.doubt_ = fmt::format(
-          "that the times are in microseconds is a guess: in tenths of milliseconds, as of an MTi, "
-          "the samples come at {:.4g} Hz; if they do, give --rate",
-          1.0 / (step * kXsensTick));
+          "the unit of the times is a guess: in microseconds (Xsens DOT), the rate is {:.4g} Hz; "
+          "in "
+          "tenths of milliseconds (MTi), {:.4g} Hz. If the latter is right, pass it with --rate",
+          1.0 / (step * 1e-6), 1.0 / (step * kXsensTick));
     }
   } else {
     judged = judge_unit(first, step);

@@ -299,10 +299,9 @@ class Judge {
       const Cut cut{row_at(one.begin), row_at(one.end)};
       cuts_.add(cut.begin, cut.end);
       if (!(one.end > 0.0 && one.begin <= time_of(rows_ - 1)))
-        report_.recognised.push_back(
-            fmt::format("--exclude {:.6g}..{:.6g} leaves nothing out: the samples are from 0 to "
-                        "{:.6g} s",
-                        one.begin, one.end, time_of(rows_ - 1)));
+        report_.recognised.push_back(fmt::format(
+            "--exclude {:.6g}..{:.6g} excludes no sample: the file covers 0 to {:.6g} s", one.begin,
+            one.end, time_of(rows_ - 1)));
     }
   }
 

@@ -18,8 +18,7 @@ namespace imunoise::recording {
 namespace {
 
 constexpr double kMany = 0.1;            // of the rows
-constexpr double kTurns = 0.25;          // of the rows, that are of another sensor than the last
-constexpr std::size_t kRowsOfEach = 16;  // of each sensor
+constexpr std::size_t kRowsOfEach = 16;  // of a sensor, at least
 constexpr double kFarthest = 4e9;  // s: 127 years. Differences of such times fit into int64 as ns.
 
 struct Missing {
@@ -76,29 +75,38 @@ void leave_out_empty(Table& table) {
   std::erase_if(table.columns, empty);
 }
 
+using Rows = std::vector<std::size_t>;
+
+Times times_at(const Rows& rows, const Clock& clock) {
+  Times out;
+  for (const std::size_t row : rows) {
+    const double time = std::clamp(clock.at(row), -kFarthest, kFarthest);
+    out.push(static_cast<std::int64_t>(std::llround(time * 1e9)));
+  }
+  return out;
+}
+
+Column column_at(const Rows& rows, const Column& from) {
+  std::vector<double> values;
+  std::visit(
+      [&](const auto& numbers) {
+        for (const std::size_t row : rows) values.push_back(static_cast<double>(numbers[row]));
+      },
+      from.samples);
+  return {from.name, std::move(values), from.scale, from.offset, from.unit};
+}
+
 TimedStream stream_of(const std::vector<Column*>& columns, const Clock& clock) {
-  TimedStream out;
-  std::vector<std::size_t> rows;
+  Rows rows;
   for (std::size_t i = 0; i < clock.size(); ++i) {
     const bool any = std::any_of(columns.begin(), columns.end(),
                                  [&](const Column* one) { return has_value(*one, i); });
     if (any) rows.push_back(i);
   }
-  for (const std::size_t row : rows) {
-    const double time = std::clamp(clock.at(row), -kFarthest, kFarthest);
-    out.times.push(static_cast<std::int64_t>(std::llround(time * 1e9)));
-  }
+  TimedStream out{"", times_at(rows, clock), {}};
   for (Column* const from : columns) {
     out.name += (out.name.empty() ? "" : ",") + from->name;
-    Column& to =
-        out.columns.emplace_back(Column{from->name, {}, from->scale, from->offset, from->unit});
-    std::vector<double> values;
-    std::visit(
-        [&](const auto& numbers) {
-          for (const std::size_t row : rows) values.push_back(static_cast<double>(numbers[row]));
-        },
-        from->samples);
-    to.samples = std::move(values);
+    out.columns.push_back(column_at(rows, *from));
     from->samples = std::vector<double>();
   }
   return out;
@@ -108,68 +116,62 @@ bool is_many(const Missing& missing, const Column& in) {
   return static_cast<double>(missing.count) > kMany * static_cast<double>(size(in.samples));
 }
 
-// The column that says which of several sensors a row is of: small whole numbers, each in many
-// rows.
-std::optional<std::size_t> column_of_sensors(const Table& table) {
+// The rows of each sensor, if these are numbers of sensors that take turns: small whole numbers,
+// each in many rows. Empty: they are not.
+std::map<double, Rows> rows_of_sensors(const std::vector<double>& numbers) {
   constexpr std::size_t kMost = 16;  // sensors
+  constexpr double kTurns = 0.25;    // share of the rows that change the sensor, at least
   constexpr double kHighest = 1e6;
+  std::map<double, Rows> out;
+  std::size_t turns = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double one = numbers[i];
+    if (!(one >= 0.0 && one < kHighest && one == std::floor(one))) return {};
+    turns += i > 0 && one != numbers[i - 1] ? 1U : 0U;
+    out[one].push_back(i);
+    if (out.size() > kMost) return {};
+  }
+  const bool each = std::all_of(out.begin(), out.end(),
+                                [](const auto& one) { return one.second.size() >= kRowsOfEach; });
+  const bool alternate = static_cast<double>(turns) >= kTurns * static_cast<double>(numbers.size());
+  return out.size() > 1 && each && alternate ? out : std::map<double, Rows>();
+}
+
+struct Sensors {
+  std::size_t column = 0;  // that has their numbers
+  std::map<double, Rows> rows;
+};
+
+std::optional<Sensors> sensors_in(const Table& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const Column& column = table.columns[c];
-    const auto* const values = std::get_if<std::vector<double>>(&column.samples);
-    if (values == nullptr || !column.unit.empty() || !names_a_sensor(column.name)) continue;
-    std::map<double, std::size_t> rows;
-    std::size_t turns = 0;
-    for (std::size_t i = 1; i < values->size(); ++i)
-      turns += (*values)[i] != (*values)[i - 1] ? 1U : 0U;
-    if (static_cast<double>(turns) < kTurns * static_cast<double>(values->size())) continue;
-    for (const double one : *values) {
-      const bool number = one >= 0.0 && one < kHighest && one == std::floor(one);
-      if (!number || ++rows[one] == 0 || rows.size() > kMost) {
-        rows.clear();
-        break;
-      }
-    }
-    const bool each = std::all_of(rows.begin(), rows.end(),
-                                  [](const auto& one) { return one.second >= kRowsOfEach; });
-    if (rows.size() > 1 && each) return c;
+    if (!column.unit.empty() || !names_a_sensor(column.name)) continue;
+    const std::vector<double> numbers =
+        std::visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); },
+                   column.samples);
+    std::map<double, Rows> rows = rows_of_sensors(numbers);
+    if (!rows.empty()) return Sensors{c, std::move(rows)};
   }
   return std::nullopt;
 }
 
-std::string name_of(const TimedStream& sensor, const std::string& column) {
-  return fmt::format("{}_{}", sensor.name, column);
-}
-
-// The rows of each sensor, a stream imuN each.
-std::vector<TimedStream> streams_of_sensors(Table& table, std::size_t which, const Clock& clock) {
-  const auto sensors = std::get<std::vector<double>>(table.columns[which].samples);
-  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(which));
-  std::map<double, TimedStream> out;
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    TimedStream& to = out[sensors[i]];
-    const double time = std::clamp(clock.at(i), -kFarthest, kFarthest);
-    to.times.push(static_cast<std::int64_t>(std::llround(time * 1e9)));
-  }
-  for (auto& one : out) {
-    const double sensor = one.first;
-    TimedStream& to = one.second;
-    to.name = fmt::format("imu{}", sensor);
+// A stream imuN for each sensor. In `wanted`, each sensor's columns take the place of the table's.
+std::vector<TimedStream> streams_of(const Sensors& sensors, Table& table, const Clock& clock,
+                                    std::vector<std::string>& wanted) {
+  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(sensors.column));
+  std::vector<TimedStream> out;
+  std::vector<std::string> named;
+  for (const auto& [number, rows] : sensors.rows) {
+    TimedStream& to =
+        out.emplace_back(TimedStream{fmt::format("imu{}", number), times_at(rows, clock), {}});
+    for (const std::string& one : wanted) named.push_back(to.name + "_" + one);
     for (const Column& from : table.columns) {
-      std::vector<double> values;
-      std::visit(
-          [&](const auto& numbers) {
-            for (std::size_t i = 0; i < sensors.size(); ++i) {
-              if (sensors[i] == sensor) values.push_back(static_cast<double>(numbers[i]));
-            }
-          },
-          from.samples);
-      to.columns.push_back(
-          Column{name_of(to, from.name), std::move(values), from.scale, from.offset, from.unit});
+      to.columns.push_back(column_at(rows, from));
+      to.columns.back().name = to.name + "_" + from.name;
     }
   }
-  std::vector<TimedStream> streams;
-  for (auto& [sensor, stream] : out) streams.push_back(std::move(stream));
-  return streams;
+  wanted = std::move(named);
+  return out;
 }
 
 }  // namespace
@@ -206,12 +208,13 @@ void drop_sparse(std::size_t wanted, std::vector<Column>& columns) {
 Result<Table> take_apart(const std::string& file, Table table, const ImportOptions& options,
                          std::vector<std::string>& wanted) {
   leave_out_empty(table);
-  const std::optional<std::size_t> sensors = column_of_sensors(table);
+  const std::optional<Sensors> sensors = sensors_in(table);
+  const std::string numbered = sensors ? table.columns[sensors->column].name : "";
   if (sensors && (!table.time || options.rate))
     return fail(
-        fmt::format("{}: column {} says which of several sensors a row is of, and without times "
-                    "they cannot be told apart; put the rows of each into a file of its own",
-                    file, table.columns[*sensors].name));
+        fmt::format("{}: column {} numbers {} sensors, and only time stamps tell their rows apart; "
+                    "leave --rate out, or save the rows of each sensor in its own file",
+                    file, numbered, sensors->rows.size()));
   if (!table.time || options.rate) return table;
   const std::size_t rows = size(table.time->stamps);
   std::map<std::uint64_t, std::vector<Column*>> groups;
@@ -227,17 +230,9 @@ Result<Table> take_apart(const std::string& file, Table table, const ImportOptio
   if (!clock) return tl::make_unexpected(clock.error());
   std::vector<TimedStream> streams;
   if (sensors) {
-    const std::string name = table.columns[*sensors].name;
-    streams = streams_of_sensors(table, *sensors, *clock);
-    table.notes.push_back(
-        fmt::format("column {} says which of {} sensors a row is of: each has "
-                    "channels of its own",
-                    name, streams.size()));
-    std::vector<std::string> named;
-    for (const TimedStream& one : streams) {
-      for (const std::string& column : wanted) named.push_back(name_of(one, column));
-    }
-    wanted = std::move(named);
+    streams = streams_of(*sensors, table, *clock, wanted);
+    table.notes.push_back(fmt::format("column {} numbers {} sensors: each has its own channels",
+                                      numbered, streams.size()));
   } else {
     for (const auto& [which, columns] : groups) streams.push_back(stream_of(columns, *clock));
   }

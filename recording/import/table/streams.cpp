@@ -226,7 +226,7 @@ Result<Table> join_streams(const std::string& file, std::vector<TimedStream> str
       const bool apart = kind == "sensor";  // no option chooses one
       table.notes.push_back(
           fmt::format("{} {} ({:.4g} Hz) is left out: {}", kind, other.name, rate,
-                      apart ? std::string("put its rows into a file of their own")
+                      apart ? std::string("save its rows in their own file")
                             : fmt::format("read it with --{} {}", kind, other.name)));
       if (options.topic.empty() && !apart && is_inertial(other))
         table.others.push_back({other.name, kind == "topic"});

@@ -2,6 +2,8 @@
 
 // The words of a column's name.
 
+#include <fmt/format.h>
+
 #include <cctype>
 #include <string>
 #include <string_view>
@@ -30,9 +32,7 @@ inline std::vector<std::string> words_of(std::string_view name) {
 }
 
 inline std::string joined_words(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += word;
-  return out;
+  return fmt::format("{}", fmt::join(words, ""));
 }
 
 }  // namespace imunoise::recording

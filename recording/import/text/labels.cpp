@@ -1,5 +1,7 @@
 #include "recording/import/text/labels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -25,10 +27,8 @@ std::size_t label_at(std::string_view text) {
   return marked ? end + 1 : 0;
 }
 
-std::string joined(const std::vector<std::string>& parts) {
-  std::string out;
-  for (const std::string& one : parts) out += (out.empty() ? "" : "\t") + one;
-  return out;
+std::string by_tabs(const std::vector<std::string>& parts) {
+  return fmt::format("{}", fmt::join(parts, "\t"));
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::optional<LabelledRow> take_labels(std::string_view row) {
 
 std::string without_labels(std::string_view row, const std::vector<std::string>& labels) {
   const auto taken = take_labels(row);
-  return taken && taken->labels == labels ? joined(taken->values) : std::string(row);
+  return taken && taken->labels == labels ? by_tabs(taken->values) : std::string(row);
 }
 
 std::vector<std::string> name_by_labels(std::vector<TextHead::Row>& rows) {
@@ -76,7 +76,7 @@ std::vector<std::string> name_by_labels(std::vector<TextHead::Row>& rows) {
   if (100 * (rows.size() - labelled) > kOthers * rows.size()) return {};
   rows.erase(rows.begin(), std::find_if(rows.begin(), rows.end(), is_labelled));
   for (TextHead::Row& row : rows) row.text = without_labels(row.text, last->labels);
-  rows.insert(rows.begin(), {rows.front().line, joined(last->labels)});
+  rows.insert(rows.begin(), {rows.front().line, by_tabs(last->labels)});
   return last->labels;
 }
 

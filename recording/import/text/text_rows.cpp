@@ -125,11 +125,6 @@ bool RowParser::parse_plain(std::string_view line) {
   return at == end;
 }
 
-void RowParser::leave_out(std::size_t line_number, const std::string& what) {
-  if (unreadable_++ == 0) first_unreadable_ = fmt::format("row {}: {}", line_number, what);
-  std::fill(row_.begin(), row_.end(), std::numeric_limits<double>::quiet_NaN());
-}
-
 // A row of names, most of them of times and sensors, and of other sensors than this table has.
 bool RowParser::begins_another_table(const std::vector<std::string>& fields) const {
   std::size_t known = 0;
@@ -149,22 +144,29 @@ bool RowParser::begins_another_table(const std::vector<std::string>& fields) con
   return known > 1 && 2 * known > fields.size() && other;
 }
 
+std::optional<Error> RowParser::leave_out(const std::vector<std::string>& fields,
+                                          std::size_t line_number, const std::string& what) {
+  if (begins_another_table(fields))
+    return Error{
+        fmt::format("{}: row {}: a second table begins here ({}, {}, ...); save each table in its "
+                    "own file",
+                    file_, line_number, fields[0], fields[1])};
+  if (unreadable_++ == 0) first_unreadable_ = fmt::format("row {}: {}", line_number, what);
+  std::fill(row_.begin(), row_.end(), std::numeric_limits<double>::quiet_NaN());
+  return std::nullopt;
+}
+
 // Quoted numbers, missing values, and every kind of trouble.
 std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size_t line_number) {
   const std::vector<std::string> fields = split_fields(line, layout_.delimiter);
-  if (begins_another_table(fields))
-    return Error{fmt::format(
-        "{}: row {}: other names ({}, {}, ...) begin a second table; save each table in a file of "
-        "its own",
-        file_, line_number, fields[0], fields[1])};
   if (fields.size() != row_.size()) {
-    leave_out(line_number,
-              fmt::format("{} where the table has {} columns (separated by {})",
-                          counted(fields.size(), "value"), row_.size(),
-                          layout_.delimiter == ' '    ? std::string("blanks")
-                          : layout_.delimiter == '\t' ? std::string("tabs")
-                                                      : fmt::format("'{}'", layout_.delimiter)));
-    return std::nullopt;
+    return leave_out(
+        fields, line_number,
+        fmt::format("{} where the table has {} columns (separated by {})",
+                    counted(fields.size(), "value"), row_.size(),
+                    layout_.delimiter == ' '    ? std::string("blanks")
+                    : layout_.delimiter == '\t' ? std::string("tabs")
+                                                : fmt::format("'{}'", layout_.delimiter)));
   }
   for (std::size_t c = 0; c < fields.size(); ++c) {
     if (c == time_ ? read_stamp_with_care(fields[c])
@@ -176,10 +178,8 @@ std::optional<Error> RowParser::parse_with_care(std::string_view line, std::size
     }
     const std::string what =
         fmt::format("{} in column {}", explain_no_number(fields[c]), layout_.columns[c].name);
-    if (what.find("decimal comma") == std::string::npos) {
-      leave_out(line_number, what);
-      return std::nullopt;
-    }
+    if (what.find("decimal comma") == std::string::npos)
+      return leave_out(fields, line_number, what);
     return Error{fmt::format(
         "{}: row {}: {}; write decimal points (sed 's/,/./g' does it where ',' separates nothing)",
         file_, line_number, what)};

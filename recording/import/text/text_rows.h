@@ -62,7 +62,9 @@ class RowParser {
   bool parse_plain(std::string_view line);
   std::optional<Error> parse_with_care(std::string_view line, std::size_t line_number);
   bool begins_another_table(const std::vector<std::string>& fields) const;
-  void leave_out(std::size_t line_number, const std::string& what);
+  // Nothing where only this row is left out.
+  std::optional<Error> leave_out(const std::vector<std::string>& fields, std::size_t line_number,
+                                 const std::string& what);
   const char* read_stamp(const char* begin, const char* end);
   bool read_stamp_with_care(std::string_view text);
 

@@ -145,8 +145,8 @@ Result<void> one_sensor_a_row(const TextHead& head, const TextLayout& layout,
     }
     if (named.size() < 2) continue;
     return fail(
-        fmt::format("{}: column {} names the sensor of each row ({}, {}): put the rows of each "
-                    "sensor into a file of its own",
+        fmt::format("{}: column {} names the sensor of each row ({}, {}); save the rows of each "
+                    "sensor in its own file",
                     head.file, layout.columns[c].name, *named.begin(), *std::next(named.begin())));
   }
   return {};

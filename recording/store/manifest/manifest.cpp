@@ -152,9 +152,9 @@ Result<void> check_same(const v1::RecordingManifest& manifest, const v1::Recorde
     const bool known = !listed.serial().empty() && !device.serial().empty();
     if (listed.name() != device.name() || !known || listed.serial() == device.serial()) continue;
     return fail(fmt::format(
-        "{}: the recording has the device with the serial number {}, and this one has {}; record "
-        "it into another folder",
-        device.name(), listed.serial(), device.serial()));
+        "{}: found serial number {}, expected {}, which this recording has; record into another "
+        "folder",
+        device.name(), device.serial(), listed.serial()));
   }
   return {};
 }

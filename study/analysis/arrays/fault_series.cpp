@@ -114,8 +114,8 @@ void add_notes(const v1::FaultReport& report, const FaultDetector& detector,
   }
   if (trained < kFewReadings) {
     notes.push_back(fmt::format(
-        "The model was fitted to {} readings and knows slow noise only roughly. The thresholds "
-        "allow for that: small faults are found late or not at all. Train on {} or more.",
+        "The model was fitted to {} readings, which show slow noise only roughly. imunoise "
+        "therefore finds small faults late or not at all. Train on {} readings or more.",
         report::count(trained, report::Digits::kTypeset),
         report::count(kFewReadings, report::Digits::kTypeset)));
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kDoubtSeed = 20261129;
 
-// White noise of each sensor, of which `readings` each were seen.
+// White noise of each sensor, fitted to `readings` readings.
 ArrayFit white_fit(const std::vector<double>& variances, double readings) {
   ArrayFit out;
   const auto sensors = static_cast<Eigen::Index>(variances.size());
@@ -49,8 +49,8 @@ TEST(ModelDoubt, AUnitOfPowerChangesNothing) {
   EXPECT_NEAR(degrees(small), degrees(large), 1e-3 * degrees(large));
 }
 
-// A Markov process without power, of which nothing is known, and a ramp: what single readings show
-// is known all the same.
+// The fit knows nothing about its Markov process and its ramp. It still knows the noise of single
+// readings.
 TEST(ModelDoubt, WhatTheFitCannotTellApartDoesNotBlindIt) {
   ArrayFit fit;
   fit.model = testing::array_model("AR1(phi=-0.995) + WN + DR", 2, {1e-9, 1.0, 1e-12});
